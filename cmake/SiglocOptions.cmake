@@ -1,0 +1,55 @@
+# SPDX-FileCopyrightText: 2026 the sigloc authors
+# SPDX-License-Identifier: BSD-3-Clause
+set(CMAKE_CXX_STANDARD 17)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/bin")
+set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/lib")
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
+endif()
+
+option(SIGLOC_BUILD_TESTS "Build the tests" ON)
+option(SIGLOC_WERROR "Treat warnings as errors" ON)
+set(SIGLOC_SANITIZE "" CACHE STRING "Sanitizers, as -fsanitize takes them (address,undefined)")
+option(SIGLOC_COVERAGE "Instrument for coverage" OFF)
+
+add_library(sigloc_flags INTERFACE)
+target_compile_options(sigloc_flags INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wshadow)
+if(SIGLOC_WERROR)
+  target_compile_options(sigloc_flags INTERFACE -Werror)
+endif()
+if(SIGLOC_SANITIZE)
+  target_compile_options(sigloc_flags INTERFACE -fsanitize=${SIGLOC_SANITIZE}
+                         -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(sigloc_flags INTERFACE -fsanitize=${SIGLOC_SANITIZE})
+endif()
+if(SIGLOC_COVERAGE)
+  target_compile_options(sigloc_flags INTERFACE --coverage)
+  target_link_options(sigloc_flags INTERFACE --coverage)
+endif()
+
+# sigloc_add_library(NAME PARTS part... LINK target...): a shared library from src/<part>/*.cpp.
+function(sigloc_add_library name)
+  cmake_parse_arguments(ARG "" "" "PARTS;LINK" ${ARGN})
+  set(sources)
+  foreach(part IN LISTS ARG_PARTS)
+    file(GLOB part_sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/${part}/*.cpp")
+    list(APPEND sources ${part_sources})
+  endforeach()
+  add_library(${name} SHARED ${sources})
+  set_target_properties(${name} PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION 0)
+  target_include_directories(${name} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:include>)
+  target_link_libraries(${name} PUBLIC ${ARG_LINK} PRIVATE $<BUILD_INTERFACE:sigloc_flags>)
+endfunction()
+
+# sigloc_add_app(NAME LINK target...): an executable from apps/<NAME>/*.cpp.
+function(sigloc_add_app name)
+  cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/apps/${name}/*.cpp")
+  add_executable(${name} ${sources})
+  target_link_libraries(${name} PRIVATE ${ARG_LINK} CLI11::CLI11 sigloc_flags)
+endfunction()

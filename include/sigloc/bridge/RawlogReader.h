@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CSensoryFrame.h>
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "sigloc/features/Feature.h"
+#include "sigloc/features/LaserScan.h"
+#include "sigloc/geometry/GaussianPose.h"
+
+namespace sigloc
+{
+/// One step of a log: how the robot moved since the step before, and what it saw then.
+struct RawlogStep
+{
+  double time = 0;  ///< [s] since the epoch of the log's clock
+  std::optional<MotionIncrement> motion;  ///< none when the log has no odometry
+  std::vector<LaserScan> scans;
+  std::vector<Feature> landmarks;  ///< from CObservationBearingRange, without identities
+  mrpt::obs::CSensoryFrame::Ptr frame;  ///< the observations themselves, for exporters
+};
+
+/// Reads a rawlog step by step, both kinds: action/sensory-frame pairs, and observations only as
+/// rawlog-grabber writes them (odometry is then differenced between scans).
+class RawlogReader
+{
+ public:
+  /// Throws std::runtime_error naming the path and the reason for a missing, empty or foreign file.
+  explicit RawlogReader(const std::filesystem::path& path);
+  ~RawlogReader();
+  RawlogReader(RawlogReader&&) noexcept;
+  RawlogReader& operator=(RawlogReader&&) noexcept;
+
+  /// Returns the next step with at least one usable scan or landmark observation, or nullopt at the
+  /// end of the log.
+  std::optional<RawlogStep> next();
+
+  /// True when reading ended before the end of the file: outputs cover what was read.
+  bool truncated() const;
+  /// Share of the file read so far, in [0, 1].
+  double progress() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+}  // namespace sigloc

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CSensoryFrame.h>
+
+#include <optional>
+#include <vector>
+
+#include "sigloc/features/LaserScan.h"
+
+namespace sigloc
+{
+/// Returns the scan in the core's form: counter-clockwise (clockwise and upside-down scans are
+/// reversed), NaN, infinite, non-positive and max-range beams invalid. Returns nullopt for a scan
+/// whose plane is tilted by more than 10 degrees or that has fewer than two beams.
+std::optional<LaserScan> toLaserScan(const mrpt::obs::CObservation2DRangeScan& scan);
+
+/// Returns all usable 2D scans of a sensory frame.
+std::vector<LaserScan> laserScansOf(const mrpt::obs::CSensoryFrame& frame);
+}  // namespace sigloc

@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mrpt/config/CConfigFileBase.h>
+
+#include <cmath>
+#include <cstdint>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace sigloc
+{
+/// One row of an options table: the key in the ini file, the member it sets, the allowed range
+/// (inclusive) and one line of documentation starting with the unit in brackets.
+///
+/// An options struct `O` offers `template <class V> static void visitFields(V&& visit)` that calls
+/// `visit(OptionField<O, T>{...})` once per member. That single table drives loading, saving,
+/// checking and the test that the shipped ini files equal the defaults in the code.
+template <class Options, class T>
+struct OptionField
+{
+  const char* key;
+  T Options::*member;
+  T minimum;
+  T maximum;
+  const char* description;
+};
+
+template <class Options, class T>
+OptionField(const char*, T Options::*, T, T, const char*) -> OptionField<Options, T>;
+
+/// Throws std::invalid_argument naming the key when a value lies outside its range or is NaN.
+template <class Options>
+void checkOptions(const Options& options)
+{
+  Options::visitFields(
+      [&](const auto& field)
+      {
+        const auto value = options.*(field.member);
+        const bool inside = value >= field.minimum && value <= field.maximum;
+        if (!inside)
+        {
+          throw std::invalid_argument(std::string("option '") + field.key +
+                                      "' = " + std::to_string(value) + " is outside [" +
+                                      std::to_string(field.minimum) + ", " +
+                                      std::to_string(field.maximum) + "]");
+        }
+      });
+}
+
+/// Returns the keys of an options struct, in table order.
+template <class Options>
+std::vector<std::string> optionKeys()
+{
+  std::vector<std::string> keys;
+  Options::visitFields([&](const auto& field) { keys.emplace_back(field.key); });
+  return keys;
+}
+
+/// Returns options read from one ini section; keys that are absent keep the value of `defaults`.
+/// Throws std::invalid_argument for a key of the section that is not in the table, a value that is
+/// not a number, or one outside its range.
+template <class Options>
+Options loadOptions(const mrpt::config::CConfigFileBase& ini, const std::string& section,
+                    const Options& defaults = {})
+{
+  std::vector<std::string> present;
+  ini.getAllKeys(section, present);
+  const std::vector<std::string> known = optionKeys<Options>();
+  const std::set<std::string> known_set(known.begin(), known.end());
+  for (const std::string& key : present)
+  {
+    if (known_set.count(key) == 0)
+    {
+      throw std::invalid_argument("[" + section + "]: unknown key '" + key + "'");
+    }
+  }
+  Options options = defaults;
+  Options::visitFields(
+      [&](const auto& field)
+      {
+        using T = std::decay_t<decltype(options.*(field.member))>;
+        if (!ini.keyExists(section, field.key)) return;
+        const std::string text = ini.read_string(section, field.key, "");
+        T& target = options.*(field.member);
+        try
+        {
+          if constexpr (std::is_same_v<T, bool>)
+          {
+            target = ini.read_bool(section, field.key, target);
+          }
+          else
+          {
+            std::size_t used = 0;
+            const double value = std::stod(text, &used);
+            if (text.find_first_not_of(" \t", used) != std::string::npos ||
+                (std::is_integral_v<T> && value != std::floor(value)))
+            {
+              throw std::invalid_argument(text);
+            }
+            target = static_cast<T>(value);
+          }
+        }
+        catch (const std::exception&)
+        {
+          throw std::invalid_argument("[" + section + "]: bad value '" + text + "' for '" +
+                                      field.key + "'");
+        }
+      });
+  checkOptions(options);
+  return options;
+}
+
+/// Writes every field with its description as the comment, so that a saved section can be edited.
+template <class Options>
+void saveOptions(const Options& options, mrpt::config::CConfigFileBase& ini,
+                 const std::string& section)
+{
+  Options::visitFields(
+      [&](const auto& field)
+      { ini.write(section, field.key, options.*(field.member), -1, -1, field.description); });
+}
+}  // namespace sigloc

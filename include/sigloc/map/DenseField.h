@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mrpt/math/TPoint2D.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace sigloc
+{
+/// What is known of a raster cell. The numeric values are stored in `.sigmap` files.
+enum class CellState : std::uint8_t
+{
+  unknown = 0,
+  free = 1,
+  wall = 2,
+};
+
+/// A raster over the map plane, row by row from the lower left corner: cell (ix, iy) covers
+/// [origin + resolution * i, origin + resolution * (i + 1)).
+struct RasterFrame
+{
+  mrpt::math::TPoint2D origin;  ///< [m], lower left corner in the map frame
+  double resolution = 0.05;  ///< [m]
+  std::uint32_t width = 0;  ///< [cells]
+  std::uint32_t height = 0;  ///< [cells]
+};
+
+/// Occupancy as the dense field needs it: built from the hit counts of mapping scans, or filled by
+/// the bridge from an occupancy grid map.
+struct OccupancyRaster
+{
+  RasterFrame frame;
+  std::vector<CellState> cells;  ///< width * height
+};
+
+/// One cell of the dense field, packed so that a look-up touches one cache line.
+struct DenseCell
+{
+  std::uint8_t distance =
+      255;  ///< to the nearest wall cell, in units of DenseField::kDistanceUnit; 255: farther
+  std::int8_t dx = 0;  ///< offset to the nearest wall cell [cells], meaningful where distance < 255
+  std::int8_t dy = 0;
+  CellState state = CellState::unknown;
+};
+
+/// Distance to, and direction of, the nearest wall everywhere on the map: what dense verification
+/// looks up. Plain data; see `buildDenseField`.
+struct DenseField
+{
+  static constexpr double kDistanceUnit = 0.005;  ///< [m] per unit of DenseCell::distance
+  RasterFrame frame;
+  std::vector<DenseCell> cells;  ///< width * height
+  double free_area = 0;  ///< [m^2] known to be free
+  std::uint32_t wall_cells = 0;
+};
+
+/// Returns the dense field of a raster. Throws std::invalid_argument when the cell count disagrees
+/// with the frame, the resolution is not within [0.005 m, 1 m] or the raster is empty.
+DenseField buildDenseField(const OccupancyRaster& raster);
+}  // namespace sigloc

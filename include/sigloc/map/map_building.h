@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "sigloc/config/option_fields.h"
+#include "sigloc/features/FeatureExtractor.h"
+#include "sigloc/map/FeatureMap.h"
+
+#include <vector>
+
+namespace sigloc
+{
+/// All laser scans of one step with the pose they were taken from.
+struct PosedScans
+{
+  mrpt::math::TPose2D map_from_robot;
+  std::vector<LaserScan> scans;
+};
+
+struct MapBuildingOptions
+{
+  double raster_resolution = 0.05;
+  double raster_range = 30.0;
+  std::uint32_t min_hits = 2;
+  double cast_spacing = 1.0;
+  double cast_range = 15.0;
+  std::uint32_t min_sightings = 2;
+  double merge_offset = 0.10;
+  double merge_angle = 0.10;
+  double merge_gap = 0.3;
+  double merge_point_distance = 0.25;
+
+  template <class V>
+  static void visitFields(V&& visit)
+  {
+    using O = MapBuildingOptions;
+    visit(OptionField{"raster_resolution", &O::raster_resolution, 0.01, 0.5,
+                      "[m] cell of the dense field built from scans"});
+    visit(OptionField{"raster_range", &O::raster_range, 1.0, 1000.0,
+                      "[m] returns beyond this are not drawn into the raster"});
+    visit(OptionField{"min_hits", &O::min_hits, 1U, 100U,
+                      "[-] scans that must hit a cell before it is wall"});
+    visit(OptionField{"cast_spacing", &O::cast_spacing, 0.2, 10.0,
+                      "[m] distance of the scans simulated in a grid map"});
+    visit(OptionField{"cast_range", &O::cast_range, 1.0, 100.0,
+                      "[m] range of the scans simulated in a grid map"});
+    visit(OptionField{"min_sightings", &O::min_sightings, 1U, 100U,
+                      "[-] scans in which a map feature must have been seen"});
+    visit(OptionField{"merge_offset", &O::merge_offset, 0.01, 1.0,
+                      "[m] segments merge when their lines are this close"});
+    visit(OptionField{"merge_angle", &O::merge_angle, 0.01, 1.0,
+                      "[rad] segments merge when their normals are this close"});
+    visit(OptionField{"merge_gap", &O::merge_gap, 0.0, 5.0,
+                      "[m] segments merge across a gap up to this"});
+    visit(OptionField{"merge_point_distance", &O::merge_point_distance, 0.01, 2.0,
+                      "[m] corners, circles, wall ends and points merge within this"});
+  }
+};
+
+/// Returns the map of posed scans: raster from hit counts, dense field, merged features.
+/// Throws std::invalid_argument when no scan has a valid return.
+FeatureMap buildMapFromScans(const std::vector<PosedScans>& scans,
+                             const MapBuildingOptions& options = {},
+                             const FeatureExtractorOptions& extraction = {},
+                             const MapProvenance& provenance = {});
+
+/// Returns the map of an occupancy raster: scans are cast from its free cells, so that the features
+/// are those a laser sees. Throws std::invalid_argument for an inconsistent raster or one without
+/// any wall.
+FeatureMap buildMapFromRaster(const OccupancyRaster& raster, const MapBuildingOptions& options = {},
+                              const FeatureExtractorOptions& extraction = {},
+                              const MapProvenance& provenance = {});
+
+/// Returns the raster of posed scans: a cell is wall when at least min_hits scans end in it, free
+/// when beams pass and it is not wall.
+OccupancyRaster rasterFromScans(const std::vector<PosedScans>& scans,
+                                const MapBuildingOptions& options = {});
+}  // namespace sigloc

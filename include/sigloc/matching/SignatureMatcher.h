@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "sigloc/config/option_fields.h"
+#include "sigloc/features/ObservedScene.h"
+#include "sigloc/geometry/GaussianPose.h"
+#include "sigloc/map/FeatureMap.h"
+#include "sigloc/matching/FeatureHypothesis.h"
+#include "sigloc/matching/Verdict.h"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace sigloc
+{
+/// A place the robot could be at.
+struct Candidate
+{
+  GaussianPose pose;  ///< map_from_robot
+  double score = 0;  ///< dense score in about [-1, 1], or log-odds for maps without a field
+  double probability = 0;  ///< of this pose being the right one; with `elsewhere` they sum to 1
+  double explained = 0;  ///< share of the returns that end on mapped structure
+  double through_wall = 0;  ///< share of the beams that pass through mapped walls
+  std::vector<FeaturePairing> pairings;
+};
+
+/// The answer of one relocation: candidates best first, mutually more than 0.5 m or 17 degrees
+/// apart.
+struct RelocationResult
+{
+  std::vector<Candidate> candidates;
+  Verdict verdict = Verdict::too_little_seen;
+  double probability = 0;  ///< of the verdict's claim; for `localized`, of the first candidate
+  double elsewhere = 1;  ///< probability of standing where no candidate is
+  MatchingCounters counters;
+};
+
+/// Where the robot may be, as a caller's prior: axis-aligned box [m] and heading range [rad].
+struct PoseRegion
+{
+  double x_min, x_max, y_min, y_max;
+  double heading = 0;
+  double heading_tolerance = 3.15;
+};
+
+/// How hypotheses are generated; the modes of \cite algorithm section 3.
+enum class GenerationMode : std::uint8_t
+{
+  automatic = 0,  ///< bases where a dense field backs the map, else patterns falling back to pairs
+                  ///< and anchors
+  plain = 1,  ///< (a) every signature
+  anchors = 2,  ///< (b) sampled anchors and partners
+  pairs = 3,  ///< (c) pair index
+  patterns = 4,  ///< (d) larger patterns
+  bases = 5,  ///< (e) small bases judged by the dense field
+};
+
+struct MatcherOptions
+{
+  std::uint32_t mode = 0;
+  bool use_dense_field = true;
+  std::uint32_t max_candidates = 10;
+  std::uint32_t min_beams = 10;
+  std::uint32_t seed = 1;
+
+  template <class V>
+  static void visitFields(V&& visit)
+  {
+    using O = MatcherOptions;
+    visit(OptionField{"mode", &O::mode, 0U, 5U, "[-] generation mode, see GenerationMode"});
+    visit(OptionField{"use_dense_field", &O::use_dense_field, false, true,
+                      "[-] verify proposed poses in the dense field where the map has one"});
+    visit(OptionField{"max_candidates", &O::max_candidates, 1U, 1000U,
+                      "[-] how many candidates are returned at most"});
+    visit(OptionField{"min_beams", &O::min_beams, 1U, 1000U,
+                      "[-] with fewer returns the verdict is too little seen"});
+    visit(OptionField{"seed", &O::seed, 0U, 0xFFFFFFFFU, "[-] of the sampling modes"});
+  }
+};
+
+class DenseVerifier;
+
+/// Relocation by matching signatures: says where in a known map the observed scene was seen.
+///
+///     const SignatureMatcher matcher(map);
+///     const RelocationResult result = matcher.localize(observeScene(scans));
+///     if (result.verdict == Verdict::localized) drive(result.candidates.front().pose);
+///
+/// Construction builds the indices; `localize` is const and thread-safe, and its result depends on
+/// the scene, the options and the seed only.
+class SignatureMatcher
+{
+ public:
+  /// Throws std::invalid_argument for a null map or options outside their ranges.
+  explicit SignatureMatcher(std::shared_ptr<const FeatureMap> map,
+                            const MatcherOptions& options = {});
+  ~SignatureMatcher();
+  SignatureMatcher(const SignatureMatcher&) = delete;
+  SignatureMatcher& operator=(const SignatureMatcher&) = delete;
+
+  /// Returns ranked candidates and a verdict; with a region only poses inside it are proposed.
+  RelocationResult localize(const ObservedScene& scene,
+                            const std::optional<PoseRegion>& region = std::nullopt) const;
+
+  const FeatureMap& map() const { return *map_; }
+  const MatcherOptions& options() const { return options_; }
+  /// The dense verifier, or null when the map has no dense field or it is switched off.
+  const DenseVerifier* verifier() const { return verifier_.get(); }
+
+ private:
+  std::shared_ptr<const FeatureMap> map_;
+  MatcherOptions options_;
+  std::unique_ptr<const DenseVerifier> verifier_;
+  std::unique_ptr<const FeatureHypothesisGenerator> generator_;
+};
+}  // namespace sigloc
