@@ -1,5 +1,6 @@
 # SPDX-FileCopyrightText: 2026 the sigloc authors
 # SPDX-License-Identifier: BSD-3-Clause
+include(GNUInstallDirs)
 set(CMAKE_CXX_STANDARD 17)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
@@ -12,6 +13,7 @@ if(NOT CMAKE_BUILD_TYPE)
 endif()
 
 option(SIGLOC_BUILD_TESTS "Build the tests" ON)
+option(SIGLOC_CORE_ONLY "Build the core library and its tests only: no plug-in, no apps" OFF)
 option(SIGLOC_WERROR "Treat warnings as errors" ON)
 set(SIGLOC_SANITIZE "" CACHE STRING "Sanitizers, as -fsanitize takes them (address,undefined)")
 option(SIGLOC_COVERAGE "Instrument for coverage" OFF)
@@ -40,9 +42,11 @@ function(sigloc_add_library name)
     list(APPEND sources ${part_sources})
   endforeach()
   add_library(${name} SHARED ${sources})
+  add_library(sigloc::${name} ALIAS ${name})
+  set_property(GLOBAL APPEND PROPERTY SIGLOC_LIBRARIES ${name})
   set_target_properties(${name} PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION 0)
   target_include_directories(${name} PUBLIC
-    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:include>)
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_link_libraries(${name} PUBLIC ${ARG_LINK} PRIVATE $<BUILD_INTERFACE:sigloc_flags>)
 endfunction()
 
@@ -52,4 +56,5 @@ function(sigloc_add_app name)
   file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/apps/${name}/*.cpp")
   add_executable(${name} ${sources})
   target_link_libraries(${name} PRIVATE ${ARG_LINK} CLI11::CLI11 sigloc_flags)
+  set_property(GLOBAL APPEND PROPERTY SIGLOC_APPS ${name})
 endfunction()
