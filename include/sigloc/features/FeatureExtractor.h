@@ -14,8 +14,8 @@ namespace sigloc
 struct FeatureExtractorOptions
 {
   double min_range = 0.05;
-  double break_distance = 0.3;
-  double break_factor = 8.0;
+  double break_distance = 0.2;
+  double break_factor = 5.0;
   double split_distance = 0.06;
   std::uint32_t min_segment_points = 4;
   double min_segment_length = 0.25;

@@ -1,0 +1,426 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sigloc/features/FeatureExtractor.h"
+
+#include <mrpt/math/wrap2pi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+#include "sigloc/features/line_fit.h"
+
+namespace sigloc
+{
+using mrpt::math::TPoint2D;
+using mrpt::math::TPose2D;
+
+namespace
+{
+constexpr double kSurfaceSigma = 0.008;  // [m], roughness of walls and mixed pixels
+constexpr double kRadiusPriorSigma = 0.12;  // [m]
+constexpr double kMinCornerAngle = 0.35;  // [rad], flatter joints are no corners
+
+/// Valid returns of one scan in the sensor frame, counter-clockwise.
+struct ScanPoints
+{
+  std::vector<TPoint2D> points;
+  std::vector<double> ranges;
+  std::vector<std::size_t> beams;  // beam index of each return; grows by 1 where none was lost
+  double beam_spacing = 0;  // [rad]
+  bool closed = false;  // the scan covers the full circle: the last beam meets the first
+};
+
+struct PointRange
+{
+  std::size_t first;
+  std::size_t last;  // inclusive
+};
+
+bool coversFullCircle(const LaserScan& scan)
+{
+  const double span = scan.angle_step * static_cast<double>(scan.ranges.size());
+  return span > 2 * M_PI - 1.5 * scan.angle_step;
+}
+
+ScanPoints validPoints(const LaserScan& scan, const FeatureExtractorOptions& options)
+{
+  const std::size_t n = scan.ranges.size();
+  ScanPoints out;
+  out.beam_spacing = scan.angle_step;
+  out.closed = coversFullCircle(scan);
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    const double range = static_cast<double>(scan.ranges[i]);
+    if (scan.valid[i] == 0 || !std::isfinite(range) || range < options.min_range || range <= 0 ||
+        range > scan.max_range)
+    {
+      continue;
+    }
+    const double angle = scan.first_angle + static_cast<double>(i) * scan.angle_step;
+    out.points.emplace_back(range * std::cos(angle), range * std::sin(angle));
+    out.ranges.push_back(range);
+    out.beams.push_back(i);
+  }
+  return out;
+}
+
+bool breaksBetween(const ScanPoints& scan, std::size_t i, std::size_t j,
+                   const FeatureExtractorOptions& options)
+{
+  const double nearer = std::min(scan.ranges[i], scan.ranges[j]);
+  const double limit =
+      std::max(options.break_distance, options.break_factor * nearer * scan.beam_spacing);
+  return (scan.points[j] - scan.points[i]).norm() > limit;
+}
+
+/// A full-circle scan is turned so that it starts at a break: no wall is cut by the seam.
+void startAtBreak(ScanPoints& scan, std::size_t beam_count, const FeatureExtractorOptions& options)
+{
+  const std::size_t n = scan.points.size();
+  if (!scan.closed || n < 3 || breaksBetween(scan, n - 1, 0, options)) return;
+  for (std::size_t i = 1; i < n; ++i)
+  {
+    if (!breaksBetween(scan, i - 1, i, options)) continue;
+    const auto shift = static_cast<std::ptrdiff_t>(i);
+    std::rotate(scan.points.begin(), scan.points.begin() + shift, scan.points.end());
+    std::rotate(scan.ranges.begin(), scan.ranges.begin() + shift, scan.ranges.end());
+    std::rotate(scan.beams.begin(), scan.beams.begin() + shift, scan.beams.end());
+    for (std::size_t k = n - i; k < n; ++k) scan.beams[k] += beam_count;
+    return;
+  }
+}
+
+std::vector<PointRange> clustersOf(const ScanPoints& scan, const FeatureExtractorOptions& options)
+{
+  std::vector<PointRange> clusters;
+  std::size_t first = 0;
+  for (std::size_t i = 1; i <= scan.points.size(); ++i)
+  {
+    if (i == scan.points.size() || breaksBetween(scan, i - 1, i, options))
+    {
+      if (!scan.points.empty()) clusters.push_back({first, i - 1});
+      first = i;
+    }
+  }
+  return clusters;
+}
+
+/// True when the neighbouring return beyond `edge` (towards `step`) was measured by the next beam
+/// and lies farther by the jump: what ends here ends for real. A lost or nearer beam tells nothing.
+bool jumpsFarther(const ScanPoints& scan, std::size_t edge, int step,
+                  const FeatureExtractorOptions& options)
+{
+  const auto n = static_cast<std::ptrdiff_t>(scan.points.size());
+  const std::ptrdiff_t neighbour = static_cast<std::ptrdiff_t>(edge) + step;
+  if (neighbour < 0 || neighbour >= n) return false;
+  const auto other = static_cast<std::size_t>(neighbour);
+  const std::size_t beam_gap =
+      step > 0 ? scan.beams[other] - scan.beams[edge] : scan.beams[edge] - scan.beams[other];
+  return beam_gap <= 2 && scan.ranges[other] > scan.ranges[edge] + options.wall_end_jump;
+}
+
+/// Recursive split: the farthest return off the chord divides the range. \cite algorithm section 2
+void splitRange(const ScanPoints& scan, PointRange range, const FeatureExtractorOptions& options,
+                std::vector<PointRange>& pieces)
+{
+  if (range.last < range.first + 1) return;
+  const TPoint2D a = scan.points[range.first];
+  const TPoint2D chord = scan.points[range.last] - a;
+  const double length = std::max(chord.norm(), 1e-9);
+  double farthest = 0;
+  std::size_t at = range.first;
+  for (std::size_t i = range.first + 1; i < range.last; ++i)
+  {
+    const TPoint2D d = scan.points[i] - a;
+    const double off = std::abs(chord.x * d.y - chord.y * d.x) / length;
+    if (off > farthest)
+    {
+      farthest = off;
+      at = i;
+    }
+  }
+  if (farthest <= options.split_distance)
+  {
+    pieces.push_back(range);
+    return;
+  }
+  splitRange(scan, {range.first, at}, options, pieces);
+  splitRange(scan, {at, range.last}, options, pieces);
+}
+
+Feature makeSegment(const ScanPoints& scan, PointRange range, double range_sigma)
+{
+  const LineFit fit =
+      fitLine(scan.points, range.first, range.last, {0, 0}, range_sigma, kSurfaceSigma);
+  Feature segment;
+  segment.type = FeatureType::segment;
+  segment.direction = fit.normal;
+  const TPoint2D tangent(std::sin(fit.normal), -std::cos(fit.normal));
+  const auto along = [&](const TPoint2D& p)
+  { return (p.x - fit.centroid.x) * tangent.x + (p.y - fit.centroid.y) * tangent.y; };
+  const double start = along(scan.points[range.first]);
+  const double end = along(scan.points[range.last]);
+  const double middle = 0.5 * (start + end);
+  segment.position = fit.centroid + tangent * middle;
+  segment.size = std::abs(end - start);
+  segment.direction_variance = fit.angle_variance;
+  const double normal_variance = fit.offset_variance + middle * middle * fit.angle_variance;
+  const double spacing = segment.size / static_cast<double>(range.last - range.first);
+  const double end_variance = range_sigma * range_sigma + spacing * spacing / 12.0;
+  const double c = std::cos(fit.normal);
+  const double s = std::sin(fit.normal);
+  segment.position_covariance(0, 0) = normal_variance * c * c + 0.5 * end_variance * s * s;
+  segment.position_covariance(1, 1) = normal_variance * s * s + 0.5 * end_variance * c * c;
+  segment.position_covariance(0, 1) = segment.position_covariance(1, 0) =
+      (normal_variance - 0.5 * end_variance) * s * c;
+  segment.size_variance = 2.0 * end_variance;
+  return segment;
+}
+
+/// Neighbouring pieces that lie on one line become one: the split point was noise.
+std::vector<PointRange> rejoined(const ScanPoints& scan, const std::vector<PointRange>& pieces,
+                                 const FeatureExtractorOptions& options)
+{
+  std::vector<PointRange> joined;
+  for (const PointRange& piece : pieces)
+  {
+    if (!joined.empty() && joined.back().last == piece.first)
+    {
+      const PointRange both{joined.back().first, piece.last};
+      const LineFit fit = fitLine(scan.points, both.first, both.last, {0, 0}, 0.01, kSurfaceSigma);
+      const double c = std::cos(fit.normal);
+      const double s = std::sin(fit.normal);
+      double worst = 0;
+      for (std::size_t i = both.first; i <= both.last; ++i)
+      {
+        const TPoint2D d = scan.points[i] - fit.centroid;
+        worst = std::max(worst, std::abs(d.x * c + d.y * s));
+      }
+      if (worst <= 0.75 * options.split_distance)
+      {
+        joined.back() = both;
+        continue;
+      }
+    }
+    joined.push_back(piece);
+  }
+  return joined;
+}
+
+std::optional<Feature> makeCircle(const ScanPoints& scan, PointRange range, double range_sigma,
+                                  const FeatureExtractorOptions& options)
+{
+  if (range.last < range.first + 2) return std::nullopt;
+  const double width = (scan.points[range.last] - scan.points[range.first]).norm();
+  if (width >= options.max_circle_diameter || !jumpsFarther(scan, range.first, -1, options) ||
+      !jumpsFarther(scan, range.last, +1, options))
+  {
+    return std::nullopt;
+  }
+  const CircleFit fit =
+      fitCircle(scan.points, range.first, range.last, {0, 0}, range_sigma, kRadiusPriorSigma);
+  if (fit.radius > 0.5 * options.max_circle_diameter || fit.rms > options.split_distance)
+  {
+    return std::nullopt;
+  }
+  Feature circle;
+  circle.type = FeatureType::circle;
+  circle.position = fit.centre;
+  circle.size = fit.radius;
+  circle.direction = std::atan2(-fit.centre.y, -fit.centre.x);
+  const double c = std::cos(circle.direction);
+  const double s = std::sin(circle.direction);
+  const double along = fit.radial_variance;
+  const double across = fit.lateral_variance;
+  circle.position_covariance(0, 0) = along * c * c + across * s * s;
+  circle.position_covariance(1, 1) = along * s * s + across * c * c;
+  circle.position_covariance(0, 1) = circle.position_covariance(1, 0) = (along - across) * s * c;
+  circle.size_variance = fit.radius_variance;
+  return circle;
+}
+
+std::optional<TPoint2D> intersectionOf(const Feature& a, const Feature& b)
+{
+  const double determinant = std::sin(b.direction - a.direction);
+  if (std::abs(determinant) < 1e-6) return std::nullopt;
+  const double da = lineDistance(a);
+  const double db = lineDistance(b);
+  return TPoint2D((da * std::sin(b.direction) - db * std::sin(a.direction)) / determinant,
+                  (db * std::cos(a.direction) - da * std::cos(b.direction)) / determinant);
+}
+
+/// The corner where segment `a` ends and segment `b` begins, if their lines meet there.
+std::optional<Feature> makeCorner(const Feature& a, const Feature& b,
+                                  const FeatureExtractorOptions& options)
+{
+  const double turn = mrpt::math::wrapToPi(b.direction - a.direction);
+  if (std::abs(turn) < kMinCornerAngle || std::abs(turn) > M_PI - kMinCornerAngle)
+  {
+    return std::nullopt;
+  }
+  const auto vertex = intersectionOf(a, b);
+  if (!vertex || (*vertex - segmentEnd(a)).norm() > options.corner_gap ||
+      (*vertex - segmentStart(b)).norm() > options.corner_gap)
+  {
+    return std::nullopt;
+  }
+  Feature corner;
+  corner.type = FeatureType::corner;
+  corner.position = *vertex;
+  corner.direction = mrpt::math::wrapToPi(a.direction + 0.5 * turn);
+  corner.size = M_PI - turn;
+  corner.direction_variance = 0.25 * (a.direction_variance + b.direction_variance);
+  corner.size_variance = a.direction_variance + b.direction_variance;
+  // The vertex solves two line equations; each line's variance is taken at the vertex.
+  const auto variance_at_vertex = [&](const Feature& segment)
+  {
+    const TPoint2D n = directionVector(segment);
+    const auto& p = segment.position_covariance;
+    const double lever = (*vertex - segment.position).norm();
+    return n.x * n.x * p(0, 0) + 2 * n.x * n.y * p(0, 1) + n.y * n.y * p(1, 1) +
+           lever * lever * segment.direction_variance;
+  };
+  const double va = variance_at_vertex(a);
+  const double vb = variance_at_vertex(b);
+  const double sine2 = std::sin(turn) * std::sin(turn);
+  const TPoint2D ta = tangentVector(a);
+  const TPoint2D tb = tangentVector(b);
+  corner.position_covariance(0, 0) = (va * tb.x * tb.x + vb * ta.x * ta.x) / sine2;
+  corner.position_covariance(1, 1) = (va * tb.y * tb.y + vb * ta.y * ta.y) / sine2;
+  corner.position_covariance(0, 1) = corner.position_covariance(1, 0) =
+      (va * tb.x * tb.y + vb * ta.x * ta.y) / sine2;
+  return corner;
+}
+
+Feature makeWallEnd(const Feature& segment, WallSide side, std::int32_t parent)
+{
+  const TPoint2D tangent = tangentVector(segment);
+  const double sign = side == WallSide::start ? 1.0 : -1.0;
+  Feature end;
+  end.type = FeatureType::wall_end;
+  end.side = side;
+  end.position = side == WallSide::start ? segmentStart(segment) : segmentEnd(segment);
+  end.direction = std::atan2(sign * tangent.y, sign * tangent.x);
+  end.size = segment.size;
+  end.direction_variance = segment.direction_variance;
+  end.size_variance = segment.size_variance;
+  const double along = 0.5 * segment.size_variance;
+  const TPoint2D n = directionVector(segment);
+  const auto& p = segment.position_covariance;
+  const double across = n.x * n.x * p(0, 0) + 2 * n.x * n.y * p(0, 1) + n.y * n.y * p(1, 1) +
+                        0.25 * segment.size * segment.size * segment.direction_variance;
+  end.position_covariance(0, 0) = across * n.x * n.x + along * tangent.x * tangent.x;
+  end.position_covariance(1, 1) = across * n.y * n.y + along * tangent.y * tangent.y;
+  end.position_covariance(0, 1) = end.position_covariance(1, 0) =
+      across * n.x * n.y + along * tangent.x * tangent.y;
+  end.parent = parent;
+  return end;
+}
+
+/// Segments with the ranges of returns they were fitted to, in scan order.
+struct FittedSegments
+{
+  std::vector<Feature> features;
+  std::vector<PointRange> ranges;
+};
+
+void addSegmentsOfCluster(const ScanPoints& scan, PointRange cluster, double range_sigma,
+                          const FeatureExtractorOptions& options, FittedSegments& out)
+{
+  std::vector<PointRange> pieces;
+  splitRange(scan, cluster, options, pieces);
+  for (const PointRange& piece : rejoined(scan, pieces, options))
+  {
+    const std::size_t count = piece.last - piece.first + 1;
+    const double length = (scan.points[piece.last] - scan.points[piece.first]).norm();
+    if (count < options.min_segment_points || length < options.min_segment_length) continue;
+    Feature segment = makeSegment(scan, piece, range_sigma);
+    segment.start_seen = jumpsFarther(scan, piece.first, -1, options);
+    segment.end_seen = jumpsFarther(scan, piece.last, +1, options);
+    out.features.push_back(segment);
+    out.ranges.push_back(piece);
+  }
+}
+
+/// All features of one scan in the sensor frame; derived ones point at their parent segments.
+std::vector<Feature> featuresOfScan(const ScanPoints& scan, double range_sigma,
+                                    const FeatureExtractorOptions& options)
+{
+  std::vector<Feature> circles;
+  FittedSegments segments;
+  for (const PointRange& cluster : clustersOf(scan, options))
+  {
+    if (auto circle = makeCircle(scan, cluster, range_sigma, options))
+    {
+      circles.push_back(*circle);
+      continue;  // never split into segments: its returns count once
+    }
+    addSegmentsOfCluster(scan, cluster, range_sigma, options, segments);
+  }
+
+  std::vector<Feature> derived;
+  for (std::size_t i = 0; i + 1 < segments.features.size(); ++i)
+  {
+    if (segments.ranges[i + 1].first > segments.ranges[i].last + 3) continue;
+    if (auto corner = makeCorner(segments.features[i], segments.features[i + 1], options))
+    {
+      corner->parent = static_cast<std::int32_t>(i);
+      derived.push_back(*corner);
+    }
+  }
+  for (std::size_t i = 0; i < segments.features.size(); ++i)
+  {
+    const Feature& segment = segments.features[i];
+    const auto parent = static_cast<std::int32_t>(i);
+    if (segment.start_seen) derived.push_back(makeWallEnd(segment, WallSide::start, parent));
+    if (segment.end_seen) derived.push_back(makeWallEnd(segment, WallSide::end, parent));
+  }
+
+  std::vector<Feature> features = std::move(segments.features);
+  features.insert(features.end(), circles.begin(), circles.end());
+  features.insert(features.end(), derived.begin(), derived.end());
+  return features;
+}
+
+void checkScan(const LaserScan& scan)
+{
+  if (scan.ranges.size() != scan.valid.size())
+  {
+    throw std::invalid_argument("observeScene: ranges and valid differ in size");
+  }
+  if (!(scan.angle_step > 0))
+  {
+    throw std::invalid_argument("observeScene: the angle step must be positive");
+  }
+}
+}  // namespace
+
+ObservedScene observeScene(const std::vector<LaserScan>& scans,
+                           const FeatureExtractorOptions& options)
+{
+  ObservedScene scene;
+  for (const LaserScan& scan : scans)
+  {
+    checkScan(scan);
+    ScanPoints points = validPoints(scan, options);
+    startAtBreak(points, scan.ranges.size(), options);
+
+    const auto origin = static_cast<std::uint32_t>(scene.sensor_origins.size());
+    const TPose2D& robot_from_sensor = scan.robot_from_sensor;
+    scene.sensor_origins.emplace_back(robot_from_sensor.x, robot_from_sensor.y);
+    for (const TPoint2D& point : points.points)
+    {
+      scene.beams.push_back({robot_from_sensor.composePoint(point), origin});
+    }
+    const auto first_feature = static_cast<std::int32_t>(scene.features.size());
+    for (Feature feature : featuresOfScan(points, std::max(scan.range_sigma, 0.001), options))
+    {
+      if (feature.parent >= 0) feature.parent += first_feature;
+      scene.features.push_back(transformed(robot_from_sensor, feature));
+    }
+  }
+  return scene;
+}
+}  // namespace sigloc
