@@ -29,6 +29,9 @@ struct WallLine
   std::vector<std::uint32_t> members;  ///< indices of segments, by position along the tangent
 };
 
+/// Links collinear fragments that face the same way into walls; openings up to 4 m are bridged.
+std::vector<WallLine> linkWalls(const std::vector<Feature>& features);
+
 /// Where a map came from; stored so that a `.sigmap` is rebuilt only when its source has changed.
 struct MapProvenance
 {

@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "sigloc/features/Feature.h"
+#include "sigloc/map/map_building.h"
+
+namespace sigloc
+{
+/// Merges the features of many scans into those of a map, through spatial hashes: each insertion
+/// costs O(local density), memory grows with the number of distinct features. \cite algorithm
+/// section 2
+class FeatureMerger
+{
+ public:
+  explicit FeatureMerger(const MapBuildingOptions& options) : options_(options) {}
+
+  /// Adds the features of one scan, given in the map frame.
+  void add(const std::vector<Feature>& features_in_map);
+
+  /// Returns the merged features that were seen often enough, wall ends completed by the ends of
+  /// the walls that meet in convex corners.
+  std::vector<Feature> features() const;
+
+ private:
+  /// A wall piece as weighted second moments of all its sightings plus its extent.
+  struct MergedSegment
+  {
+    double weight = 0;
+    mrpt::math::TPoint2D weighted_sum;
+    double xx = 0, xy = 0, yy = 0;  // raw second moments
+    Feature line;  // current estimate
+    std::uint32_t sightings = 0;
+    std::uint32_t last_scan = 0;
+  };
+  struct MergedPlace
+  {
+    Feature feature;
+    double cosine_sum = 0, sine_sum = 0;
+    std::uint32_t last_scan = 0;
+  };
+  using Cells = std::unordered_map<std::uint64_t, std::vector<std::uint32_t>>;
+
+  void addSegment(const Feature& segment);
+  void addPlace(const Feature& place);
+  void absorb(MergedSegment& merged, const Feature& segment);
+  bool fits(const Feature& mapped, const Feature& segment, double& offset) const;
+  void registerSegment(std::uint32_t index, const Feature& segment);
+
+  MapBuildingOptions options_;
+  std::uint32_t scan_ = 0;
+  std::vector<MergedSegment> segments_;
+  std::vector<MergedPlace> places_;
+  Cells segment_cells_;
+  Cells place_cells_;
+};
+}  // namespace sigloc
