@@ -49,12 +49,13 @@ double rayToDisc(const TPoint2D& origin, const TPoint2D& direction, const Disc& 
 }
 }  // namespace
 
-RayCaster::RayCaster(const World& world) : segments_(visibleSegments(world)), discs_(world.discs)
+WorldRayCaster::WorldRayCaster(const World& world)
+    : segments_(visibleSegments(world)), discs_(world.discs)
 {
   buildCells();
 }
 
-void RayCaster::buildCells()
+void WorldRayCaster::buildCells()
 {
   TPoint2D low{kInfinity, kInfinity};
   TPoint2D high{-kInfinity, -kInfinity};
@@ -97,7 +98,7 @@ void RayCaster::buildCells()
 }
 
 template <class Visit>
-void RayCaster::forEachCellOf(std::size_t surface, Visit&& visit) const
+void WorldRayCaster::forEachCellOf(std::size_t surface, Visit&& visit) const
 {
   const auto column = [&](double x)
   {
@@ -149,8 +150,8 @@ void RayCaster::forEachCellOf(std::size_t surface, Visit&& visit) const
   }
 }
 
-double RayCaster::nearestInCell(std::size_t cell, const TPoint2D& origin,
-                                const TPoint2D& direction) const
+double WorldRayCaster::nearestInCell(std::size_t cell, const TPoint2D& origin,
+                                     const TPoint2D& direction) const
 {
   double nearest = kInfinity;
   for (std::uint32_t k = cell_starts_[cell]; k < cell_starts_[cell + 1]; ++k)
@@ -164,7 +165,7 @@ double RayCaster::nearestInCell(std::size_t cell, const TPoint2D& origin,
   return nearest;
 }
 
-double RayCaster::cast(const TPoint2D& origin, double angle, double max_range) const
+double WorldRayCaster::cast(const TPoint2D& origin, double angle, double max_range) const
 {
   if (columns_ == 0) return kInfinity;
   const TPoint2D direction{std::cos(angle), std::sin(angle)};

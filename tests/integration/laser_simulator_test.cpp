@@ -58,7 +58,7 @@ class RayCasterWorlds : public ::testing::TestWithParam<WorldKind>
 TEST_P(RayCasterWorlds, AgreesWithBruteForce)
 {
   const World world = makeWorld(GetParam(), {}, 7);
-  const RayCaster caster(world);
+  const WorldRayCaster caster(world);
   Random random(11);
   const Bounds& b = world.bounds;
   int hits = 0;
@@ -88,18 +88,18 @@ INSTANTIATE_TEST_SUITE_P(Kinds, RayCasterWorlds,
                                            WorldKind::park),
                          [](const auto& tested) { return std::string(toString(tested.param)); });
 
-TEST(RayCaster, KnownDistances)
+TEST(WorldRayCaster, KnownDistances)
 {
   World world;
   world.walls = {{{3, -1}, {3, 1}}};
   world.discs = {{{0, 5}, 1}};
-  const RayCaster caster(world);
+  const WorldRayCaster caster(world);
   EXPECT_NEAR(caster.cast({0, 0}, 0, 10), 3, 1e-12);
   EXPECT_NEAR(caster.cast({5, 0}, M_PI, 10), 2, 1e-12) << "seen from behind";
   EXPECT_NEAR(caster.cast({0, 0}, M_PI / 2, 10), 4, 1e-12);
   EXPECT_TRUE(std::isinf(caster.cast({0, 0}, 0, 2.9))) << "beyond the range";
   EXPECT_TRUE(std::isinf(caster.cast({0, 0}, -M_PI / 2, 10)));
-  EXPECT_TRUE(std::isinf(RayCaster(World{}).cast({0, 0}, 0, 10))) << "an empty world";
+  EXPECT_TRUE(std::isinf(WorldRayCaster(World{}).cast({0, 0}, 0, 10))) << "an empty world";
 }
 
 TEST(LaserSimulator, FullCircleDoesNotRepeatItsFirstBeam)

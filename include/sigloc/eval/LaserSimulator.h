@@ -55,10 +55,10 @@ struct LaserOptions
 /// The surfaces are hashed into a uniform grid of cells; a ray visits the cells on its way in order
 /// and stops at the first hit. Construction costs one pass over the surfaces; casting is const and
 /// thread-safe.
-class RayCaster
+class WorldRayCaster
 {
  public:
-  explicit RayCaster(const World& world);
+  explicit WorldRayCaster(const World& world);
 
   /// Returns the distance [m] from `origin` along the direction `angle` [rad] to the nearest
   /// surface, or +infinity when there is none within `max_range` [m].
@@ -99,7 +99,7 @@ class LaserSimulator
   const LaserOptions& options() const { return options_; }
 
  private:
-  RayCaster caster_;
+  WorldRayCaster caster_;
   LaserOptions options_;
 };
 }  // namespace sigloc
