@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "sigloc/features/Feature.h"
 #include "sigloc/features/LaserScan.h"
 
 namespace sigloc
@@ -19,4 +20,8 @@ std::optional<LaserScan> toLaserScan(const mrpt::obs::CObservation2DRangeScan& s
 
 /// Returns all usable 2D scans of a sensory frame.
 std::vector<LaserScan> laserScansOf(const mrpt::obs::CSensoryFrame& frame);
+
+/// Returns the landmarks of a frame's CObservationBearingRange as points in the robot frame with
+/// their covariances, without identities. Non-finite and non-positive ranges are skipped.
+std::vector<Feature> landmarksOf(const mrpt::obs::CSensoryFrame& frame);
 }  // namespace sigloc

@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gzip_input.h"
+
+#include <mrpt/serialization/CArchive.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+#include <fstream>
+#include <stdexcept>
+#include <string_view>
+
+namespace sigloc::detail
+{
+namespace
+{
+constexpr unsigned kBufferBytes = 256U * 1024U;
+constexpr std::size_t kLongestClassName = 120;
+
+[[noreturn]] void fail(const std::filesystem::path& path, const std::string& reason)
+{
+  throw std::runtime_error(path.string() + ": " + reason);
+}
+
+bool isClassNameCharacter(char c)
+{
+  return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+         std::string_view("_:<>, *").find(c) != std::string_view::npos;
+}
+}  // namespace
+
+void requireFile(const std::filesystem::path& path)
+{
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) fail(path, "no such file");
+  if (std::filesystem::is_directory(status)) fail(path, "is a folder, not a file");
+  if (!std::ifstream(path, std::ios::binary)) fail(path, "cannot be read");
+  if (std::filesystem::is_regular_file(status) && std::filesystem::file_size(path, error) == 0)
+  {
+    fail(path, "is empty");
+  }
+}
+
+GzipInput::GzipInput(const std::filesystem::path& path) : path_(path)
+{
+  requireFile(path);
+  std::error_code error;
+  const auto size = std::filesystem::file_size(path, error);
+  file_size_ = error ? 0 : size;
+  file_ = gzopen(path.c_str(), "rb");
+  if (file_ == nullptr) fail(path, "cannot be opened");
+  gzbuffer(file_, kBufferBytes);
+}
+
+GzipInput::~GzipInput()
+{
+  gzclose(file_);
+}
+
+std::size_t GzipInput::Read(void* buffer, std::size_t count)
+{
+  const std::size_t from_ahead = std::min(count, ahead_.size());
+  std::memcpy(buffer, ahead_.data(), from_ahead);
+  ahead_.erase(0, from_ahead);
+  std::size_t done = from_ahead;
+  while (done < count)
+  {
+    // gzread takes at most INT_MAX bytes a call.
+    const auto chunk = static_cast<unsigned>(std::min<std::size_t>(count - done, 1U << 30U));
+    const int got = gzread(file_, static_cast<char*>(buffer) + done, chunk);
+    if (got > 0) done += static_cast<std::size_t>(got);
+    if (got == static_cast<int>(chunk)) continue;
+    int code = Z_OK;
+    gzerror(file_, &code);
+    damaged_ = damaged_ || got < 0 || (code != Z_OK && code != Z_STREAM_END);
+    break;
+  }
+  position_ += done;
+  return done;
+}
+
+void GzipInput::lookAhead(std::size_t count)
+{
+  if (ahead_.size() >= count) return;
+  std::string all(count, '\0');
+  const std::uint64_t position = position_;
+  all.resize(Read(all.data(), count));
+  position_ = position;
+  ahead_ = std::move(all);
+}
+
+bool GzipInput::atEnd()
+{
+  lookAhead(1);
+  return ahead_.empty();
+}
+
+double GzipInput::progress() const
+{
+  if (file_size_ == 0) return 1.0;
+  const auto consumed = static_cast<double>(std::max<z_off_t>(0, gzoffset(file_)));
+  return std::min(1.0, consumed / static_cast<double>(file_size_));
+}
+
+std::string GzipInput::nextClassName()
+{
+  // Header: name length (top bit set in all but the oldest files), name, version.
+  lookAhead(kLongestClassName + 1);
+  if (ahead_.empty()) return {};
+  const std::size_t length = static_cast<unsigned char>(ahead_[0]) & 0x7FU;
+  if (length == 0 || length > kLongestClassName || ahead_.size() < length + 1) return {};
+  std::string name = ahead_.substr(1, length);
+  return std::all_of(name.begin(), name.end(), isClassNameCharacter) ? name : std::string{};
+}
+
+std::size_t GzipInput::Write(const void*, std::size_t)
+{
+  throw std::logic_error("GzipInput is for reading only");
+}
+
+std::uint64_t GzipInput::Seek(std::int64_t, TSeekOrigin)
+{
+  throw std::logic_error("GzipInput reads front to back only");
+}
+
+void readObjectFile(const std::filesystem::path& path, mrpt::serialization::CSerializable& object)
+{
+  GzipInput input(path);
+  const std::string name = input.nextClassName();
+  const auto* const expected = object.GetRuntimeClass();
+  if (input.damaged()) fail(path, "truncated or damaged");
+  if (name.empty()) fail(path, "not an MRPT file");
+  if (mrpt::rtti::findRegisteredClass(name) != expected)
+  {
+    fail(path, "holds a '" + name + "', not a '" + expected->className + "'");
+  }
+  try
+  {
+    auto archive = mrpt::serialization::archiveFrom(input);
+    archive.ReadObject(&object);
+    // The checksum of a compressed file comes after its last byte.
+    input.atEnd();
+  }
+  catch (const std::exception&)
+  {
+    fail(path, "truncated or damaged");
+  }
+  if (input.damaged()) fail(path, "truncated or damaged");
+}
+}  // namespace sigloc::detail

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mrpt/io/CStream.h>
+#include <mrpt/serialization/CArchive.h>
+#include <mrpt/serialization/CSerializable.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+// zlib's handle, so that its header stays out of this one.
+struct gzFile_s;
+
+namespace sigloc::detail
+{
+/// Reads a file, gz-compressed or plain, front to back. Unlike MRPT's own reader it tells the end
+/// of the file from a damaged or truncated one.
+class GzipInput final : public mrpt::io::CStream
+{
+ public:
+  /// Throws std::runtime_error "path: reason" for a missing, unreadable or empty file or a folder.
+  explicit GzipInput(const std::filesystem::path& path);
+  ~GzipInput() override;
+  GzipInput(const GzipInput&) = delete;
+  GzipInput& operator=(const GzipInput&) = delete;
+
+  /// Returns the bytes read, fewer than `count` at the end or where the file is damaged.
+  std::size_t Read(void* buffer, std::size_t count) override;
+  /// True when not one more byte can be read.
+  bool atEnd();
+  /// True when the compressed data broke off or failed its check.
+  bool damaged() const { return damaged_; }
+  /// Share of the file's bytes consumed so far, in [0, 1].
+  double progress() const;
+  /// Returns the class of the MRPT object that comes next without consuming anything, or "" when no
+  /// object header follows.
+  std::string nextClassName();
+
+  std::size_t Write(const void* buffer, std::size_t count) override;
+  std::uint64_t Seek(std::int64_t offset, TSeekOrigin origin) override;
+  std::uint64_t getTotalBytesCount() const override { return file_size_; }
+  std::uint64_t getPosition() const override { return position_; }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  void lookAhead(std::size_t count);
+
+  std::filesystem::path path_;
+  gzFile_s* file_ = nullptr;
+  std::uint64_t file_size_ = 0;
+  std::uint64_t position_ = 0;
+  std::string ahead_;  // read from the file, not yet handed out
+  bool damaged_ = false;
+};
+
+/// Fills `object` from a file that holds one object of its class.
+/// Throws std::runtime_error "path: reason" for a file that is missing, empty, truncated, damaged
+/// or holds something else.
+void readObjectFile(const std::filesystem::path& path, mrpt::serialization::CSerializable& object);
+
+/// Throws std::runtime_error "path: reason" unless the path names a readable, non-empty file.
+void requireFile(const std::filesystem::path& path);
+}  // namespace sigloc::detail

@@ -1,0 +1,233 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sigloc/bridge/RawlogReader.h"
+
+#include <gtest/gtest.h>
+#include <mrpt/obs/CObservationBearingRange.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <stdexcept>
+
+#include "bridge/rawlog_files.h"
+
+using namespace sigloc;
+using namespace sigloc::test;
+using mrpt::math::CMatrixDouble33;
+using mrpt::poses::CPose2D;
+
+namespace
+{
+CMatrixDouble33 diagonal(double xy, double phi)
+{
+  CMatrixDouble33 m;
+  m(0, 0) = m(1, 1) = xy;
+  m(2, 2) = phi;
+  return m;
+}
+
+std::vector<RawlogStep> readAll(RawlogReader& reader)
+{
+  std::vector<RawlogStep> steps;
+  while (auto step = reader.next()) steps.push_back(std::move(*step));
+  return steps;
+}
+
+std::vector<RawlogStep> readAll(const std::filesystem::path& path)
+{
+  RawlogReader reader(path);
+  return readAll(reader);
+}
+
+std::string errorOf(const std::filesystem::path& path)
+{
+  return messageOf<std::runtime_error>([&] { RawlogReader reader(path); });
+}
+
+const std::filesystem::path kDemoLog = "/usr/share/mrpt/datasets/localization_demo.rawlog";
+}  // namespace
+
+TEST(RawlogReader, TakesMotionAndCovarianceOfActionsAsGiven)
+{
+  const TemporaryFolder folder;
+  const auto path = folder / "actions.rawlog";
+  writeObjects(path,
+               {makeAction({0, 0, 0}, diagonal(0.01, 0.001)), makeFrame(makeScan(10.0)),
+                makeAction({0.5, 0.1, 0.2}, diagonal(0.04, 0.002)), makeFrame(makeScan(11.0))});
+  RawlogReader reader(path);
+  const auto steps = readAll(reader);
+  ASSERT_EQ(steps.size(), 2U);
+  EXPECT_NEAR(steps[1].time, 11.0, 1e-6);
+  ASSERT_TRUE(steps[1].motion);
+  EXPECT_DOUBLE_EQ(steps[1].motion->mean.x, 0.5);
+  EXPECT_DOUBLE_EQ(steps[1].motion->mean.phi, 0.2);
+  EXPECT_NEAR(steps[1].motion->covariance(0, 0), 0.04, 1e-12);
+  EXPECT_NEAR(steps[1].motion->covariance(2, 2), 0.002, 1e-12);
+  EXPECT_EQ(steps[1].scans.size(), 1U);
+  EXPECT_EQ(steps[1].frame->size(), 1U);
+  EXPECT_FALSE(reader.truncated());
+  EXPECT_DOUBLE_EQ(reader.progress(), 1.0);
+}
+
+TEST(RawlogReader, GivesAZeroCovarianceAFloor)
+{
+  const TemporaryFolder folder;
+  const auto path = folder / "actions.rawlog";
+  writeObjects(path, {makeAction({0.5, 0, 0}, diagonal(0, 0)), makeFrame(makeScan(1.0))});
+  const auto steps = readAll(path);
+  ASSERT_EQ(steps.size(), 1U);
+  EXPECT_GT(steps[0].motion->covariance(0, 0), 0.0);
+  EXPECT_GT(steps[0].motion->covariance(2, 2), 0.0);
+}
+
+TEST(RawlogReader, AddsUpTheMotionAcrossFramesWithoutScans)
+{
+  const TemporaryFolder folder;
+  const auto path = folder / "actions.rawlog";
+  const auto empty_frame = mrpt::obs::CSensoryFrame::Create();
+  const auto turn = CPose2D(1, 0, M_PI / 2);
+  writeObjects(path, {makeAction(turn, diagonal(0.01, 0.001)), empty_frame,
+                      makeAction(turn, diagonal(0.01, 0.001)), makeFrame(makeScan(1.0))});
+  const auto steps = readAll(path);
+  ASSERT_EQ(steps.size(), 1U);
+  EXPECT_NEAR(steps[0].motion->mean.x, 1.0, 1e-9);
+  EXPECT_NEAR(steps[0].motion->mean.y, 1.0, 1e-9);
+  EXPECT_NEAR(std::abs(steps[0].motion->mean.phi), M_PI, 1e-9);
+  EXPECT_NEAR(steps[0].motion->covariance(2, 2), 0.002, 1e-9);
+}
+
+TEST(RawlogReader, ReportsNoMotionForNaNOdometry)
+{
+  const TemporaryFolder folder;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  writeObjects(folder / "actions.rawlog",
+               {makeAction({nan, 0, 0}, diagonal(0.01, 0.001)), makeFrame(makeScan(1.0)),
+                makeAction({0.5, 0, 0}, diagonal(0.01, 0.001)), makeFrame(makeScan(2.0))});
+  const auto steps = readAll(folder / "actions.rawlog");
+  ASSERT_EQ(steps.size(), 2U);
+  EXPECT_FALSE(steps[0].motion);
+  ASSERT_TRUE(steps[1].motion);
+  EXPECT_DOUBLE_EQ(steps[1].motion->mean.x, 0.5);
+
+  writeObjects(folder / "observations.rawlog",
+               {makeOdometry(1.0, {0, 0, 0}), makeScan(1.0), makeOdometry(2.0, {nan, 0, 0}),
+                makeScan(2.0), makeOdometry(3.0, {1, 0, 0}), makeScan(3.0)});
+  double travelled = 0;
+  for (const auto& step : readAll(folder / "observations.rawlog"))
+  {
+    ASSERT_TRUE(step.motion);
+    travelled += step.motion->mean.x;
+  }
+  EXPECT_NEAR(travelled, 1.0, 1e-9);
+}
+
+TEST(RawlogReader, DifferencesAndInterpolatesOdometryBetweenScans)
+{
+  const TemporaryFolder folder;
+  const auto path = folder / "observations.rawlog";
+  writeObjects(path, {makeOdometry(10.0, {5, 5, M_PI / 2}), makeScan(10.0),
+                      makeOdometry(10.4, {5, 5, M_PI / 2}), makeScan(10.5),
+                      makeOdometry(10.6, {5, 7, M_PI / 2})});
+  const auto steps = readAll(path);
+  ASSERT_EQ(steps.size(), 2U);
+  ASSERT_TRUE(steps[0].motion);
+  EXPECT_NEAR(steps[0].motion->mean.norm(), 0.0, 1e-9);
+  ASSERT_TRUE(steps[1].motion);
+  EXPECT_NEAR(steps[1].motion->mean.x, 1.0, 1e-5);
+  EXPECT_NEAR(steps[1].motion->mean.y, 0.0, 1e-5);
+  EXPECT_GT(steps[1].motion->covariance(0, 0), 1e-4);
+}
+
+TEST(RawlogReader, GroupsSensorsThatFireTogether)
+{
+  const TemporaryFolder folder;
+  const auto path = folder / "observations.rawlog";
+  writeObjects(path, {makeScan(1.00, 3.0F, "FRONT"), makeScan(1.02, 4.0F, "BACK"),
+                      makeScan(1.03, 3.0F, "FRONT"), makeScan(2.00, 3.0F, "BACK")});
+  const auto steps = readAll(path);
+  ASSERT_EQ(steps.size(), 3U);
+  EXPECT_EQ(steps[0].scans.size(), 2U);
+  EXPECT_EQ(steps[1].scans.size(), 1U);
+  EXPECT_EQ(steps[2].scans.size(), 1U);
+  EXPECT_FALSE(steps[1].motion) << "the log has no odometry";
+}
+
+TEST(RawlogReader, TakesAnOdometryResetForNoMotion)
+{
+  const TemporaryFolder folder;
+  const auto path = folder / "observations.rawlog";
+  writeObjects(path, {makeOdometry(1.0, {500, 0, 0}), makeScan(1.0), makeOdometry(1.2, {0, 0, 0}),
+                      makeScan(1.2)});
+  const auto steps = readAll(path);
+  ASSERT_EQ(steps.size(), 2U);
+  EXPECT_FALSE(steps[1].motion);
+}
+
+TEST(RawlogReader, TurnsBearingsAndRangesIntoPoints)
+{
+  auto observation = mrpt::obs::CObservationBearingRange::Create();
+  observation->timestamp = mrpt::Clock::fromDouble(1.0);
+  observation->sensorLocationOnRobot = mrpt::poses::CPose3D(1, 0, 0, M_PI / 2, 0, 0);
+  observation->sensor_std_range = 0.1F;
+  observation->sensor_std_yaw = 0.01F;
+  observation->sensedData.resize(2);
+  observation->sensedData[0] = {4.0F, 0.0F, 0.0F, 7, {}};
+  observation->sensedData[1] = {std::numeric_limits<float>::quiet_NaN(), 0.0F, 0.0F, 8, {}};
+  const TemporaryFolder folder;
+  writeObjects(folder / "l.rawlog", {makeFrame(observation)});
+  const auto steps = readAll(folder / "l.rawlog");
+  ASSERT_EQ(steps.size(), 1U);
+  ASSERT_EQ(steps[0].landmarks.size(), 1U);
+  const Feature& point = steps[0].landmarks[0];
+  EXPECT_NEAR(point.position.x, 1.0, 1e-9);
+  EXPECT_NEAR(point.position.y, 4.0, 1e-9);
+  EXPECT_NEAR(point.position_covariance(1, 1), 0.01, 1e-6) << "along the line of sight";
+  EXPECT_NEAR(point.position_covariance(0, 0), 0.0016, 1e-6) << "across it";
+  EXPECT_EQ(point.label, -1);
+}
+
+TEST(RawlogReader, ReadsTheDemoLogOfMrpt)
+{
+  RawlogReader reader(kDemoLog);
+  const auto steps = readAll(reader);
+  EXPECT_EQ(steps.size(), 37U);
+  EXPECT_FALSE(reader.truncated());
+  double length = 0;
+  for (const auto& step : steps) length += step.motion ? step.motion->mean.norm() : 0.0;
+  EXPECT_NEAR(length, 13.0, 0.1);
+}
+
+TEST(RawlogReader, MarksATruncatedLog)
+{
+  const TemporaryFolder folder;
+  const auto path = folder / "cut.rawlog";
+  const std::string bytes = readBytes(kDemoLog);
+  writeText(path, bytes.substr(0, bytes.size() / 2));
+  RawlogReader reader(path);
+  const auto steps = readAll(reader);
+  EXPECT_GT(steps.size(), 5U);
+  EXPECT_LT(steps.size(), 37U);
+  EXPECT_TRUE(reader.truncated());
+}
+
+TEST(RawlogReader, NamesFileAndReasonForUnusableFiles)
+{
+  const TemporaryFolder folder;
+  std::mt19937 random(20120211);
+  std::string noise(5000, '\0');
+  for (char& c : noise) c = static_cast<char>(random());
+  writeText(folder / "random.rawlog", noise);
+  writeText(folder / "empty.rawlog", "");
+  writeText(folder / "text.rawlog", "FLASER 3 1 2 3\n");
+  writeText(folder / "stub.rawlog", readBytes(kDemoLog).substr(0, 40));
+  writeObjects(folder / "foreign.rawlog", {mrpt::poses::CPosePDFGaussian::Create()});
+  for (const char* name : {"random", "empty", "text", "stub", "foreign", "missing"})
+  {
+    const auto path = folder / (std::string(name) + ".rawlog");
+    const std::string message = errorOf(path);
+    EXPECT_EQ(message.rfind(path.string() + ": ", 0), 0U) << name << " -> " << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos);
+  }
+  EXPECT_FALSE(errorOf(folder.path()).empty()) << "a folder is no rawlog";
+}
