@@ -5,6 +5,7 @@
 #include <mrpt/math/wrap2pi.h>
 #include <mrpt/obs/CActionRobotMovement2D.h>
 #include <mrpt/obs/CActionRobotMovement3D.h>
+#include <mrpt/poses/CPosePDFSOG.h>
 
 #include <algorithm>
 #include <cmath>
@@ -43,22 +44,32 @@ CMatrixDouble33 withFloor(const CMatrixDouble33& given)
   return covariance;
 }
 
+/// Returns whether the moments of the movement's own distribution can be trusted.
+bool hasMoments(const mrpt::obs::CActionRobotMovement2D& movement)
+{
+  const auto& change = movement.poseChange;
+  if (!change) return false;
+  // MRPT does not wrap the headings of a sum of Gaussians.
+  if (IS_CLASS(*change, mrpt::poses::CPosePDFSOG)) return false;
+  // From a log, odometry's particles are drawn anew on reading, from a generator seeded by the
+  // clock: results would differ from run to run.
+  return movement.estimationMethod != mrpt::obs::CActionRobotMovement2D::emOdometry ||
+         IS_CLASS(*change, CPosePDFGaussian);
+}
+
 ActionMotion planarMotion(const mrpt::obs::CActionRobotMovement2D& movement)
 {
-  // A sum of Gaussians is not asked for its moments: MRPT does not wrap its headings.
-  const bool has_moments = movement.poseChange.get() != nullptr &&
-                           !movement.poseChange->GetRuntimeClass()->derivedFrom("CPosePDFSOG");
-  if (has_moments)
+  if (!hasMoments(movement))
   {
-    const auto [covariance, mean] = movement.poseChange->getCovarianceAndMean();
-    if (!isFinite(mean)) return {true, std::nullopt};
-    const CMatrixDouble33 floored = withFloor(covariance);
-    if (isCovariance(floored)) return {true, CPosePDFGaussian(mean, floored)};
-    return {true, motionFromOdometry(mean)};
+    const CPose2D& raw = movement.rawOdometryIncrementReading;
+    if (!isFinite(raw)) return {true, std::nullopt};
+    return {true, motionFromOdometry(raw)};
   }
-  const CPose2D& raw = movement.rawOdometryIncrementReading;
-  if (!isFinite(raw)) return {true, std::nullopt};
-  return {true, motionFromOdometry(raw)};
+  const auto [covariance, mean] = movement.poseChange->getCovarianceAndMean();
+  if (!isFinite(mean)) return {true, std::nullopt};
+  const CMatrixDouble33 floored = withFloor(covariance);
+  if (isCovariance(floored)) return {true, CPosePDFGaussian(mean, floored)};
+  return {true, motionFromOdometry(mean)};
 }
 }  // namespace
 

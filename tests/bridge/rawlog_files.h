@@ -87,6 +87,8 @@ inline mrpt::obs::CActionCollection::Ptr makeAction(const mrpt::poses::CPose2D& 
                                                     const mrpt::math::CMatrixDouble33& covariance)
 {
   mrpt::obs::CActionRobotMovement2D movement;
+  // Of odometry MRPT stores only the reading, of other estimates the distribution.
+  movement.estimationMethod = mrpt::obs::CActionRobotMovement2D::emScan2DMatching;
   movement.poseChange = mrpt::poses::CPosePDFGaussian::Create(increment, covariance);
   auto actions = mrpt::obs::CActionCollection::Create();
   actions->insert(movement);

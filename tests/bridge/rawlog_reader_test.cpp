@@ -61,13 +61,31 @@ TEST(RawlogReader, TakesMotionAndCovarianceOfActionsAsGiven)
   EXPECT_NEAR(steps[1].time, 11.0, 1e-6);
   ASSERT_TRUE(steps[1].motion);
   EXPECT_DOUBLE_EQ(steps[1].motion->mean.x, 0.5);
-  EXPECT_DOUBLE_EQ(steps[1].motion->mean.phi, 0.2);
+  EXPECT_NEAR(steps[1].motion->mean.phi, 0.2, 1e-12);
   EXPECT_NEAR(steps[1].motion->covariance(0, 0), 0.04, 1e-12);
   EXPECT_NEAR(steps[1].motion->covariance(2, 2), 0.002, 1e-12);
   EXPECT_EQ(steps[1].scans.size(), 1U);
   EXPECT_EQ(steps[1].frame->size(), 1U);
   EXPECT_FALSE(reader.truncated());
   EXPECT_DOUBLE_EQ(reader.progress(), 1.0);
+}
+
+TEST(RawlogReader, ReadsSampledOdometryTheSameEveryTime)
+{
+  mrpt::obs::CActionRobotMovement2D movement;
+  mrpt::obs::CActionRobotMovement2D::TMotionModelOptions model;
+  model.modelSelection = mrpt::obs::CActionRobotMovement2D::mmThrun;
+  movement.computeFromOdometry({0.5, 0, 0.1}, model);
+  auto actions = mrpt::obs::CActionCollection::Create();
+  actions->insert(movement);
+  const TemporaryFolder folder;
+  writeObjects(folder / "a.rawlog", {actions, makeFrame(makeScan(1.0))});
+  const auto first = readAll(folder / "a.rawlog");
+  const auto second = readAll(folder / "a.rawlog");
+  ASSERT_EQ(first.size(), 1U);
+  EXPECT_DOUBLE_EQ(first[0].motion->mean.x, 0.5);
+  EXPECT_EQ(first[0].motion->mean, second[0].motion->mean);
+  EXPECT_EQ(first[0].motion->covariance, second[0].motion->covariance);
 }
 
 TEST(RawlogReader, GivesAZeroCovarianceAFloor)
