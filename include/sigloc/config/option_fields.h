@@ -4,11 +4,13 @@
 
 #include <mrpt/config/CConfigFileBase.h>
 
-#include <cmath>
-#include <cstdint>
+#include <array>
+#include <charconv>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <type_traits>
 #include <vector>
 
@@ -33,6 +35,45 @@ struct OptionField
 template <class Options, class T>
 OptionField(const char*, T Options::*, T, T, const char*) -> OptionField<Options, T>;
 
+namespace detail
+{
+/// Returns the value that `text` spells, whole: "1.5 m" or "maybe" is std::nullopt, and so is a
+/// number that T cannot hold.
+template <class T>
+std::optional<T> parseValue(const std::string& text)
+{
+  if constexpr (std::is_same_v<T, bool>)
+  {
+    if (text == "true" || text == "yes" || text == "1") return true;
+    if (text == "false" || text == "no" || text == "0") return false;
+    return std::nullopt;
+  }
+  else
+  {
+    T value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error == std::errc() && end == text.data() + text.size()) return value;
+    return std::nullopt;
+  }
+}
+
+/// Returns the shortest text that parseValue() turns back into exactly this value.
+template <class T>
+std::string formatValue(T value)
+{
+  if constexpr (std::is_same_v<T, bool>)
+  {
+    return value ? "true" : "false";
+  }
+  else
+  {
+    std::array<char, 32> text{};
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+    return {text.data(), end};
+  }
+}
+}  // namespace detail
+
 /// Throws std::invalid_argument naming the key when a value lies outside its range or is NaN.
 template <class Options>
 void checkOptions(const Options& options)
@@ -45,9 +86,9 @@ void checkOptions(const Options& options)
         if (!inside)
         {
           throw std::invalid_argument(std::string("option '") + field.key +
-                                      "' = " + std::to_string(value) + " is outside [" +
-                                      std::to_string(field.minimum) + ", " +
-                                      std::to_string(field.maximum) + "]");
+                                      "' = " + detail::formatValue(value) + " is outside [" +
+                                      detail::formatValue(field.minimum) + ", " +
+                                      detail::formatValue(field.maximum) + "]");
         }
       });
 }
@@ -63,7 +104,7 @@ std::vector<std::string> optionKeys()
 
 /// Returns options read from one ini section; keys that are absent keep the value of `defaults`.
 /// Throws std::invalid_argument for a key of the section that is not in the table, a value that is
-/// not a number, or one outside its range.
+/// not of the field's type, or one outside its range.
 template <class Options>
 Options loadOptions(const mrpt::config::CConfigFileBase& ini, const std::string& section,
                     const Options& defaults = {})
@@ -86,30 +127,13 @@ Options loadOptions(const mrpt::config::CConfigFileBase& ini, const std::string&
         using T = std::decay_t<decltype(options.*(field.member))>;
         if (!ini.keyExists(section, field.key)) return;
         const std::string text = ini.read_string(section, field.key, "");
-        T& target = options.*(field.member);
-        try
-        {
-          if constexpr (std::is_same_v<T, bool>)
-          {
-            target = ini.read_bool(section, field.key, target);
-          }
-          else
-          {
-            std::size_t used = 0;
-            const double value = std::stod(text, &used);
-            if (text.find_first_not_of(" \t", used) != std::string::npos ||
-                (std::is_integral_v<T> && value != std::floor(value)))
-            {
-              throw std::invalid_argument(text);
-            }
-            target = static_cast<T>(value);
-          }
-        }
-        catch (const std::exception&)
+        const std::optional<T> value = detail::parseValue<T>(text);
+        if (!value)
         {
           throw std::invalid_argument("[" + section + "]: bad value '" + text + "' for '" +
                                       field.key + "'");
         }
+        options.*(field.member) = *value;
       });
   checkOptions(options);
   return options;
@@ -122,6 +146,10 @@ void saveOptions(const Options& options, mrpt::config::CConfigFileBase& ini,
 {
   Options::visitFields(
       [&](const auto& field)
-      { ini.write(section, field.key, options.*(field.member), -1, -1, field.description); });
+      {
+        // MRPT's own writing of a double keeps six decimals only.
+        const std::string text = detail::formatValue(options.*(field.member));
+        ini.write(section, field.key, text, -1, -1, field.description);
+      });
 }
 }  // namespace sigloc
