@@ -45,6 +45,7 @@ struct Group
   std::optional<double> time;  // of the first scan or landmark observation
   std::set<std::string> labels;  // of the scans and landmark observations
   std::optional<CPose2D> odometry;  // interpolated at `time`
+  std::size_t entry = 0;  // index of the last scan or landmark observation
 };
 
 bool isRange(const CObservation& observation)
@@ -87,6 +88,7 @@ struct RawlogReader::State
 
   detail::GzipInput input;
   mrpt::serialization::CSerializable::Ptr first;
+  std::size_t objects_taken = 0;
   bool truncated = false;
   bool ended = false;
   double latest_time = 0;  // [s], stands in where an entry has none
@@ -159,7 +161,9 @@ std::optional<RawlogStep> RawlogReader::State::take(
       takeOdometry(*reading);
     }
   }
-  return makeStep(frame, time, odometry ? std::optional(odometry->pose) : std::nullopt);
+  auto step = makeStep(frame, time, odometry ? std::optional(odometry->pose) : std::nullopt);
+  if (step) step->entry = objects_taken;
+  return step;
 }
 
 void RawlogReader::State::takeAction(const CActionCollection& actions)
@@ -201,6 +205,7 @@ std::optional<RawlogStep> RawlogReader::State::takeObservation(const CObservatio
   if (range)
   {
     if (!group.time) group.time = time;
+    group.entry = objects_taken;
     group.labels.insert(observation->sensorLabel);
   }
   return step;
@@ -212,7 +217,9 @@ std::optional<RawlogStep> RawlogReader::State::closeGroup()
   std::swap(closed, group);
   if (!closed.time) return std::nullopt;
   if (!closed.odometry && odometry) closed.odometry = odometry->pose;
-  return makeStep(closed.frame, closed.time, closed.odometry);
+  auto step = makeStep(closed.frame, closed.time, closed.odometry);
+  if (step) step->entry = closed.entry;
+  return step;
 }
 
 std::optional<RawlogStep> RawlogReader::State::makeStep(const CSensoryFrame::Ptr& frame,
@@ -272,7 +279,9 @@ std::optional<RawlogStep> RawlogReader::next()
 {
   while (const auto object = state_->readObject())
   {
-    if (auto step = state_->take(object)) return step;
+    auto step = state_->take(object);
+    ++state_->objects_taken;
+    if (step) return step;
   }
   return state_->closeGroup();
 }

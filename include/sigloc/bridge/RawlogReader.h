@@ -24,6 +24,7 @@ struct RawlogStep
   std::optional<MotionIncrement> motion;  ///< none when the log has no odometry
   std::vector<LaserScan> scans;
   std::vector<Feature> landmarks;  ///< from CObservationBearingRange, without identities
+  std::size_t entry = 0;  ///< index of the log's object that completed the step, from 0
   mrpt::obs::CSensoryFrame::Ptr frame;  ///< the observations themselves, for exporters
 };
 

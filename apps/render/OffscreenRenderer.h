@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mrpt/img/CImage.h>
+#include <mrpt/opengl/COpenGLScene.h>
+
+#include <memory>
+
+namespace sigloc
+{
+/// What a top-down picture shows.
+struct View
+{
+  double x = 0;  ///< [m], centre in the map frame
+  double y = 0;  ///< [m]
+  double height = 10;  ///< [m] from the lower to the upper edge
+};
+
+/// Renders scenes from straight above without a display, through OSMesa. Linked by executables
+/// only: a plug-in must not bring a second GL into a viewer.
+///
+/// One object a process, used from one thread. It must outlive every scene it has rendered, because
+/// those keep GL buffers of its context.
+class OffscreenRenderer
+{
+ public:
+  /// Size of the pictures [pixels]. Throws std::runtime_error when no GL context can be made.
+  OffscreenRenderer(unsigned width, unsigned height);
+  ~OffscreenRenderer();
+  OffscreenRenderer(const OffscreenRenderer&) = delete;
+  OffscreenRenderer& operator=(const OffscreenRenderer&) = delete;
+
+  unsigned width() const { return width_; }
+  unsigned height() const { return height_; }
+  mrpt::img::CImage render(const mrpt::opengl::COpenGLScene& scene, const View& view);
+
+ private:
+  struct Context;
+  unsigned width_;
+  unsigned height_;
+  std::unique_ptr<Context> context_;
+};
+}  // namespace sigloc

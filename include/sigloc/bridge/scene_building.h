@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mrpt/math/TPose2D.h>
+#include <mrpt/opengl/CSetOfObjects.h>
+
+#include <optional>
+#include <vector>
+
+#include "sigloc/features/ObservedScene.h"
+#include "sigloc/map/FeatureMap.h"
+#include "sigloc/tracking/Belief.h"
+
+namespace sigloc
+{
+/// What of a map is drawn. Lines are solid strips, because line widths are ignored by MRPT's core
+/// profile renderer.
+struct MapDrawing
+{
+  double line_width = 0.1;  ///< [m]
+  bool raster = true;  ///< the dense field's cells below the features
+  bool small_features = true;  ///< corners, wall ends and points; clutter in an overview
+};
+
+/// Returns the map, seen from above: raster (unknown grey, free white, walls dark grey), segments
+/// blue, circles olive, corners teal, wall ends brown, points black.
+mrpt::opengl::CSetOfObjects::Ptr drawMap(const FeatureMap& map, const MapDrawing& drawing = {});
+
+/// One step as it is drawn over the map.
+struct StepDrawing
+{
+  const ObservedScene* observed = nullptr;  ///< drawn at the first hypothesis, if there is one
+  const Belief* belief = nullptr;
+  std::optional<mrpt::math::TPose2D> truth;
+  std::vector<mrpt::math::TPose2D> path;  ///< the estimated path so far
+  double line_width = 0.1;  ///< [m]
+  double min_mark_size = 0.5;  ///< [m], marks are never smaller, so that an overview shows them
+};
+
+/// Returns the estimated path (green line), the returns (red) and observed features (orange), every
+/// hypothesis as its 3-sigma ellipse (light blue to magenta by weight) with its heading, the first
+/// pose as a green arrowhead and the truth as a black ring.
+mrpt::opengl::CSetOfObjects::Ptr drawStep(const StepDrawing& step);
+
+/// Axis-aligned box in the map frame [m].
+struct PlanarBox
+{
+  double x_min = 0, x_max = 0, y_min = 0, y_max = 0;
+};
+
+/// Returns the box of everything in the map; a unit box for an empty one.
+PlanarBox boundsOf(const FeatureMap& map);
+}  // namespace sigloc

@@ -1,0 +1,207 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sigloc/bridge/LocalizationSetup.h"
+
+#include <mrpt/config/CConfigFileMemory.h>
+#include <mrpt/core/bits_math.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <vector>
+
+namespace sigloc
+{
+namespace
+{
+namespace fs = std::filesystem;
+using mrpt::config::CConfigFileMemory;
+
+constexpr const char* kExperiment = "LocalizationExperiment";
+constexpr const char* kPrefix = "sigloc.";
+constexpr const char* kMatcher = "sigloc.matcher";
+constexpr const char* kTracker = "sigloc.tracker";
+constexpr const char* kFeatures = "sigloc.features";
+constexpr const char* kMap = "sigloc.map";
+constexpr const char* kReport = "sigloc.localize";
+constexpr std::array<const char*, 5> kSections = {kMatcher, kTracker, kFeatures, kMap, kReport};
+
+/// Throws std::runtime_error naming the path for anything that is not a text file.
+std::string readText(const fs::path& path)
+{
+  if (!fs::exists(path)) throw std::runtime_error("no such file");
+  if (fs::is_directory(path)) throw std::runtime_error("is a folder, not an ini file");
+  std::ifstream file(path, std::ios::binary);
+  std::stringstream text;
+  text << file.rdbuf();
+  if (!file) throw std::runtime_error("cannot be read, or is empty");
+  if (text.str().find('\0') != std::string::npos) throw std::runtime_error("not an ini file");
+  return text.str();
+}
+
+void readSections(const CConfigFileMemory& ini, LocalizationSetup& setup)
+{
+  std::vector<std::string> sections;
+  ini.getAllSections(sections);
+  for (const std::string& section : sections)
+  {
+    const bool ours = section.rfind(kPrefix, 0) == 0;
+    const bool known = std::find(kSections.begin(), kSections.end(), section) != kSections.end();
+    if (ours && !known) throw std::runtime_error("unknown section [" + section + "]");
+  }
+  setup.matcher = loadOptions<MatcherOptions>(ini, kMatcher);
+  setup.tracker = loadOptions<TrackerOptions>(ini, kTracker);
+  setup.features = loadOptions<FeatureExtractorOptions>(ini, kFeatures);
+  setup.map = loadOptions<MapBuildingOptions>(ini, kMap);
+  setup.report = loadOptions<ReportOptions>(ini, kReport);
+}
+
+double readNumber(const CConfigFileMemory& ini, const char* key, double fallback)
+{
+  const std::string text = ini.read_string_first_word(kExperiment, key, "");
+  if (text.empty()) return fallback;
+  std::size_t used = 0;
+  double value = 0;
+  try
+  {
+    value = std::stod(text, &used);
+  }
+  catch (const std::exception&)
+  {
+    used = 0;
+  }
+  if (used != text.size() || !std::isfinite(value))
+  {
+    throw std::runtime_error(std::string("[") + kExperiment + "]: bad value '" + text + "' for '" +
+                             key + "'");
+  }
+  return value;
+}
+
+std::uint32_t readCount(const CConfigFileMemory& ini, const char* key, std::uint32_t fallback)
+{
+  const double value = readNumber(ini, key, fallback);
+  if (value < 0 || value > 1e9 || value != std::floor(value))
+  {
+    throw std::runtime_error(std::string("[") + kExperiment + "]: '" + key +
+                             "' is not a count of at least 0");
+  }
+  return static_cast<std::uint32_t>(value);
+}
+
+/// The box that pf-localization spreads its particles over, in either init_PDF_mode.
+std::optional<PoseRegion> readPrior(const CConfigFileMemory& ini)
+{
+  PoseRegion region{readNumber(ini, "init_PDF_min_x", 0), readNumber(ini, "init_PDF_max_x", 0),
+                    readNumber(ini, "init_PDF_min_y", 0), readNumber(ini, "init_PDF_max_y", 0)};
+  const bool has_box = region.x_min < region.x_max && region.y_min < region.y_max;
+  if (!has_box) return std::nullopt;
+  const double min_yaw = mrpt::DEG2RAD(readNumber(ini, "init_PDF_min_yaw_deg", -180));
+  const double max_yaw = mrpt::DEG2RAD(readNumber(ini, "init_PDF_max_yaw_deg", 180));
+  if (min_yaw <= max_yaw && max_yaw - min_yaw < 2 * M_PI - 1e-6)
+  {
+    region.heading = 0.5 * (min_yaw + max_yaw);
+    region.heading_tolerance = 0.5 * (max_yaw - min_yaw);
+  }
+  return region;
+}
+
+/// Finds a file that an ini names: beside the ini, then from the current folder.
+fs::path findFile(const fs::path& named, const fs::path& ini, const char* key)
+{
+  if (named.empty()) throw std::runtime_error(std::string("'") + key + "' is missing");
+  const fs::path beside = ini.parent_path() / named;  // `named` itself where it is absolute
+  if (fs::exists(beside)) return beside.lexically_normal();
+  if (fs::exists(named)) return named;
+  throw std::runtime_error(std::string("'") + key + "' names " + named.string() +
+                           ", which does not exist");
+}
+
+void readExperiment(const CConfigFileMemory& ini, const fs::path& path, const fs::path& rawlog,
+                    LocalizationSetup& setup)
+{
+  if (!ini.sectionExists(kExperiment))
+  {
+    throw std::runtime_error(std::string("no section [") + kExperiment + "]");
+  }
+  const auto named = [&](const char* key) { return ini.read_string(kExperiment, key, ""); };
+  setup.map_file = findFile(named("map_file"), path, "map_file");
+  setup.rawlog_file = rawlog.empty() ? findFile(named("rawlog_file"), path, "rawlog_file") : rawlog;
+  const std::string truth = named("ground_truth_path_file");
+  if (!truth.empty()) setup.ground_truth_file = findFile(truth, path, "ground_truth_path_file");
+  setup.output_folder = named("logOutput_dir");
+  setup.rawlog_offset = readCount(ini, "rawlog_offset", 0);
+  setup.scene_frequency = readCount(ini, "3DSceneFrequency", 0);
+  setup.repetitions = std::max(1U, readCount(ini, "experimentRepetitions", 1));
+  setup.prior = readPrior(ini);
+}
+
+/// Runs `read` on the parsed ini and puts the path before whatever it throws.
+template <class Read>
+LocalizationSetup parse(const fs::path& path, Read&& read)
+{
+  try
+  {
+    CConfigFileMemory ini;
+    ini.setContent(readText(path));
+    LocalizationSetup setup;
+    readSections(ini, setup);
+    read(ini, setup);
+    return setup;
+  }
+  catch (const std::exception& error)
+  {
+    throw std::runtime_error(path.string() + ": " + firstLine(error.what()));
+  }
+}
+}  // namespace
+
+mrpt::math::TPose2D LocalizationSetup::mapFromTruth() const
+{
+  return {report.map_from_truth_x, report.map_from_truth_y,
+          mrpt::DEG2RAD(report.map_from_truth_phi_deg)};
+}
+
+std::optional<mrpt::math::TPose2D> LocalizationSetup::finalTruth() const
+{
+  if (!report.use_final_truth) return std::nullopt;
+  return mrpt::math::TPose2D(report.final_truth_x, report.final_truth_y,
+                             mrpt::DEG2RAD(report.final_truth_phi_deg));
+}
+
+LocalizationSetup readLocalizationSetup(const fs::path& ini_path, const fs::path& rawlog)
+{
+  return parse(ini_path, [&](const CConfigFileMemory& ini, LocalizationSetup& setup)
+               { readExperiment(ini, ini_path, rawlog, setup); });
+}
+
+LocalizationSetup readOptionSections(const fs::path& ini_path)
+{
+  return parse(ini_path, [](const CConfigFileMemory&, LocalizationSetup&) {});
+}
+
+std::string defaultOptionSections()
+{
+  CConfigFileMemory ini;
+  const LocalizationSetup setup;
+  saveOptions(setup.matcher, ini, kMatcher);
+  saveOptions(setup.tracker, ini, kTracker);
+  saveOptions(setup.features, ini, kFeatures);
+  saveOptions(setup.map, ini, kMap);
+  saveOptions(setup.report, ini, kReport);
+  return ini.getContent();
+}
+
+std::string firstLine(const std::string& message)
+{
+  // MRPT's exceptions wrap the reason in a header, the source position and a call stack.
+  const std::string marker = "Message:";
+  const std::size_t found = message.find(marker);
+  std::size_t begin = found == std::string::npos ? 0 : found + marker.size();
+  begin = std::min(message.find_first_not_of(" \n", begin), message.size());
+  return message.substr(begin, message.find('\n', begin) - begin);
+}
+}  // namespace sigloc

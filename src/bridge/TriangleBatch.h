@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mrpt/img/TColor.h>
+#include <mrpt/math/TPoint2D.h>
+#include <mrpt/opengl/CSetOfTriangles.h>
+
+#include <vector>
+
+namespace sigloc::detail
+{
+/// Flat coloured shapes over the map plane, collected into one object: what thick lines are made
+/// of where the renderer knows only thin ones.
+class TriangleBatch
+{
+ public:
+  using Point = mrpt::math::TPoint2D;
+
+  /// `height` is the z of all shapes [m]: higher batches cover lower ones.
+  explicit TriangleBatch(double height) : height_(height) {}
+
+  void addTriangle(const Point& a, const Point& b, const Point& c, const mrpt::img::TColor& color);
+  /// A strip of the given width [m] from a to b, with square caps half a width long.
+  void addLine(const Point& a, const Point& b, double width, const mrpt::img::TColor& color);
+  void addPolyline(const std::vector<Point>& points, double width, bool closed,
+                   const mrpt::img::TColor& color);
+  void addRing(const Point& centre, double radius, double width, const mrpt::img::TColor& color);
+  void addDisc(const Point& centre, double radius, const mrpt::img::TColor& color);
+  void addSquare(const Point& centre, double side, const mrpt::img::TColor& color);
+
+  mrpt::opengl::CSetOfTriangles::Ptr object() const;
+
+ private:
+  double height_;
+  std::vector<mrpt::opengl::TTriangle> triangles_;
+};
+}  // namespace sigloc::detail
