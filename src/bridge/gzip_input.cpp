@@ -107,12 +107,18 @@ double GzipInput::progress() const
 
 std::string GzipInput::nextClassName()
 {
-  // Header: name length (top bit set in all but the oldest files), name, version.
-  lookAhead(kLongestClassName + 1);
-  if (ahead_.empty()) return {};
-  const std::size_t length = static_cast<unsigned char>(ahead_[0]) & 0x7FU;
-  if (length == 0 || length > kLongestClassName || ahead_.size() < length + 1) return {};
-  std::string name = ahead_.substr(1, length);
+  // Header: length of the name (with the top bit set in one byte; in the oldest files in four
+  // bytes, little-endian), name, version.
+  constexpr std::size_t kOldLengthBytes = 4;
+  lookAhead(kLongestClassName + kOldLengthBytes);
+  if (ahead_.size() < kOldLengthBytes) return {};
+  const auto byte = static_cast<unsigned char>(ahead_[0]);
+  const bool old = byte < 0x80U;
+  if (old && ahead_.compare(1, 3, std::string(3, '\0')) != 0) return {};
+  const std::size_t length = byte & 0x7FU;
+  const std::size_t start = old ? kOldLengthBytes : 1;
+  if (length == 0 || length > kLongestClassName || ahead_.size() < start + length) return {};
+  std::string name = ahead_.substr(start, length);
   return std::all_of(name.begin(), name.end(), isClassNameCharacter) ? name : std::string{};
 }
 

@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <mrpt/containers/yaml.h>
+#include <mrpt/maps/COccupancyGridMap2D.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "gzip_input.h"
+#include "map_source_readers.h"
+#include "QuietOutput.h"
+#include "sigloc/bridge/map_sources.h"
+
+namespace sigloc
+{
+using mrpt::maps::COccupancyGridMap2D;
+
+namespace
+{
+// A cell of MRPT's grid holds the probability of being free; never seen is 0.5. One look of a
+// default sensor model moves it to 0.65 or 0.35.
+constexpr float kFreeFrom = 0.6F;
+constexpr float kWallBelow = 0.36F;
+
+[[noreturn]] void fail(const std::filesystem::path& path, const std::string& reason)
+{
+  throw std::runtime_error(path.string() + ": " + reason);
+}
+
+CellState stateOf(float free_probability)
+{
+  if (free_probability < kWallBelow) return CellState::wall;
+  return free_probability >= kFreeFrom ? CellState::free : CellState::unknown;
+}
+
+OccupancyRaster usableRasterOf(const COccupancyGridMap2D& grid, const std::filesystem::path& path)
+{
+  OccupancyRaster raster = rasterOf(grid);
+  bool has_wall = false;
+  bool has_free = false;
+  for (const CellState cell : raster.cells)
+  {
+    has_wall = has_wall || cell == CellState::wall;
+    has_free = has_free || cell == CellState::free;
+  }
+  if (!has_wall) fail(path, "the grid has no wall");
+  if (!has_free) fail(path, "the grid has no free cell");
+  return raster;
+}
+
+/// What a ROS map's yaml says beyond the image itself.
+struct RosMapHeader
+{
+  std::filesystem::path image;
+  double yaw = 0;  ///< [rad], of the origin
+};
+
+RosMapHeader readRosMapHeader(const std::filesystem::path& path)
+{
+  detail::requireFile(path);
+  RosMapHeader header;
+  try
+  {
+    const detail::QuietOutput quiet;
+    const auto yaml = mrpt::containers::yaml::FromFile(path.string());
+    header.image = yaml["image"].as<std::string>();
+    const double resolution = yaml["resolution"].as<double>();
+    const auto origin = yaml["origin"];
+    header.yaw = origin(2).as<double>();
+    const bool finite = std::isfinite(origin(0).as<double>()) &&
+                        std::isfinite(origin(1).as<double>()) && std::isfinite(header.yaw);
+    if (!finite || !(resolution > 0)) throw std::invalid_argument("not a place");
+  }
+  catch (const std::exception&)
+  {
+    fail(path, "not a ROS map: 'image', 'resolution' and 'origin: [x, y, yaw]' are needed");
+  }
+  if (header.image.is_relative()) header.image = path.parent_path() / header.image;
+  return header;
+}
+}  // namespace
+
+OccupancyRaster rasterOf(const COccupancyGridMap2D& grid)
+{
+  OccupancyRaster raster;
+  raster.frame.origin = {static_cast<double>(grid.getXMin()), static_cast<double>(grid.getYMin())};
+  raster.frame.resolution = static_cast<double>(grid.getResolution());
+  raster.frame.width = grid.getSizeX();
+  raster.frame.height = grid.getSizeY();
+  raster.cells.reserve(std::size_t{raster.frame.width} * raster.frame.height);
+
+  using Cell = COccupancyGridMap2D::cellType;
+  // MRPT counts from -127, but files hold -128 too.
+  constexpr int kLowest = std::numeric_limits<Cell>::min();
+  constexpr int kHighest = std::numeric_limits<Cell>::max();
+  constexpr Cell kLowestOfMrpt = COccupancyGridMap2D::OCCGRID_CELLTYPE_MIN;
+  std::array<CellState, kHighest - kLowest + 1> state_of_cell{};
+  for (int cell = kLowest; cell <= kHighest; ++cell)
+  {
+    state_of_cell[static_cast<std::size_t>(cell - kLowest)] =
+        stateOf(COccupancyGridMap2D::l2p(std::max(static_cast<Cell>(cell), kLowestOfMrpt)));
+  }
+  for (const Cell cell : grid.getRawMap())
+  {
+    raster.cells.push_back(state_of_cell[static_cast<std::size_t>(cell - kLowest)]);
+  }
+  return raster;
+}
+
+namespace detail
+{
+OccupancyRaster readGridmap(const std::filesystem::path& path)
+{
+  COccupancyGridMap2D grid;
+  readObjectFile(path, grid);
+  return usableRasterOf(grid, path);
+}
+
+std::filesystem::path imageOfRosMap(const std::filesystem::path& path)
+{
+  return readRosMapHeader(path).image;
+}
+
+OccupancyRaster readRosMap(const std::filesystem::path& path)
+{
+  const RosMapHeader header = readRosMapHeader(path);
+  if (std::abs(header.yaw) > 1e-9) fail(path, "an origin with a yaw is not supported");
+  requireFile(header.image);
+  COccupancyGridMap2D grid;
+  try
+  {
+    const QuietOutput quiet;
+    grid = COccupancyGridMap2D::FromROSMapServerYAML(path.string());
+  }
+  catch (const std::exception&)
+  {
+    fail(path, "its image '" + header.image.string() + "' or its thresholds cannot be read");
+  }
+  return usableRasterOf(grid, path);
+}
+}  // namespace detail
+}  // namespace sigloc

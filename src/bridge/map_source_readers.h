@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "sigloc/map/map_building.h"
+
+namespace sigloc::detail
+{
+// One reader a file format; all throw std::runtime_error "path: reason".
+
+std::vector<PosedScans> readSimplemap(const std::filesystem::path& path);
+OccupancyRaster readGridmap(const std::filesystem::path& path);
+
+/// Free, wall and unknown as the file's thresholds say; its image may be anything OpenCV reads.
+OccupancyRaster readRosMap(const std::filesystem::path& path);
+/// Returns the image file that a ROS map names, as a path that can be opened.
+std::filesystem::path imageOfRosMap(const std::filesystem::path& path);
+
+/// FLASER and ROBOTLASER1 messages with the (corrected) laser pose they carry. A FLASER message of
+/// n beams covers 180 degrees from -90 in steps of 180/n (n even) or 180/(n-1) degrees (n odd).
+/// The robot frame is the laser's: where it is mounted does not matter to a map.
+std::vector<PosedScans> readCarmenLog(const std::filesystem::path& path);
+
+/// Rows `x y [radius] [sigma]` in metres; a header row, also behind '#', may name the columns
+/// (x, y, radius or r, sigma, label; others are ignored). A radius makes a circle, else a point.
+FeatureMap readLandmarks(const std::filesystem::path& path);
+}  // namespace sigloc::detail

@@ -1,0 +1,219 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sigloc/bridge/map_sources.h"
+
+#include <mrpt/system/md5.h>
+
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "gzip_input.h"
+#include "map_source_readers.h"
+#include "sigloc/bridge/scan_conversion.h"
+#include "sigloc/bridge/sigmap_file.h"
+
+namespace sigloc
+{
+namespace
+{
+/// Raised whenever the same source and options give another map than before.
+constexpr int kBuildVersion = 1;
+
+enum class Format
+{
+  simplemap,
+  gridmap,
+  ros_map,
+  carmen_log,
+  landmarks,
+  sigmap
+};
+
+Format formatOf(const std::filesystem::path& path)
+{
+  std::filesystem::path name = path.filename();
+  if (name.extension() == ".gz") name = name.stem();
+  std::string extension = name.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (extension == ".simplemap") return Format::simplemap;
+  if (extension == ".gridmap") return Format::gridmap;
+  if (extension == ".yaml" || extension == ".yml") return Format::ros_map;
+  if (extension == ".log" || extension == ".clf" || extension == ".carmen")
+  {
+    return Format::carmen_log;
+  }
+  if (extension == ".csv" || extension == ".txt") return Format::landmarks;
+  if (extension == ".sigmap") return Format::sigmap;
+  throw std::runtime_error(
+      path.string() +
+      ": unknown kind of map (known: .simplemap, .gridmap, .yaml, .log, .clf, .carmen, .csv, .txt, "
+      ".sigmap)");
+}
+
+void appendBytes(const std::filesystem::path& path, std::string& bytes)
+{
+  detail::requireFile(path);
+  std::ifstream in(path, std::ios::binary);
+  bytes.append(std::istreambuf_iterator<char>(in), {});
+}
+
+std::string checksumOf(const std::filesystem::path& path)
+{
+  std::string bytes;
+  appendBytes(path, bytes);
+  if (formatOf(path) == Format::ros_map) appendBytes(detail::imageOfRosMap(path), bytes);
+  return mrpt::system::md5(bytes);
+}
+
+template <class Options>
+void appendOptions(const Options& options, std::ostream& out)
+{
+  Options::visitFields([&](const auto& field)
+                       { out << field.key << '=' << options.*(field.member) << '\n'; });
+}
+
+std::string digestOf(const MapBuildingOptions& building, const FeatureExtractorOptions& extraction)
+{
+  std::ostringstream text;
+  text.precision(17);
+  text << "build " << kBuildVersion << '\n';
+  appendOptions(building, text);
+  appendOptions(extraction, text);
+  return mrpt::system::md5(text.str());
+}
+
+MapProvenance provenanceOf(const std::filesystem::path& path, const MapBuildingOptions& building,
+                           const FeatureExtractorOptions& extraction)
+{
+  return {path.string(), checksumOf(path), digestOf(building, extraction)};
+}
+
+FeatureMap build(const std::filesystem::path& path, const MapBuildingOptions& building,
+                 const FeatureExtractorOptions& extraction, const MapProvenance& provenance)
+{
+  MapSource source = readMapSource(path);
+  try
+  {
+    if (const auto* scans = std::get_if<std::vector<PosedScans>>(&source))
+    {
+      return buildMapFromScans(*scans, building, extraction, provenance);
+    }
+    if (const auto* raster = std::get_if<OccupancyRaster>(&source))
+    {
+      return buildMapFromRaster(*raster, building, extraction, provenance);
+    }
+    const auto& landmarks = std::get<FeatureMap>(source);
+    return FeatureMap(landmarks.features(), landmarks.field(), landmarks.error(), provenance);
+  }
+  catch (const std::invalid_argument& error)
+  {
+    throw std::runtime_error(path.string() + ": " + error.what());
+  }
+}
+}  // namespace
+
+std::vector<PosedScans> posedScansOf(const mrpt::maps::CSimpleMap& simplemap)
+{
+  std::vector<PosedScans> posed_scans;
+  for (std::size_t i = 0; i < simplemap.size(); ++i)
+  {
+    const auto [pose, frame] = simplemap.get(i);
+    if (!pose || !frame) continue;
+    const mrpt::poses::CPose2D mean(pose->getMeanVal());
+    const bool finite =
+        std::isfinite(mean.x()) && std::isfinite(mean.y()) && std::isfinite(mean.phi());
+    PosedScans posed;
+    posed.map_from_robot = mean.asTPose();
+    posed.scans = laserScansOf(*frame);
+    if (finite && !posed.scans.empty()) posed_scans.push_back(std::move(posed));
+  }
+  return posed_scans;
+}
+
+namespace detail
+{
+std::vector<PosedScans> readSimplemap(const std::filesystem::path& path)
+{
+  mrpt::maps::CSimpleMap simplemap;
+  readObjectFile(path, simplemap);
+  std::vector<PosedScans> scans = posedScansOf(simplemap);
+  if (scans.empty()) throw std::runtime_error(path.string() + ": no usable 2D laser scan in it");
+  return scans;
+}
+}  // namespace detail
+
+MapSource readMapSource(const std::filesystem::path& path)
+{
+  detail::requireFile(path);
+  switch (formatOf(path))
+  {
+    case Format::simplemap:
+      return detail::readSimplemap(path);
+    case Format::gridmap:
+      return detail::readGridmap(path);
+    case Format::ros_map:
+      return detail::readRosMap(path);
+    case Format::carmen_log:
+      return detail::readCarmenLog(path);
+    case Format::landmarks:
+      return detail::readLandmarks(path);
+    case Format::sigmap:
+      break;
+  }
+  return loadSigmap(path);
+}
+
+FeatureMap buildMapFromFile(const std::filesystem::path& path, const MapBuildingOptions& building,
+                            const FeatureExtractorOptions& extraction)
+{
+  detail::requireFile(path);
+  FeatureMap map =
+      formatOf(path) == Format::sigmap
+          ? loadSigmap(path)
+          : build(path, building, extraction, provenanceOf(path, building, extraction));
+  if (map.empty()) throw std::runtime_error(path.string() + ": no feature found in it");
+  return map;
+}
+
+CachedMap mapWithCache(const std::filesystem::path& source, const std::filesystem::path& cache,
+                       const MapBuildingOptions& building,
+                       const FeatureExtractorOptions& extraction)
+{
+  const auto start = std::chrono::steady_clock::now();
+  detail::requireFile(source);
+  if (formatOf(source) == Format::sigmap)
+  {
+    return {buildMapFromFile(source, building, extraction), true, 0.0};
+  }
+  const MapProvenance wanted = provenanceOf(source, building, extraction);
+  try
+  {
+    CachedMap cached{loadSigmap(cache), true, 0.0};
+    const MapProvenance& found = cached.map.provenance();
+    if (found.source_checksum == wanted.source_checksum &&
+        found.options_digest == wanted.options_digest && !cached.map.empty())
+    {
+      return cached;
+    }
+  }
+  catch (const std::runtime_error&)
+  {
+    // Missing or unreadable: built and written anew below.
+  }
+  CachedMap fresh;
+  fresh.map = buildMapFromFile(source, building, extraction);
+  saveSigmap(fresh.map, cache);
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  fresh.build_seconds = elapsed.count();
+  return fresh;
+}
+}  // namespace sigloc

@@ -1,0 +1,274 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sigloc/bridge/map_sources.h"
+
+#include <gtest/gtest.h>
+#include <mrpt/poses/CPose3DPDFGaussian.h>
+
+#include <random>
+#include <sstream>
+#include <stdexcept>
+
+#include "bridge/rawlog_files.h"
+#include "sigloc/bridge/sigmap_file.h"
+
+using namespace sigloc;
+using namespace sigloc::test;
+
+namespace
+{
+const std::filesystem::path kDatasets = "/usr/share/mrpt/datasets";
+
+std::string errorOf(const std::filesystem::path& path)
+{
+  return messageOf<std::runtime_error>([&] { readMapSource(path); });
+}
+
+/// 4 x 3 pixels, first row on top: wall, free, unknown, free / walls and unknowns / ...
+void writeRosMap(const TemporaryFolder& folder, const std::string& yaw = "0.0")
+{
+  const unsigned char pixels[] = {0, 254, 205, 254, 254, 254, 254, 205, 205, 205, 205, 0};
+  std::string image = "P5\n4 3\n255\n";
+  for (const unsigned char pixel : pixels) image.push_back(static_cast<char>(pixel));
+  writeText(folder / "m.pgm", image);
+  writeText(folder / "m.yaml", "image: m.pgm\nresolution: 0.1\norigin: [1.0, -2.0, " + yaw +
+                                   "]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n");
+}
+
+std::string flaser(int beams, double range, const std::string& tail = "1 2 0.5 1 2 0.5 10 host 10")
+{
+  std::ostringstream line;
+  line << "FLASER " << beams;
+  for (int i = 0; i < beams; ++i) line << ' ' << range + 0.001 * i;
+  line << ' ' << tail << '\n';
+  return line.str();
+}
+}  // namespace
+
+TEST(MapSources, ReadsTheSimplemapsOfMrpt)
+{
+  const MapSource source = readMapSource(kDatasets / "localization_demo.simplemap.gz");
+  const auto& scans = std::get<std::vector<PosedScans>>(source);
+  ASSERT_GT(scans.size(), 20U);
+  EXPECT_EQ(scans.front().scans.size(), 1U);
+}
+
+TEST(MapSources, TakesPosesAndScansOfASimplemap)
+{
+  mrpt::maps::CSimpleMap simplemap;
+  const mrpt::poses::CPose3DPDFGaussian pose(mrpt::poses::CPose3D(1, 2, 0, 0.5, 0, 0));
+  simplemap.insert(pose, *makeFrame(makeScan(1.0)));
+  simplemap.insert(pose, *makeFrame(makeOdometry(1.0, {})));
+  const auto posed = posedScansOf(simplemap);
+  ASSERT_EQ(posed.size(), 1U) << "a frame without a scan gives none";
+  EXPECT_NEAR(posed[0].map_from_robot.phi, 0.5, 1e-12);
+  EXPECT_EQ(posed[0].scans[0].ranges.size(), 181U);
+}
+
+TEST(MapSources, ReadsAGridmapWithItsThreeStates)
+{
+  mrpt::maps::COccupancyGridMap2D grid(-1.0F, 1.0F, 2.0F, 3.0F, 0.1F);
+  grid.fill(0.5F);
+  grid.setCell(3, 2, 0.05F);
+  grid.setCell(4, 2, 0.95F);
+  const OccupancyRaster raster = rasterOf(grid);
+  EXPECT_EQ(raster.frame.width, grid.getSizeX());
+  EXPECT_NEAR(raster.frame.origin.x, -1.0, 1e-6);
+  EXPECT_NEAR(raster.frame.origin.y, 2.0, 1e-6);
+  const auto cell = [&](std::size_t x, std::size_t y)
+  { return raster.cells[y * raster.frame.width + x]; };
+  EXPECT_EQ(cell(3, 2), CellState::wall);
+  EXPECT_EQ(cell(4, 2), CellState::free);
+  EXPECT_EQ(cell(5, 2), CellState::unknown);
+
+  const TemporaryFolder folder;
+  writeObjects(folder / "g.gridmap", {std::make_shared<mrpt::maps::COccupancyGridMap2D>(grid)});
+  const MapSource source = readMapSource(folder / "g.gridmap");
+  EXPECT_EQ(std::get<OccupancyRaster>(source).cells, raster.cells);
+}
+
+TEST(MapSources, ReadsARosMapUprightAndInItsPlace)
+{
+  const TemporaryFolder folder;
+  writeRosMap(folder);
+  const MapSource source = readMapSource(folder / "m.yaml");
+  const auto& raster = std::get<OccupancyRaster>(source);
+  EXPECT_NEAR(raster.frame.origin.x, 1.0, 1e-6);
+  EXPECT_NEAR(raster.frame.origin.y, -2.0, 1e-6);
+  EXPECT_NEAR(raster.frame.resolution, 0.1, 1e-6);
+  ASSERT_EQ(raster.frame.width, 4U);
+  ASSERT_EQ(raster.frame.height, 3U);
+  EXPECT_EQ(raster.cells[3], CellState::wall) << "the image's last row is the map's lowest";
+  EXPECT_EQ(raster.cells[0], CellState::unknown);
+  EXPECT_EQ(raster.cells[8], CellState::wall);
+  EXPECT_EQ(raster.cells[9], CellState::free);
+  EXPECT_EQ(raster.cells[10], CellState::unknown);
+}
+
+TEST(MapSources, RefusesRosMapsItCannotHonour)
+{
+  const TemporaryFolder folder;
+  testing::internal::CaptureStderr();
+  writeRosMap(folder, "0.3");
+  EXPECT_NE(errorOf(folder / "m.yaml").find("yaw"), std::string::npos);
+  writeRosMap(folder);
+  writeText(folder / "m.pgm", "P5\n4 3\n255\n\x01");
+  EXPECT_FALSE(errorOf(folder / "m.yaml").empty());
+  std::filesystem::remove(folder / "m.pgm");
+  EXPECT_NE(errorOf(folder / "m.yaml").find("m.pgm: no such file"), std::string::npos);
+  writeText(folder / "m.yaml", "hello: [1, 2\n");
+  EXPECT_NE(errorOf(folder / "m.yaml").find("not a ROS map"), std::string::npos);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << "the library never prints";
+}
+
+TEST(MapSources, GivesFlaserMessagesTheirRightFieldOfView)
+{
+  const TemporaryFolder folder;
+  writeText(folder / "l.log", "# a comment\nPARAM a b\n" + flaser(180, 3) + flaser(181, 3) +
+                                  flaser(360, 3) + flaser(361, 3) + "ODOM 1 2 3 0 0 0 1 host 1\n");
+  const MapSource source = readMapSource(folder / "l.log");
+  const auto& log = std::get<std::vector<PosedScans>>(source);
+  ASSERT_EQ(log.size(), 4U);
+  const double degree = M_PI / 180;
+  const double steps[] = {1, 1, 0.5, 0.5};
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    const LaserScan& scan = log[i].scans[0];
+    EXPECT_NEAR(scan.first_angle, -90 * degree, 1e-9);
+    EXPECT_NEAR(scan.angle_step, steps[i] * degree, 1e-9);
+    EXPECT_EQ(log[i].map_from_robot, (mrpt::math::TPose2D{1, 2, 0.5}));
+  }
+  EXPECT_NEAR(static_cast<double>(log[0].scans[0].ranges[10]), 3.01, 1e-5);
+}
+
+TEST(MapSources, ReadsRobotLaserMessages)
+{
+  const TemporaryFolder folder;
+  writeText(folder / "l.carmen",
+            "ROBOTLASER1 0 -1.0 2.0 0.5 10.0 0.02 0 5 1 2 3 10 nan 2 7 8 4 5 0.25 4 5 0.25 0 0 0 0 "
+            "0 1.5 host 1.5\n");
+  const MapSource source = readMapSource(folder / "l.carmen");
+  const auto& log = std::get<std::vector<PosedScans>>(source);
+  ASSERT_EQ(log.size(), 1U);
+  const LaserScan& scan = log[0].scans[0];
+  EXPECT_EQ(scan.valid, (std::vector<std::uint8_t>{1, 1, 1, 0, 0}));
+  EXPECT_DOUBLE_EQ(scan.first_angle, -1.0);
+  EXPECT_DOUBLE_EQ(scan.angle_step, 0.5);
+  EXPECT_EQ(log[0].map_from_robot, (mrpt::math::TPose2D{4, 5, 0.25}));
+}
+
+TEST(MapSources, DropsReadingsClippedToOneValue)
+{
+  const TemporaryFolder folder;
+  std::string line = "FLASER 180";
+  for (int i = 0; i < 180; ++i) line += i < 90 ? " 50.0" : " 4.5";
+  writeText(folder / "l.clf", line + " 0 0 0 0 0 0 1 host 1\n");
+  const MapSource source = readMapSource(folder / "l.clf");
+  const LaserScan& scan = std::get<std::vector<PosedScans>>(source)[0].scans[0];
+  EXPECT_EQ(scan.valid[10], 0);
+  EXPECT_EQ(scan.valid[100], 1);
+}
+
+TEST(MapSources, NamesTheBadLineOfACarmenLog)
+{
+  const TemporaryFolder folder;
+  writeText(folder / "cut.log", flaser(180, 3) + flaser(180, 3).substr(0, 400));
+  EXPECT_NE(errorOf(folder / "cut.log").find("line 2: cut off"), std::string::npos);
+  writeText(folder / "none.log", "ODOM 1 2 3 0 0 0 1 host 1\n");
+  EXPECT_NE(errorOf(folder / "none.log").find("no FLASER"), std::string::npos);
+  writeText(folder / "count.log", "FLASER -3 1 2\n");
+  EXPECT_NE(errorOf(folder / "count.log").find("line 1"), std::string::npos);
+}
+
+TEST(MapSources, ReadsLandmarkRowsAndNamedColumns)
+{
+  const TemporaryFolder folder;
+  writeText(folder / "plain.txt", "# trees\n1 2\n3,4,0.25\n5;6;0.3;0.1\n");
+  MapSource source = readMapSource(folder / "plain.txt");
+  const auto& plain = std::get<FeatureMap>(source).features();
+  ASSERT_EQ(plain.size(), 3U);
+  EXPECT_EQ(plain[0].type, FeatureType::point);
+  EXPECT_EQ(plain[1].type, FeatureType::circle);
+  EXPECT_DOUBLE_EQ(plain[1].size, 0.25);
+  EXPECT_DOUBLE_EQ(plain[2].position_covariance(0, 0), 0.1 * 0.1);
+
+  writeText(folder / "named.csv", "# id,x,y,radius,var\n7,1.5,2.5,0.4,9\n");
+  source = readMapSource(folder / "named.csv");
+  const auto& named = std::get<FeatureMap>(source).features();
+  ASSERT_EQ(named.size(), 1U);
+  EXPECT_EQ(named[0].position, (mrpt::math::TPoint2D{1.5, 2.5}));
+  EXPECT_DOUBLE_EQ(named[0].size, 0.4);
+
+  writeText(folder / "bad.csv", "1,2\n1,two\n");
+  EXPECT_NE(errorOf(folder / "bad.csv").find("line 2: bad y"), std::string::npos);
+  writeText(folder / "only.csv", "# x,y\n");
+  EXPECT_NE(errorOf(folder / "only.csv").find("no landmark"), std::string::npos);
+}
+
+TEST(MapSources, NamesFileAndReasonForUnusableFilesOfEveryKind)
+{
+  const TemporaryFolder folder;
+  std::mt19937 random(20120213);
+  std::string noise(4000, '\0');
+  for (char& c : noise) c = static_cast<char>(random());
+  const std::string gridmap = readBytes(kDatasets / "uwb_ro-localization_demo_map.gridmap.gz");
+  const std::string simplemap = readBytes(kDatasets / "localization_demo.simplemap.gz");
+  testing::internal::CaptureStderr();
+  for (const char* extension : {"simplemap", "simplemap.gz", "gridmap", "gridmap.gz", "yaml", "log",
+                                "clf", "carmen", "csv", "txt", "sigmap", "unknown"})
+  {
+    const auto path = folder / (std::string("m.") + extension);
+    const auto expectRefused = [&](const char* what)
+    {
+      const std::string message = errorOf(path);
+      EXPECT_EQ(message.rfind(path.string() + ": ", 0), 0U) << what << ": " << message;
+      EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    };
+    expectRefused("missing");
+    writeText(path, "");
+    expectRefused("empty");
+    writeText(path, noise);
+    expectRefused("noise");
+    writeText(path, gridmap.substr(0, gridmap.size() / 2));
+    expectRefused("half a gridmap");
+    writeText(path, simplemap.substr(0, simplemap.size() - 3));
+    expectRefused("a simplemap that lacks its last bytes");
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << "the library never prints";
+}
+
+TEST(MapSources, ReusesACacheUntilSourceOrOptionsChange)
+{
+  const TemporaryFolder folder;
+  const auto source = folder / "m.simplemap.gz";
+  const auto cache = folder / "m.sigmap";
+  std::filesystem::copy_file(kDatasets / "localization_demo.simplemap.gz", source);
+  const CachedMap first = mapWithCache(source, cache, {}, {});
+  EXPECT_FALSE(first.reused);
+  EXPECT_GT(first.map.features().size(), 50U);
+  EXPECT_TRUE(mapWithCache(source, cache, {}, {}).reused);
+  EXPECT_TRUE(mapWithCache(cache, folder / "unused.sigmap", {}, {}).reused);
+  EXPECT_FALSE(std::filesystem::exists(folder / "unused.sigmap"));
+
+  MapBuildingOptions other;
+  other.merge_gap = 0.5;
+  EXPECT_FALSE(mapWithCache(source, cache, other, {}).reused);
+  EXPECT_FALSE(mapWithCache(source, cache, {}, {}).reused);
+  writeText(cache, "broken");
+  EXPECT_FALSE(mapWithCache(source, cache, {}, {}).reused);
+  EXPECT_EQ(loadSigmap(cache).features().size(), first.map.features().size());
+
+  std::filesystem::remove(source);
+  std::filesystem::copy_file(kDatasets / "malaga-cs-fac-building.simplemap.gz", source);
+  EXPECT_FALSE(mapWithCache(source, cache, {}, {}).reused);
+}
+
+TEST(MapSources, RefusesASourceWithoutAnyFeature)
+{
+  const TemporaryFolder folder;
+  writeRosMap(folder);
+  const auto path = folder / "m.yaml";
+  const std::string message =
+      messageOf<std::runtime_error>([&] { buildMapFromFile(path, {}, {}); });
+  EXPECT_EQ(message.rfind(path.string() + ": ", 0), 0U) << message;
+}
