@@ -132,6 +132,24 @@ void addRoomRow(World& world, double y_corridor, double y_outer, const WorldOpti
           options.wall_thickness, openings);
 }
 
+/// Returns an x well inside the world that is in front of no door, as far as a few tries find one.
+double xAwayFromDoors(const World& world, Random& random)
+{
+  constexpr double kReach = 1.0;  // [m]
+  double x = 0;
+  for (int attempt = 0; attempt < 50; ++attempt)
+  {
+    x = random.uniform(0.05, 0.95) * world.bounds.x_max;
+    bool clear = true;
+    for (const Door& door : world.doors)
+    {
+      clear = clear && (x < door.leaf.start.x - kReach || x > door.leaf.end.x + kReach);
+    }
+    if (clear) break;
+  }
+  return x;
+}
+
 World makeOffice(const WorldOptions& options, Random& random)
 {
   World world;
@@ -144,11 +162,10 @@ World makeOffice(const WorldOptions& options, Random& random)
   const double y_low = random.uniform(0.36, 0.44) * (height - corridor);
   addRoomRow(world, y_low, 0, options, random);
   addRoomRow(world, y_low + corridor, height, options, random);
-  // A cabinet in the corridor and a pillar in the way of a long sight line break its symmetry.
-  Furniture cabinet{
-      {random.uniform(0.2, 0.8) * width, y_low + 0.5 * options.wall_thickness + 0.2, 0}, 0.9, 0.36};
-  world.furniture.push_back(cabinet);
-  world.discs.push_back({{random.uniform(0.05, 0.15) * width, y_low + corridor - 0.3}, 0.18});
+  // A cabinet and a pillar along the corridor break its symmetry.
+  const double cabinet_y = y_low + 0.5 * options.wall_thickness + 0.2;
+  world.furniture.push_back({{xAwayFromDoors(world, random), cabinet_y, 0}, 0.9, 0.36});
+  world.discs.push_back({{xAwayFromDoors(world, random), y_low + corridor - 0.3}, 0.18});
   return world;
 }
 

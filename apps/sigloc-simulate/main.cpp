@@ -1,0 +1,192 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <exception>
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <sstream>
+#include <string>
+
+#include "sigloc/eval/robot_simulation.h"
+#include "sigloc/eval/simulation_files.h"
+#include "sigloc/eval/world_generators.h"
+
+namespace
+{
+/// All that the command line sets.
+struct Settings
+{
+  std::string world = "office";
+  std::uint64_t seed = 1;
+  std::uint64_t drive_seed = 0;
+  std::string log = "action-frame";
+  std::string out;
+  double map_spacing = 1.5;
+  double resolution = 0.05;
+  sigloc::WorldOptions layout;
+  sigloc::WorldChangeOptions changes;
+  sigloc::LaserOptions laser;
+  sigloc::LandmarkSensorOptions landmarks;
+  sigloc::DriveOptions drive;
+  sigloc::OdometryOptions odometry;
+};
+
+/// Adds one flag for each field of an options table, named after its key: range_sigma becomes
+/// --range-sigma. Short names that people type are given as aliases.
+template <class Options>
+void addFlags(CLI::App& app, Options& options, const std::string& group, const std::string& prefix,
+              const std::map<std::string, std::string>& aliases = {})
+{
+  Options::visitFields(
+      [&](const auto& field)
+      {
+        std::string name = "--" + prefix + field.key;
+        std::replace(name.begin(), name.end(), '_', '-');
+        const auto alias = aliases.find(field.key);
+        if (alias != aliases.end()) name = alias->second + "," + name;
+        app.add_option(name, options.*(field.member), field.description)
+            ->group(group)
+            ->capture_default_str();
+      });
+}
+
+void describeOptions(CLI::App& app, Settings& settings)
+{
+  app.add_option("--world", settings.world, "office, corridor, hall, park or points")
+      ->check(CLI::IsMember({"office", "corridor", "hall", "park", "points"}))
+      ->capture_default_str();
+  app.add_option("--seed", settings.seed, "of the world and, by default, of the drive")
+      ->capture_default_str();
+  app.add_option("--drive-seed", settings.drive_seed, "another drive in the same world");
+  app.add_option("--log", settings.log, "kind of rawlog: action-frame or observations")
+      ->check(CLI::IsMember({"action-frame", "observations"}))
+      ->capture_default_str();
+  app.add_option("--map-spacing", settings.map_spacing, "[m] between the mapping scans")
+      ->check(CLI::Range(0.2, 100.0))
+      ->capture_default_str();
+  app.add_option("--resolution", settings.resolution, "[m] of the grid map")
+      ->check(CLI::Range(0.005, 1.0))
+      ->capture_default_str();
+  app.add_option("--out", settings.out, "folder for the files; made when missing")->required();
+  addFlags(app, settings.layout, "World", "", {{"furniture_per_room", "--furniture"}});
+  addFlags(app, settings.changes, "What the drive finds changed since the map was made", "drive-",
+           {{"moved_share", "--moved-share"}, {"extra_items", "--unmapped"}});
+  addFlags(app, settings.laser, "Laser", "",
+           {{"fov_deg", "--fov"},
+            {"max_range", "--range"},
+            {"range_sigma", "--noise"},
+            {"clutter_share", "--clutter"}});
+  addFlags(app, settings.landmarks, "Landmark sensor (world points)", "landmark-");
+  addFlags(app, settings.drive, "Drive", "", {{"max_steps", "--steps"}});
+  addFlags(app, settings.odometry, "Odometry", "odometry-");
+}
+
+/// The note that goes with the files: how to make them again, and what they are.
+std::string readmeOf(const std::string& command, const std::string& files)
+{
+  return "# A simulated world\n\nMade by\n\n    " + command +
+         "\n\nwhich gives the same bytes each time. Lengths are in metres, angles in radians.\n\n" +
+         files;
+}
+
+void simulateLandmarks(const Settings& settings, const std::filesystem::path& out,
+                       const sigloc::World& world, const std::string& command)
+{
+  using namespace sigloc;
+  const LandmarkSimulator sensor(world, settings.landmarks);
+  Random random(settings.seed, 20);
+  const auto steps = simulateLandmarkDrive(world, settings.drive, settings.odometry,
+                                           settings.landmarks, settings.drive_seed);
+  const auto kind =
+      settings.log == "observations" ? RawlogKind::observations : RawlogKind::action_frame;
+  std::filesystem::create_directories(out);
+  writeLandmarks(sensor.mappedLandmarks(random), out / "map.txt");
+  writeRawlog(steps, settings.odometry, kind, out / "drive.rawlog");
+  writeTruth(steps, out / "truth.txt");
+  writeText(readmeOf(command,
+                     "* `map.txt`: the mapped landmarks, rows `x y radius sigma`\n"
+                     "* `drive.rawlog`: odometry and bearing-range observations\n"
+                     "* `truth.txt`: the true path, rows `time x y phi`\n"),
+            out / "README.md");
+}
+
+void simulateLaser(const Settings& settings, const std::filesystem::path& out,
+                   const sigloc::World& world, const std::string& command)
+{
+  using namespace sigloc;
+  const auto mapping = simulateMapping(world, settings.map_spacing, settings.drive.clearance,
+                                       settings.laser, settings.seed);
+  const World driven = changedWorld(world, settings.changes, settings.seed);
+  const auto steps =
+      simulateDrive(driven, settings.drive, settings.odometry, settings.laser, settings.drive_seed);
+  const auto kind =
+      settings.log == "observations" ? RawlogKind::observations : RawlogKind::action_frame;
+  std::filesystem::create_directories(out);
+  writeSimpleMap(mapping, out / "map.simplemap");
+  writeGridMap(world, settings.resolution, out / "map.gridmap.gz");
+  writeRawlog(steps, settings.odometry, kind, out / "drive.rawlog");
+  writeTruth(steps, out / "truth.txt");
+  writeText(readmeOf(command,
+                     "* `map.simplemap`: mapping scans with their exact poses\n"
+                     "* `map.gridmap.gz`: the same world as an occupancy grid\n"
+                     "* `drive.rawlog`: odometry and scans of a drive; the mapping scans are not "
+                     "in it\n"
+                     "* `truth.txt`: the true path, rows `time x y phi`\n"),
+            out / "README.md");
+}
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  Settings settings;
+  CLI::App app{
+      "Makes a world from a seed, maps of it, a log of a robot driving through, and truth."};
+  describeOptions(app, settings);
+  try
+  {
+    app.parse(argc, argv);
+  }
+  catch (const CLI::CallForHelp& help)
+  {
+    return app.exit(help);
+  }
+  catch (const CLI::ParseError& error)
+  {
+    std::cerr << "sigloc-simulate: " << error.what() << "\n";
+    return 1;
+  }
+  if (app.count("--drive-seed") == 0) settings.drive_seed = settings.seed;
+  std::ostringstream command;
+  command << "sigloc-simulate";
+  for (int i = 1; i < argc; ++i)
+  {
+    // The folder is where the reader found the note: naming another would only mislead.
+    const std::string argument = argv[i];
+    if (argument == "--out")
+    {
+      ++i;
+      command << " --out DIR";
+    }
+    else
+    {
+      command << " " << (argument.rfind("--out=", 0) == 0 ? "--out DIR" : argument);
+    }
+  }
+  try
+  {
+    const sigloc::WorldKind kind = sigloc::worldKindFrom(settings.world);
+    const sigloc::World world = sigloc::makeWorld(kind, settings.layout, settings.seed);
+    const auto simulate = kind == sigloc::WorldKind::points ? simulateLandmarks : simulateLaser;
+    simulate(settings, settings.out, world, command.str());
+  }
+  catch (const std::exception& error)
+  {
+    std::cerr << "sigloc-simulate: " << error.what() << "\n";
+    return 1;
+  }
+  return 0;
+}

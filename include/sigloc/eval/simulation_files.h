@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mrpt/obs/CObservation2DRangeScan.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "sigloc/eval/FreeSpace.h"
+#include "sigloc/eval/robot_simulation.h"
+
+namespace sigloc
+{
+/// The two kinds of rawlog MRPT knows.
+enum class RawlogKind : std::uint8_t
+{
+  action_frame = 0,  ///< pairs of action collection and sensory frame
+  observations = 1,  ///< observations only, odometry among them, as rawlog-grabber writes
+};
+
+// All writers below make ordinary files of MRPT's own classes. Equal arguments give equal bytes.
+// Each writes beside its target first and renames, so that no half-written file is ever left;
+// each throws std::runtime_error naming the path and the reason.
+
+/// Returns a scan as MRPT stores it, at `time` [s since 1970], labelled "LASER".
+mrpt::obs::CObservation2DRangeScan::Ptr toRangeScan(const LaserScan& scan, double time);
+
+/// Writes a `.simplemap`: one key frame an entry, with a pose known to a millimetre.
+void writeSimpleMap(const std::vector<PosedScans>& scans, const std::filesystem::path& path);
+
+/// Writes a `.gridmap.gz`: cells that a surface touches are occupied, those the robot's space
+/// reaches free, the others unknown. `resolution` in metres.
+void writeGridMap(const World& world, double resolution, const std::filesystem::path& path);
+
+/// Writes a `.rawlog`. Steps with a scan get a CObservation2DRangeScan, steps with landmarks a
+/// CObservationBearingRange without identities.
+void writeRawlog(const std::vector<DriveStep>& steps, const OdometryOptions& odometry,
+                 RawlogKind kind, const std::filesystem::path& path);
+
+/// Writes the true path: rows `time x y phi`.
+void writeTruth(const std::vector<DriveStep>& steps, const std::filesystem::path& path);
+
+/// Writes a landmark file: rows `x y radius sigma`.
+void writeLandmarks(const std::vector<Feature>& landmarks, const std::filesystem::path& path);
+
+/// Writes a text file.
+void writeText(const std::string& text, const std::filesystem::path& path);
+}  // namespace sigloc
