@@ -9,7 +9,9 @@
 #include <iostream>
 #include <map>
 #include <sstream>
+#include <stdexcept>
 #include <string>
+#include <system_error>
 
 #include "sigloc/eval/robot_simulation.h"
 #include "sigloc/eval/simulation_files.h"
@@ -93,6 +95,13 @@ std::string readmeOf(const std::string& command, const std::string& files)
          files;
 }
 
+void makeFolder(const std::filesystem::path& path)
+{
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (error) throw std::runtime_error(path.string() + ": " + error.message());
+}
+
 void simulateLandmarks(const Settings& settings, const std::filesystem::path& out,
                        const sigloc::World& world, const std::string& command)
 {
@@ -103,7 +112,7 @@ void simulateLandmarks(const Settings& settings, const std::filesystem::path& ou
                                            settings.landmarks, settings.drive_seed);
   const auto kind =
       settings.log == "observations" ? RawlogKind::observations : RawlogKind::action_frame;
-  std::filesystem::create_directories(out);
+  makeFolder(out);
   writeLandmarks(sensor.mappedLandmarks(random), out / "map.txt");
   writeRawlog(steps, settings.odometry, kind, out / "drive.rawlog");
   writeTruth(steps, out / "truth.txt");
@@ -125,7 +134,7 @@ void simulateLaser(const Settings& settings, const std::filesystem::path& out,
       simulateDrive(driven, settings.drive, settings.odometry, settings.laser, settings.drive_seed);
   const auto kind =
       settings.log == "observations" ? RawlogKind::observations : RawlogKind::action_frame;
-  std::filesystem::create_directories(out);
+  makeFolder(out);
   writeSimpleMap(mapping, out / "map.simplemap");
   writeGridMap(world, settings.resolution, out / "map.gridmap.gz");
   writeRawlog(steps, settings.odometry, kind, out / "drive.rawlog");

@@ -20,6 +20,15 @@ namespace
 {
 constexpr double kLookAhead = 0.6;  // [m]
 
+/// Micrometres and microradians: real encoders are coarser by far, and logs stay the same where
+/// another processor's sine differs in its last bit.
+TPose2D rounded(const TPose2D& pose)
+{
+  constexpr double kSteps = 1e6;
+  return {std::round(pose.x * kSteps) / kSteps, std::round(pose.y * kSteps) / kSteps,
+          std::round(pose.phi * kSteps) / kSteps};
+}
+
 /// A path that grows: new way-points are planned when the look-ahead point runs off its end.
 class EndlessPath
 {
@@ -114,8 +123,8 @@ std::vector<MotionIncrement> simulateOdometry(const std::vector<TPose2D>& truth,
     Eigen::Vector3d noise;
     for (int k = 0; k < 3; ++k) noise[k] = random.normal();
     noise = root * noise;
-    motions[i].mean = {exact.x + noise[0], exact.y + noise[1],
-                       mrpt::math::wrapToPi(exact.phi + noise[2])};
+    motions[i].mean = rounded(
+        {exact.x + noise[0], exact.y + noise[1], mrpt::math::wrapToPi(exact.phi + noise[2])});
   }
   return motions;
 }
@@ -137,7 +146,7 @@ std::vector<DriveStep> simulateMotion(const World& world, const DriveOptions& dr
     summed = summed + motions[i].mean;
     steps[i].time = kSimulationEpoch + drive.step_time * static_cast<double>(i);
     steps[i].world_from_robot = truth[i];
-    steps[i].odometry = summed;
+    steps[i].odometry = rounded(summed);
     steps[i].motion = motions[i];
   }
   return steps;

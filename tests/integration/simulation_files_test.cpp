@@ -14,12 +14,11 @@
 
 #include <cmath>
 #include <fstream>
-#include <iterator>
-#include <sstream>
 #include <string>
 
 #include <Eigen/Core>
 
+#include "bridge/rawlog_files.h"
 #include "sigloc/bridge/scan_conversion.h"
 #include "sigloc/eval/world_generators.h"
 
@@ -30,32 +29,22 @@ namespace
 namespace fs = std::filesystem;
 using mrpt::math::TPose2D;
 
-std::string bytesOf(const fs::path& path)
-{
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 class SimulationFiles : public ::testing::Test
 {
  protected:
   void SetUp() override
   {
-    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(::testing::TempDir()) / (std::string("sigloc_files_") + info->name());
-    fs::create_directories(folder_);
     drive_.metres = 10;
     laser_.sensor_x = 0.2;
     laser_.range_step = 0.001;
     steps_ = simulateDrive(world_, drive_, {}, laser_, 5);
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
   const World world_ = makeWorld(WorldKind::office, {}, 3);
   DriveOptions drive_;
   LaserOptions laser_;
   std::vector<DriveStep> steps_;
-  fs::path folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(SimulationFiles, ActionFrameLogReadsBack)
@@ -188,9 +177,9 @@ TEST_F(SimulationFiles, EqualInputsGiveEqualBytes)
   write("two");
   for (const char* kind : {".a", ".o", ".s", ".g", ".t"})
   {
-    const std::string first = bytesOf(folder_ / (std::string("one") + kind));
+    const std::string first = test::readBytes(folder_ / (std::string("one") + kind));
     EXPECT_GT(first.size(), 500U) << kind;
-    EXPECT_EQ(first, bytesOf(folder_ / (std::string("two") + kind))) << kind;
+    EXPECT_EQ(first, test::readBytes(folder_ / (std::string("two") + kind))) << kind;
   }
 }
 
@@ -212,7 +201,7 @@ TEST_F(SimulationFiles, TruthHasOneRowAStep)
 
 TEST_F(SimulationFiles, FailuresNameThePathAndLeaveNothing)
 {
-  const fs::path path = folder_ / "missing" / "a.rawlog";
+  const fs::path path = folder_ / "missing/a.rawlog";
   try
   {
     writeRawlog(steps_, {}, RawlogKind::action_frame, path);
@@ -222,7 +211,7 @@ TEST_F(SimulationFiles, FailuresNameThePathAndLeaveNothing)
   {
     EXPECT_EQ(std::string(error.what()).rfind(path.string() + ": ", 0), 0U) << error.what();
   }
-  EXPECT_TRUE(fs::is_empty(folder_));
+  EXPECT_TRUE(fs::is_empty(folder_.path()));
 }
 }  // namespace
 }  // namespace sigloc
