@@ -46,7 +46,7 @@ std::vector<std::int16_t> columnOffsets(const OccupancyRaster& raster, std::int3
     for (std::size_t x = 0; x < width; ++x)
     {
       const auto row = static_cast<std::int32_t>(y);
-      if (raster.cells[y * width + x] == CellState::wall) last[x] = row;
+      if (isWall(raster.cells[y * width + x])) last[x] = row;
       if (row - last[x] <= radius)
       {
         offsets[y * width + x] = static_cast<std::int16_t>(last[x] - row);
@@ -59,7 +59,7 @@ std::vector<std::int16_t> columnOffsets(const OccupancyRaster& raster, std::int3
     for (std::size_t x = 0; x < width; ++x)
     {
       const auto row = static_cast<std::int32_t>(y);
-      if (raster.cells[y * width + x] == CellState::wall) last[x] = row;
+      if (isWall(raster.cells[y * width + x])) last[x] = row;
       std::int16_t& offset = offsets[y * width + x];
       if (last[x] - row <= radius && last[x] - row < std::abs(offset))
       {
@@ -149,7 +149,7 @@ DenseField buildDenseField(const OccupancyRaster& raster)
       DenseCell& cell = field.cells[row + column];
       cell.state = raster.cells[row + column];
       if (cell.state == CellState::free) ++free_cells;
-      if (cell.state == CellState::wall) ++field.wall_cells;
+      if (isWall(cell.state)) ++field.wall_cells;
       if (nearest[column] < 0) continue;
       const std::int32_t dx = nearest[column] - x;
       const std::int32_t dy = offsets[row + static_cast<std::size_t>(nearest[column])];

@@ -27,7 +27,7 @@ std::optional<double> RayCaster::cast(const mrpt::math::TPoint2D& origin, double
     const auto ix = static_cast<std::size_t>(x);
     const auto iy = static_cast<std::size_t>(y);
     const DenseCell& cell = field_.cells[iy * frame.width + ix];
-    if (cell.state == CellState::wall) return along * resolution;
+    if (isWall(cell.state)) return along * resolution;
     // The distance is between cell centres: a ray may come nearer by up to two half diagonals.
     const double clear = cell.distance * kUnit / resolution - 1.42;
     along += std::max(clear, 0.35);

@@ -22,6 +22,7 @@ namespace
 constexpr std::size_t kCastBeams = 360;
 constexpr double kCastClearance = 0.2;  // [m], a scanner does not stand nearer to a wall
 constexpr double kCastSigma = 0.02;  // [m], of a cast range: the raster's cells
+constexpr double kCellsOffLine = 1.2;  // [cells]
 constexpr double kEndOnLine = 0.2;  // [m], distance of a wall end from the line it ends
 
 /// The length of a mapped wall end is that of the linked wall behind it.
@@ -141,8 +142,16 @@ FeatureMap buildMapFromRaster(const OccupancyRaster& raster, const MapBuildingOp
   {
     throw std::invalid_argument("buildMapFromRaster: the raster has no wall");
   }
+  // A wall drawn in cells is a staircase: what counts as straight grows with the cell.
+  FeatureExtractorOptions cast_extraction = extraction;
+  cast_extraction.split_distance =
+      std::max(extraction.split_distance, kCellsOffLine * raster.frame.resolution);
+  MapBuildingOptions cast_merging = options;
+  cast_merging.min_sightings = options.min_cast_sightings;
+  cast_merging.merge_offset =
+      std::max(options.merge_offset, kCellsOffLine * raster.frame.resolution);
   const RayCaster caster(field);
-  FeatureMerger merger(options);
+  FeatureMerger merger(cast_merging);
   const auto block = static_cast<std::uint32_t>(
       std::max(1.0, std::round(options.cast_spacing / raster.frame.resolution)));
   for (std::uint32_t y = 0; y < raster.frame.height; y += block)
@@ -152,7 +161,7 @@ FeatureMap buildMapFromRaster(const OccupancyRaster& raster, const MapBuildingOp
       const auto place = standingPlace(field, x, y, block);
       if (!place) continue;
       const LaserScan scan = castScan(caster, *place, options.cast_range);
-      addScene(observeScene({scan}, extraction), {place->x, place->y, 0}, merger);
+      addScene(observeScene({scan}, cast_extraction), {place->x, place->y, 0}, merger);
     }
   }
   std::vector<Feature> features = merger.features();

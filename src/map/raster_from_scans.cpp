@@ -13,6 +13,7 @@ using mrpt::math::TPose2D;
 
 namespace
 {
+constexpr std::uint16_t kSolidScans = 2;  // that must have hit a solid wall
 constexpr double kBorder = 1.5;  // [m] around the outermost return
 constexpr double kMaxCells = 4e8;  // refuses absurd extents before allocating
 
@@ -85,46 +86,62 @@ std::size_t cellOf(const RasterFrame& frame, const TPoint2D& p)
   return y * frame.width + x;
 }
 
-/// Marks the cells a beam passes, up to one cell before its end.
-void markFree(const RasterFrame& frame, const TPoint2D& origin, const TPoint2D& end,
-              std::vector<CellState>& cells)
-{
-  const TPoint2D beam = end - origin;
-  const double length = beam.norm();
-  const auto steps = static_cast<std::int64_t>(length / frame.resolution - 1.0);
-  for (std::int64_t k = 0; k < steps; ++k)
-  {
-    const double share = static_cast<double>(k) * frame.resolution / length;
-    cells[cellOf(frame, origin + beam * share)] = CellState::free;
-  }
-}
-
-/// Counts in how many scans each cell was hit (saturating); one scan counts a cell once.
-class HitCounter
+/// Counts, cell by cell, the scans that hit it and the beams that hit and passed it (saturating).
+class BeamCounter
 {
  public:
-  explicit HitCounter(const RasterFrame& frame)
-      : frame_(frame),
-        hits_(static_cast<std::size_t>(frame.width) * frame.height),
-        last_(hits_.size(), 0)
+  explicit BeamCounter(const RasterFrame& frame)
+      : frame_(frame), counts_(static_cast<std::size_t>(frame.width) * frame.height)
   {
   }
 
-  void add(const TPoint2D& end, std::uint32_t scan_stamp)
+  /// A beam passes the cells up to one cell before its end, which it hits.
+  void add(const TPoint2D& origin, const TPoint2D& end, std::uint32_t scan_stamp)
   {
-    const std::size_t cell = cellOf(frame_, end);
-    if (last_[cell] == scan_stamp) return;
-    last_[cell] = scan_stamp;
-    if (hits_[cell] < 255) ++hits_[cell];
+    const TPoint2D beam = end - origin;
+    const double length = beam.norm();
+    const auto steps = static_cast<std::int64_t>(length / frame_.resolution - 1.0);
+    for (std::int64_t k = 0; k < steps; ++k)
+    {
+      const double share = static_cast<double>(k) * frame_.resolution / length;
+      increase(counts_[cellOf(frame_, origin + beam * share)].passes);
+    }
+    Count& hit = counts_[cellOf(frame_, end)];
+    increase(hit.hits);
+    if (hit.last_scan == scan_stamp) return;
+    hit.last_scan = scan_stamp;
+    increase(hit.scans);
   }
 
-  /// A hit cell is wall when it, or it with its neighbours, was hit often enough: a far wall
+  CellState stateOf(std::size_t x, std::size_t y, std::uint32_t min_scans) const
+  {
+    const Count& count = counts_[y * frame_.width + x];
+    if (!hitOften(x, y, min_scans)) return count.passes > 0 ? CellState::free : CellState::unknown;
+    const bool solid = count.scans >= kSolidScans && count.hits >= count.passes;
+    return solid ? CellState::solid_wall : CellState::wall;
+  }
+
+ private:
+  struct Count
+  {
+    std::uint32_t last_scan = 0;
+    std::uint16_t hits = 0;
+    std::uint16_t passes = 0;
+    std::uint16_t scans = 0;
+  };
+
+  static void increase(std::uint16_t& count)
+  {
+    if (count < 65535) ++count;
+  }
+
+  /// A cell was hit often enough by itself or, once hit, together with its neighbours: a far wall
   /// spreads over two or three cells.
-  bool isWall(std::size_t x, std::size_t y, std::uint32_t min_hits) const
+  bool hitOften(std::size_t x, std::size_t y, std::uint32_t min_scans) const
   {
-    const std::size_t cell = y * frame_.width + x;
-    if (hits_[cell] == 0) return false;
-    if (hits_[cell] >= min_hits) return true;
+    const Count& count = counts_[y * frame_.width + x];
+    if (count.scans == 0) return false;
+    if (count.scans >= min_scans) return true;
     std::uint32_t sum = 0;
     const std::size_t right = std::min<std::size_t>(x + 1, frame_.width - 1);
     const std::size_t top = std::min<std::size_t>(y + 1, frame_.height - 1);
@@ -132,16 +149,14 @@ class HitCounter
     {
       for (std::size_t i = x == 0 ? 0 : x - 1; i <= right; ++i)
       {
-        sum += hits_[j * frame_.width + i];
+        sum += counts_[j * frame_.width + i].scans;
       }
     }
-    return sum > min_hits;
+    return sum >= min_scans;
   }
 
- private:
   const RasterFrame& frame_;
-  std::vector<std::uint8_t> hits_;
-  std::vector<std::uint32_t> last_;
+  std::vector<Count> counts_;
 };
 }  // namespace
 
@@ -151,25 +166,22 @@ OccupancyRaster rasterFromScans(const std::vector<PosedScans>& scans,
   OccupancyRaster raster;
   raster.frame = frameOf(scans, options);
   const RasterFrame& frame = raster.frame;
-  raster.cells.assign(static_cast<std::size_t>(frame.width) * frame.height, CellState::unknown);
+  raster.cells.resize(static_cast<std::size_t>(frame.width) * frame.height);
 
-  HitCounter hits(frame);
+  BeamCounter counter(frame);
   std::uint32_t stamp = 0;
   for (const PosedScans& posed : scans)
   {
     ++stamp;
     forEachReturn(posed, options.raster_range,
                   [&](const TPoint2D& origin, const TPoint2D& end)
-                  {
-                    markFree(frame, origin, end, raster.cells);
-                    hits.add(end, stamp);
-                  });
+                  { counter.add(origin, end, stamp); });
   }
   for (std::size_t y = 0; y < frame.height; ++y)
   {
     for (std::size_t x = 0; x < frame.width; ++x)
     {
-      if (hits.isWall(x, y, options.min_hits)) raster.cells[y * frame.width + x] = CellState::wall;
+      raster.cells[y * frame.width + x] = counter.stateOf(x, y, options.min_hits);
     }
   }
   return raster;

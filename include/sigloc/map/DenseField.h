@@ -14,8 +14,15 @@ enum class CellState : std::uint8_t
 {
   unknown = 0,
   free = 1,
-  wall = 2,
+  wall = 2,  ///< something was hit here
+  solid_wall = 3,  ///< hit more often than passed: no beam goes through
 };
+
+/// True for wall and solid wall.
+inline bool isWall(CellState state)
+{
+  return state >= CellState::wall;
+}
 
 /// A raster over the map plane, row by row from the lower left corner: cell (ix, iy) covers
 /// [origin + resolution * i, origin + resolution * (i + 1)).

@@ -21,10 +21,11 @@ struct MapBuildingOptions
 {
   double raster_resolution = 0.05;
   double raster_range = 30.0;
-  std::uint32_t min_hits = 2;
-  double cast_spacing = 1.0;
+  std::uint32_t min_hits = 1;
+  double cast_spacing = 1.5;
   double cast_range = 15.0;
   std::uint32_t min_sightings = 2;
+  std::uint32_t min_cast_sightings = 4;
   double merge_offset = 0.10;
   double merge_angle = 0.10;
   double merge_gap = 0.3;
@@ -39,13 +40,15 @@ struct MapBuildingOptions
     visit(OptionField{"raster_range", &O::raster_range, 1.0, 1000.0,
                       "[m] returns beyond this are not drawn into the raster"});
     visit(OptionField{"min_hits", &O::min_hits, 1U, 100U,
-                      "[-] scans that must hit a cell before it is wall"});
+                      "[-] scans that must hit a cell, with its neighbours, before it is wall"});
     visit(OptionField{"cast_spacing", &O::cast_spacing, 0.2, 10.0,
                       "[m] distance of the scans simulated in a grid map"});
     visit(OptionField{"cast_range", &O::cast_range, 1.0, 100.0,
                       "[m] range of the scans simulated in a grid map"});
     visit(OptionField{"min_sightings", &O::min_sightings, 1U, 100U,
                       "[-] scans in which a map feature must have been seen"});
+    visit(OptionField{"min_cast_sightings", &O::min_cast_sightings, 1U, 100U,
+                      "[-] simulated scans of a grid in which a map feature must have been seen"});
     visit(OptionField{"merge_offset", &O::merge_offset, 0.01, 1.0,
                       "[m] segments merge when their lines are this close"});
     visit(OptionField{"merge_angle", &O::merge_angle, 0.01, 1.0,

@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "sigloc/config/option_fields.h"
+#include "sigloc/features/Feature.h"
+#include "sigloc/map/FeatureMap.h"
+#include "sigloc/matching/DenseVerifier.h"
+
+namespace sigloc
+{
+struct BaseProposerOptions
+{
+  std::uint32_t budget = 20000;
+  std::uint32_t slid_walls = 2;
+  double slide_step = 0.3;
+  double overhang = 0.3;
+  double length_tolerance = 0.3;
+  double pair_tolerance = 0.15;
+  double pair_range = 15.0;
+  std::uint32_t max_pairs = 6;
+
+  template <class V>
+  static void visitFields(V&& visit)
+  {
+    using O = BaseProposerOptions;
+    visit(OptionField{"budget", &O::budget, 1U, 100000000U, "[-] most proposals of one scene"});
+    visit(OptionField{"slid_walls", &O::slid_walls, 0U, 100U,
+                      "[-] observed walls that are slid along the mapped ones"});
+    visit(OptionField{"slide_step", &O::slide_step, 0.05, 5.0, "[m] step of a slid wall"});
+    visit(OptionField{"overhang", &O::overhang, 0.0, 1.0,
+                      "[-] share of an observed wall that may lie beyond the mapped one"});
+    visit(OptionField{"length_tolerance", &O::length_tolerance, 0.0, 5.0,
+                      "[m] by which an observed wall may be longer than the mapped one"});
+    visit(OptionField{"pair_tolerance", &O::pair_tolerance, 0.01, 2.0,
+                      "[m] gate on the distance of two circles"});
+    visit(OptionField{"pair_range", &O::pair_range, 0.5, 100.0,
+                      "[m] largest distance of a pair of circles"});
+    visit(OptionField{"max_pairs", &O::max_pairs, 0U, 1000U,
+                      "[-] observed pairs of circles tried, rarest distance first"});
+  }
+};
+
+/// Mode (e): poses from bases so small that their evidence alone would mean little, to be judged
+/// densely: one wall end, one wall slid along the mapped ones, or a rare pair of circles.
+/// Const and thread-safe. \cite algorithm section 4
+class BaseProposer
+{
+ public:
+  /// Keeps a reference to the map, which must outlive the proposer.
+  explicit BaseProposer(const FeatureMap& map, const BaseProposerOptions& options = {});
+
+  /// Returns the poses proposed for observed features, the most telling bases first, at most
+  /// `budget` of them.
+  std::vector<PoseProposal> propose(const std::vector<Feature>& observed) const;
+
+ private:
+  struct MappedWall
+  {
+    double direction;  // normal [rad]
+    mrpt::math::TPoint2D start;  // of the linked wall [m]
+    double length;  // [m]
+  };
+  struct CirclePair
+  {
+    double distance;
+    std::uint32_t from, to;
+  };
+
+  void proposeWallEnds(const std::vector<Feature>& observed, std::vector<PoseProposal>& out) const;
+  void proposeSlidWalls(const std::vector<Feature>& observed, std::vector<PoseProposal>& out) const;
+  void proposeCirclePairs(const std::vector<Feature>& observed,
+                          std::vector<PoseProposal>& out) const;
+
+  const FeatureMap& map_;
+  BaseProposerOptions options_;
+  std::array<std::vector<std::uint32_t>, 2> wall_ends_;  // by side, longest wall first
+  std::vector<MappedWall> walls_;  // longest first
+  std::vector<CirclePair> pairs_;  // by distance
+};
+}  // namespace sigloc

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mrpt/math/TPose2D.h>
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "sigloc/features/ObservedScene.h"
+#include "sigloc/geometry/GaussianPose.h"
+#include "sigloc/map/DenseField.h"
+
+namespace sigloc
+{
+/// The returns of a scene, laid out for look-ups. Interleaved: any prefix of the order is spread
+/// evenly over the scan, so "the first 24" is a fair sample.
+struct DenseScan
+{
+  std::vector<float> x, y;  ///< [m], robot frame
+  std::vector<float> nx,
+      ny;  ///< unit normal of the wall a return lies on, robot frame; (0, 0): none
+  std::vector<std::uint32_t> origin;  ///< index into origins
+  std::vector<mrpt::math::TPoint2D> origins;
+  std::size_t size() const { return x.size(); }
+};
+
+/// Returns the scene's returns interleaved; with more than `max_beams`, an even choice of them.
+DenseScan makeDenseScan(const ObservedScene& scene, std::size_t max_beams);
+
+/// A pose to be judged.
+struct PoseProposal
+{
+  float x = 0;  ///< [m]
+  float y = 0;  ///< [m]
+  float phi = 0;  ///< [rad]
+};
+
+/// What the dense field says of a pose; all shares are of the returns used.
+struct DenseEvidence
+{
+  double fine = 0;  ///< mean likelihood, sigma 0.12 m, in [0, 1]
+  double coarse = 0;  ///< mean likelihood, sigma 0.25 m, in [0, 1]
+  double through_wall = 0;  ///< share of beams that pass a mapped wall before their end
+  double in_free = 0;  ///< share that ends in known free space, away from any wall
+  double unknown = 0;  ///< share that ends where the map knows nothing
+  double score = 0;  ///< the one figure to rank by, \cite algorithm section 6
+};
+
+/// A proposal that survived the cascade.
+struct RankedPose
+{
+  mrpt::math::TPose2D pose;
+  DenseEvidence evidence;
+};
+
+/// Judges poses by the dense field. Never searches: every pose comes from a proposal and is
+/// refined by at most 0.5 m and 10 degrees. Const and thread-safe. \cite algorithm section 6
+class DenseVerifier
+{
+ public:
+  /// Keeps a reference to the field, which must outlive the verifier. Throws std::invalid_argument
+  /// for a field without cells.
+  explicit DenseVerifier(const DenseField& field);
+
+  /// Returns at most `max_ranked` distinct poses (more than 0.5 m or 17 degrees apart), best first.
+  /// `poses_scored` is increased by the number of poses looked up.
+  std::vector<RankedPose> rank(const DenseScan& scan, const std::vector<PoseProposal>& proposals,
+                               std::size_t max_ranked, std::uint64_t& poses_scored) const;
+
+  /// Returns the pose moved to fit the returns, within 0.5 m and 10 degrees of the start, by
+  /// `steps` of iterated closest points on the first `beams` returns.
+  mrpt::math::TPose2D refine(const DenseScan& scan, const mrpt::math::TPose2D& start, int steps,
+                             std::size_t beams) const;
+
+  /// Returns the full evidence for a pose.
+  DenseEvidence evaluate(const DenseScan& scan, const mrpt::math::TPose2D& pose) const;
+
+  /// Returns the 3x3 covariance of a refined pose [m^2, m rad, rad^2]: the returns' information
+  /// with `range_sigma` [m] a beam, tempered for correlated neighbours, plus `common_sigma` [m].
+  mrpt::math::CMatrixDouble33 covarianceAt(const DenseScan& scan, const mrpt::math::TPose2D& pose,
+                                           double common_sigma) const;
+
+  const DenseField& field() const { return field_; }
+
+ private:
+  float quickScore(const float* x, const float* y, std::size_t count, const PoseProposal& p) const;
+  double throughWallShare(const DenseScan& scan, const mrpt::math::TPose2D& pose) const;
+
+  const DenseField& field_;
+  RasterFrame quick_frame_;  ///< coarser raster of likelihoods for the first look
+  std::vector<std::uint8_t> quick_;  ///< with a border that is never left
+};
+}  // namespace sigloc

@@ -1,0 +1,205 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sigloc/matching/BaseProposer.h"
+
+#include <mrpt/math/wrap2pi.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sigloc
+{
+using mrpt::math::TPoint2D;
+using mrpt::math::wrapToPi;
+
+namespace
+{
+constexpr double kParallel = 0.35;  // [rad], walls closer than this tell the same
+constexpr double kMinPairDistance = 0.8;  // [m], shorter pairs give poor headings
+constexpr double kRadiusTolerance = 0.3;  // [m], an observed radius is good to this only
+
+/// The pose that turns by `phi` and carries a point of the robot frame to one of the map.
+PoseProposal poseCarrying(const TPoint2D& in_robot, const TPoint2D& in_map, double phi)
+{
+  const double c = std::cos(phi);
+  const double s = std::sin(phi);
+  return {static_cast<float>(in_map.x - c * in_robot.x + s * in_robot.y),
+          static_cast<float>(in_map.y - s * in_robot.x - c * in_robot.y), static_cast<float>(phi)};
+}
+}  // namespace
+
+BaseProposer::BaseProposer(const FeatureMap& map, const BaseProposerOptions& options)
+    : map_(map), options_(options)
+{
+  checkOptions(options);
+  const std::vector<Feature>& features = map.features();
+  std::vector<std::uint32_t> circles;
+  for (std::uint32_t k = 0; k < features.size(); ++k)
+  {
+    const Feature& feature = features[k];
+    if (feature.type == FeatureType::wall_end)
+    {
+      wall_ends_[static_cast<std::size_t>(feature.side)].push_back(k);
+    }
+    if (feature.type == FeatureType::circle) circles.push_back(k);
+  }
+  for (auto& ends : wall_ends_)
+  {
+    std::sort(ends.begin(), ends.end(),
+              [&](std::uint32_t a, std::uint32_t b) {
+                return features[a].size != features[b].size ? features[a].size > features[b].size
+                                                            : a < b;
+              });
+  }
+  for (const WallLine& line : map.lines())
+  {
+    const Feature& first = features[line.members.front()];
+    const TPoint2D tangent(std::sin(line.direction), -std::cos(line.direction));
+    const TPoint2D start = segmentStart(first);
+    double length = 0;
+    for (const std::uint32_t k : line.members)
+    {
+      const TPoint2D d = segmentEnd(features[k]) - start;
+      length = std::max(length, tangent.x * d.x + tangent.y * d.y);
+    }
+    walls_.push_back({line.direction, start, length});
+  }
+  std::stable_sort(walls_.begin(), walls_.end(),
+                   [](const MappedWall& a, const MappedWall& b) { return a.length > b.length; });
+  for (const std::uint32_t a : circles)
+  {
+    for (const std::uint32_t b : circles)
+    {
+      if (a == b) continue;
+      const double distance = (features[a].position - features[b].position).norm();
+      if (distance < kMinPairDistance || distance > options.pair_range) continue;
+      pairs_.push_back({distance, a, b});
+    }
+  }
+  std::sort(pairs_.begin(), pairs_.end(),
+            [](const CirclePair& a, const CirclePair& b)
+            {
+              return a.distance != b.distance ? a.distance < b.distance
+                     : a.from != b.from       ? a.from < b.from
+                                              : a.to < b.to;
+            });
+}
+
+std::vector<PoseProposal> BaseProposer::propose(const std::vector<Feature>& observed) const
+{
+  std::vector<PoseProposal> proposals;
+  proposeWallEnds(observed, proposals);
+  proposeCirclePairs(observed, proposals);
+  proposeSlidWalls(observed, proposals);
+  if (proposals.size() > options_.budget) proposals.resize(options_.budget);
+  return proposals;
+}
+
+void BaseProposer::proposeWallEnds(const std::vector<Feature>& observed,
+                                   std::vector<PoseProposal>& out) const
+{
+  for (const Feature& end : observed)
+  {
+    if (end.type != FeatureType::wall_end) continue;
+    for (const std::uint32_t k : wall_ends_[static_cast<std::size_t>(end.side)])
+    {
+      const Feature& mapped = map_.features()[k];
+      if (mapped.size + options_.length_tolerance < end.size * (1.0 - options_.overhang)) break;
+      const double phi = wrapToPi(mapped.direction - end.direction);
+      out.push_back(poseCarrying(end.position, mapped.position, phi));
+    }
+  }
+}
+
+void BaseProposer::proposeSlidWalls(const std::vector<Feature>& observed,
+                                    std::vector<PoseProposal>& out) const
+{
+  std::vector<const Feature*> walls;
+  for (const Feature& feature : observed)
+  {
+    if (feature.type == FeatureType::segment) walls.push_back(&feature);
+  }
+  std::stable_sort(walls.begin(), walls.end(),
+                   [](const Feature* a, const Feature* b) { return a->size > b->size; });
+  std::vector<const Feature*> slid;
+  for (const Feature* wall : walls)
+  {
+    if (slid.size() == options_.slid_walls) break;
+    const bool fresh = std::all_of(
+        slid.begin(), slid.end(),
+        [&](const Feature* other)
+        { return std::abs(wrapToPi(wall->direction - other->direction)) > kParallel; });
+    if (fresh) slid.push_back(wall);
+  }
+  for (const Feature* wall : slid)
+  {
+    const double inside = wall->size * (0.5 - options_.overhang);
+    for (const MappedWall& mapped : walls_)
+    {
+      if (mapped.length + options_.length_tolerance < wall->size * (1.0 - options_.overhang)) break;
+      const double phi = wrapToPi(mapped.direction - wall->direction);
+      const TPoint2D tangent(std::sin(mapped.direction), -std::cos(mapped.direction));
+      const double low = std::min(inside, 0.5 * mapped.length);
+      const double high = std::max(mapped.length - inside, 0.5 * mapped.length);
+      const int steps = static_cast<int>(std::ceil((high - low) / options_.slide_step));
+      for (int k = 0; k <= steps; ++k)
+      {
+        const double along = steps == 0 ? low : low + (high - low) * k / steps;
+        out.push_back(poseCarrying(wall->position, mapped.start + tangent * along, phi));
+      }
+    }
+  }
+}
+
+void BaseProposer::proposeCirclePairs(const std::vector<Feature>& observed,
+                                      std::vector<PoseProposal>& out) const
+{
+  struct Choice
+  {
+    std::size_t count;
+    const Feature* a;
+    const Feature* b;
+    std::vector<CirclePair>::const_iterator first, last;
+  };
+  std::vector<Choice> choices;
+  for (std::size_t i = 0; i < observed.size(); ++i)
+  {
+    if (observed[i].type != FeatureType::circle) continue;
+    for (std::size_t j = i + 1; j < observed.size(); ++j)
+    {
+      if (observed[j].type != FeatureType::circle) continue;
+      const double distance = (observed[i].position - observed[j].position).norm();
+      if (distance < kMinPairDistance || distance > options_.pair_range) continue;
+      const auto less = [](const CirclePair& p, double d) { return p.distance < d; };
+      const auto first =
+          std::lower_bound(pairs_.begin(), pairs_.end(), distance - options_.pair_tolerance, less);
+      const auto last =
+          std::lower_bound(first, pairs_.end(), distance + options_.pair_tolerance, less);
+      choices.push_back(
+          {static_cast<std::size_t>(last - first), &observed[i], &observed[j], first, last});
+    }
+  }
+  std::stable_sort(choices.begin(), choices.end(),
+                   [](const Choice& a, const Choice& b) { return a.count < b.count; });
+  if (choices.size() > options_.max_pairs) choices.resize(options_.max_pairs);
+  for (const Choice& choice : choices)
+  {
+    const TPoint2D seen = choice.b->position - choice.a->position;
+    const double bearing = std::atan2(seen.y, seen.x);
+    for (auto pair = choice.first; pair != choice.last; ++pair)
+    {
+      const Feature& from = map_.features()[pair->from];
+      const Feature& to = map_.features()[pair->to];
+      if (std::abs(from.size - choice.a->size) > kRadiusTolerance ||
+          std::abs(to.size - choice.b->size) > kRadiusTolerance)
+      {
+        continue;
+      }
+      const TPoint2D mapped = to.position - from.position;
+      const double phi = wrapToPi(std::atan2(mapped.y, mapped.x) - bearing);
+      const TPoint2D middle_seen = (choice.a->position + choice.b->position) * 0.5;
+      out.push_back(poseCarrying(middle_seen, (from.position + to.position) * 0.5, phi));
+    }
+  }
+}
+}  // namespace sigloc

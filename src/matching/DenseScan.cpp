@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "sigloc/matching/DenseVerifier.h"
+
+namespace sigloc
+{
+using mrpt::math::TPoint2D;
+
+namespace
+{
+constexpr double kOnSegment = 0.05;  // [m], a return this near a fitted segment lies on it
+
+/// Indices 0..n-1 in van der Corput order: every prefix is spread evenly.
+std::vector<std::uint32_t> interleavedOrder(std::uint32_t n)
+{
+  std::uint32_t bits = 0;
+  while ((1U << bits) < n) ++bits;
+  std::vector<std::uint32_t> order;
+  order.reserve(n);
+  for (std::uint32_t i = 0; i < (1U << bits); ++i)
+  {
+    std::uint32_t reversed = 0;
+    for (std::uint32_t b = 0; b < bits; ++b)
+    {
+      if ((i & (1U << b)) != 0) reversed |= 1U << (bits - 1 - b);
+    }
+    if (reversed < n) order.push_back(reversed);
+  }
+  return order;
+}
+
+/// The normal of the observed segment a return lies on, or (0, 0).
+TPoint2D normalAt(const std::vector<Feature>& features, const TPoint2D& point)
+{
+  for (const Feature& feature : features)
+  {
+    if (feature.type != FeatureType::segment) continue;
+    const TPoint2D normal = directionVector(feature);
+    const TPoint2D d = point - feature.position;
+    if (std::abs(normal.x * d.x + normal.y * d.y) > kOnSegment) continue;
+    if (std::abs(normal.y * d.x - normal.x * d.y) <= 0.5 * feature.size + kOnSegment) return normal;
+  }
+  return {0, 0};
+}
+}  // namespace
+
+DenseScan makeDenseScan(const ObservedScene& scene, std::size_t max_beams)
+{
+  const std::size_t total = scene.beams.size();
+  const std::size_t count = std::min(total, max_beams);
+  DenseScan scan;
+  scan.origins = scene.sensor_origins;
+  for (auto* column : {&scan.x, &scan.y, &scan.nx, &scan.ny}) column->reserve(count);
+  scan.origin.reserve(count);
+  for (const std::uint32_t i : interleavedOrder(static_cast<std::uint32_t>(count)))
+  {
+    const BeamEnd& beam = scene.beams[i * total / count];
+    const TPoint2D normal = normalAt(scene.features, beam.point);
+    scan.x.push_back(static_cast<float>(beam.point.x));
+    scan.y.push_back(static_cast<float>(beam.point.y));
+    scan.nx.push_back(static_cast<float>(normal.x));
+    scan.ny.push_back(static_cast<float>(normal.y));
+    scan.origin.push_back(beam.origin);
+  }
+  return scan;
+}
+}  // namespace sigloc
