@@ -125,10 +125,10 @@ void BaseProposer::proposeSlidWalls(const std::vector<Feature>& observed,
   for (const Feature* wall : walls)
   {
     if (slid.size() == options_.slid_walls) break;
-    const bool fresh = std::all_of(
-        slid.begin(), slid.end(),
-        [&](const Feature* other)
-        { return std::abs(wrapToPi(wall->direction - other->direction)) > kParallel; });
+    const bool fresh =
+        std::all_of(slid.begin(), slid.end(),
+                    [&](const Feature* other)
+                    { return std::abs(wrapToPi(wall->direction - other->direction)) > kParallel; });
     if (fresh) slid.push_back(wall);
   }
   for (const Feature* wall : slid)

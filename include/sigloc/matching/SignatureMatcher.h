@@ -43,6 +43,8 @@ struct PoseRegion
   double x_min, x_max, y_min, y_max;
   double heading = 0;
   double heading_tolerance = 3.15;
+
+  bool contains(const mrpt::math::TPose2D& pose) const;
 };
 
 /// How hypotheses are generated; the modes of \cite algorithm section 3.
@@ -80,6 +82,7 @@ struct MatcherOptions
   }
 };
 
+class BaseProposer;
 class DenseVerifier;
 
 /// Relocation by matching signatures: says where in a known map the observed scene was seen.
@@ -104,15 +107,22 @@ class SignatureMatcher
   RelocationResult localize(const ObservedScene& scene,
                             const std::optional<PoseRegion>& region = std::nullopt) const;
 
+  /// Returns the poses that signatures propose for a scene, before any verification: for
+  /// evaluation and drawing.
+  std::vector<mrpt::math::TPose2D> propose(const ObservedScene& scene) const;
+
   const FeatureMap& map() const { return *map_; }
   const MatcherOptions& options() const { return options_; }
   /// The dense verifier, or null when the map has no dense field or it is switched off.
   const DenseVerifier* verifier() const { return verifier_.get(); }
 
  private:
+  void verifyDensely(const ObservedScene& scene, const std::optional<PoseRegion>& region,
+                     RelocationResult& result) const;
+
   std::shared_ptr<const FeatureMap> map_;
   MatcherOptions options_;
   std::unique_ptr<const DenseVerifier> verifier_;
-  std::unique_ptr<const FeatureHypothesisGenerator> generator_;
+  std::unique_ptr<const BaseProposer> proposer_;
 };
 }  // namespace sigloc

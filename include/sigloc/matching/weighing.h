@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "sigloc/matching/SignatureMatcher.h"
+
+namespace sigloc
+{
+/// Returns the tempered log-likelihood of a dense score in about [-1, 1]: what a score says about a
+/// pose once the correlation of neighbouring beams is allowed for. \cite algorithm section 7
+double logLikelihoodOfScore(double score);
+
+/// Distributes probability over candidates (best first, scores set) and "elsewhere", and fills the
+/// verdict. A candidate convinces by its own score and by its lead over the best rival: look-alikes
+/// share the weight, and what chance reaches in this map is measured by the runner-up.
+void weighCandidates(RelocationResult& result);
+}  // namespace sigloc

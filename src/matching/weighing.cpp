@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sigloc/matching/weighing.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sigloc
+{
+namespace
+{
+// Fitted on aces, freiburg-101 and foreign pairs of the two, \cite algorithm section 7.
+constexpr double kScoreSlope = 15.0;  // of the log-likelihood per unit of score
+constexpr double kMisfitPower = 5.0;  // of the unexplained share
+constexpr double kMisfitFloor = 0.02;  // share that even the right pose leaves unexplained
+constexpr double kSharpening = 1.3;  // of rivals against each other
+constexpr double kHereSlope = 12.0;  // of the log-odds of being in the map, per unit of score
+constexpr double kHereOffset = 10.4;
+constexpr double kChanceScore = 0.4;  // what chance reaches where there is no runner-up
+constexpr double kLocalized = 0.99;
+constexpr double kNotHere = 0.98;
+constexpr double kMaxOpenSigma = 0.5;  // [m], a wider pose is a line of poses
+
+double largestSigma(const GaussianPose& pose)
+{
+  const double a = pose.covariance(0, 0);
+  const double b = pose.covariance(0, 1);
+  const double d = pose.covariance(1, 1);
+  const double middle = 0.5 * (a + d);
+  return std::sqrt(middle + std::sqrt(std::max(0.0, middle * middle - (a * d - b * b))));
+}
+}  // namespace
+
+double logLikelihoodOfScore(double score)
+{
+  const double misfit = std::max(1.0 - score, 0.0) + kMisfitFloor;
+  return kScoreSlope * score - kMisfitPower * std::log(misfit);
+}
+
+void weighCandidates(RelocationResult& result)
+{
+  std::vector<Candidate>& candidates = result.candidates;
+  if (candidates.empty())
+  {
+    result.elsewhere = 1;
+    result.verdict = Verdict::not_here;
+    result.probability = 1;
+    return;
+  }
+  const double best = logLikelihoodOfScore(candidates.front().score);
+  const double runner_up =
+      logLikelihoodOfScore(candidates.size() > 1 ? candidates[1].score : kChanceScore);
+  const double here_log_odds =
+      kHereSlope * candidates.front().score + (best - runner_up) - kHereOffset;
+  const double here = 1.0 / (1.0 + std::exp(-here_log_odds));
+
+  double sum = 0;
+  for (Candidate& candidate : candidates)
+  {
+    candidate.probability = std::exp(kSharpening * (logLikelihoodOfScore(candidate.score) - best));
+    sum += candidate.probability;
+  }
+  for (Candidate& candidate : candidates) candidate.probability *= here / sum;
+  result.elsewhere = 1.0 - here;
+
+  const Candidate& first = candidates.front();
+  if (first.probability >= kLocalized && largestSigma(first.pose) < kMaxOpenSigma)
+  {
+    result.verdict = Verdict::localized;
+    result.probability = first.probability;
+  }
+  else if (result.elsewhere >= kNotHere)
+  {
+    result.verdict = Verdict::not_here;
+    result.probability = result.elsewhere;
+  }
+  else
+  {
+    result.verdict = Verdict::ambiguous;
+    result.probability = 1.0 - first.probability;
+  }
+}
+}  // namespace sigloc
