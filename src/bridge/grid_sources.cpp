@@ -33,7 +33,7 @@ constexpr float kWallBelow = 0.36F;
 
 CellState stateOf(float free_probability)
 {
-  if (free_probability < kWallBelow) return CellState::wall;
+  if (free_probability < kWallBelow) return CellState::solid_wall;
   return free_probability >= kFreeFrom ? CellState::free : CellState::unknown;
 }
 
@@ -44,7 +44,7 @@ OccupancyRaster usableRasterOf(const COccupancyGridMap2D& grid, const std::files
   bool has_free = false;
   for (const CellState cell : raster.cells)
   {
-    has_wall = has_wall || cell == CellState::wall;
+    has_wall = has_wall || isWall(cell);
     has_free = has_free || cell == CellState::free;
   }
   if (!has_wall) fail(path, "the grid has no wall");

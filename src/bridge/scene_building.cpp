@@ -54,6 +54,7 @@ std::uint8_t greyOf(CellState state)
     case CellState::free:
       return 255;
     case CellState::wall:
+    case CellState::solid_wall:
       return 120;
     case CellState::unknown:
       break;

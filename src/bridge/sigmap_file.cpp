@@ -103,7 +103,7 @@ DenseField readField(CArchive& in)
       cell.distance = planes[i];
       cell.dx = static_cast<std::int8_t>(planes[n + i]);
       cell.dy = static_cast<std::int8_t>(planes[2 * n + i]);
-      if (planes[3 * n + i] > static_cast<std::uint8_t>(CellState::wall))
+      if (planes[3 * n + i] > static_cast<std::uint8_t>(CellState::solid_wall))
       {
         throw std::runtime_error("unknown cell state");
       }

@@ -9,6 +9,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "ScanPoints.h"
 #include "sigloc/features/line_fit.h"
 
 namespace sigloc
@@ -21,105 +22,6 @@ namespace
 constexpr double kSurfaceSigma = 0.008;  // [m], roughness of walls and mixed pixels
 constexpr double kRadiusPriorSigma = 0.12;  // [m]
 constexpr double kMinCornerAngle = 0.35;  // [rad], flatter joints are no corners
-
-/// Valid returns of one scan in the sensor frame, counter-clockwise.
-struct ScanPoints
-{
-  std::vector<TPoint2D> points;
-  std::vector<double> ranges;
-  std::vector<std::size_t> beams;  // beam index of each return; grows by 1 where none was lost
-  double beam_spacing = 0;  // [rad]
-  bool closed = false;  // the scan covers the full circle: the last beam meets the first
-};
-
-struct PointRange
-{
-  std::size_t first;
-  std::size_t last;  // inclusive
-};
-
-bool coversFullCircle(const LaserScan& scan)
-{
-  const double span = scan.angle_step * static_cast<double>(scan.ranges.size());
-  return span > 2 * M_PI - 1.5 * scan.angle_step;
-}
-
-ScanPoints validPoints(const LaserScan& scan, const FeatureExtractorOptions& options)
-{
-  const std::size_t n = scan.ranges.size();
-  ScanPoints out;
-  out.beam_spacing = scan.angle_step;
-  out.closed = coversFullCircle(scan);
-  for (std::size_t i = 0; i < n; ++i)
-  {
-    const double range = static_cast<double>(scan.ranges[i]);
-    if (scan.valid[i] == 0 || !std::isfinite(range) || range < options.min_range || range <= 0 ||
-        range > scan.max_range)
-    {
-      continue;
-    }
-    const double angle = scan.first_angle + static_cast<double>(i) * scan.angle_step;
-    out.points.emplace_back(range * std::cos(angle), range * std::sin(angle));
-    out.ranges.push_back(range);
-    out.beams.push_back(i);
-  }
-  return out;
-}
-
-bool breaksBetween(const ScanPoints& scan, std::size_t i, std::size_t j,
-                   const FeatureExtractorOptions& options)
-{
-  const double nearer = std::min(scan.ranges[i], scan.ranges[j]);
-  const double limit =
-      std::max(options.break_distance, options.break_factor * nearer * scan.beam_spacing);
-  return (scan.points[j] - scan.points[i]).norm() > limit;
-}
-
-/// A full-circle scan is turned so that it starts at a break: no wall is cut by the seam.
-void startAtBreak(ScanPoints& scan, std::size_t beam_count, const FeatureExtractorOptions& options)
-{
-  const std::size_t n = scan.points.size();
-  if (!scan.closed || n < 3 || breaksBetween(scan, n - 1, 0, options)) return;
-  for (std::size_t i = 1; i < n; ++i)
-  {
-    if (!breaksBetween(scan, i - 1, i, options)) continue;
-    const auto shift = static_cast<std::ptrdiff_t>(i);
-    std::rotate(scan.points.begin(), scan.points.begin() + shift, scan.points.end());
-    std::rotate(scan.ranges.begin(), scan.ranges.begin() + shift, scan.ranges.end());
-    std::rotate(scan.beams.begin(), scan.beams.begin() + shift, scan.beams.end());
-    for (std::size_t k = n - i; k < n; ++k) scan.beams[k] += beam_count;
-    return;
-  }
-}
-
-std::vector<PointRange> clustersOf(const ScanPoints& scan, const FeatureExtractorOptions& options)
-{
-  std::vector<PointRange> clusters;
-  std::size_t first = 0;
-  for (std::size_t i = 1; i <= scan.points.size(); ++i)
-  {
-    if (i == scan.points.size() || breaksBetween(scan, i - 1, i, options))
-    {
-      if (!scan.points.empty()) clusters.push_back({first, i - 1});
-      first = i;
-    }
-  }
-  return clusters;
-}
-
-/// True when the neighbouring return beyond `edge` (towards `step`) was measured by the next beam
-/// and lies farther by the jump: what ends here ends for real. A lost or nearer beam tells nothing.
-bool jumpsFarther(const ScanPoints& scan, std::size_t edge, int step,
-                  const FeatureExtractorOptions& options)
-{
-  const auto n = static_cast<std::ptrdiff_t>(scan.points.size());
-  const std::ptrdiff_t neighbour = static_cast<std::ptrdiff_t>(edge) + step;
-  if (neighbour < 0 || neighbour >= n) return false;
-  const auto other = static_cast<std::size_t>(neighbour);
-  const std::size_t beam_gap =
-      step > 0 ? scan.beams[other] - scan.beams[edge] : scan.beams[edge] - scan.beams[other];
-  return beam_gap <= 2 && scan.ranges[other] > scan.ranges[edge] + options.wall_end_jump;
-}
 
 /// Recursive split: the farthest return off the chord divides the range. \cite algorithm section 2
 void splitRange(const ScanPoints& scan, PointRange range, const FeatureExtractorOptions& options,

@@ -7,9 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <Eigen/Dense>
 #include <stdexcept>
 #include <unordered_set>
+
+#include "CellView.h"
+#include "likelihood_table.h"
 
 namespace sigloc
 {
@@ -19,8 +21,6 @@ using mrpt::math::wrapToPi;
 
 namespace
 {
-constexpr double kFineSigma = 0.12;  // [m]
-constexpr double kCoarseSigma = 0.25;  // [m]
 constexpr double kQuickCell = 0.1;  // [m], of the raster for the first look
 constexpr std::size_t kQuickBeams = 24;
 constexpr std::size_t kQuickKept = 64;  // cells of poses that are refined: the cascade's knob
@@ -30,95 +30,11 @@ constexpr std::size_t kFinalKept = 20;
 constexpr int kFinalSteps = 4;
 constexpr double kDistinctDistance = 0.5;  // [m]
 constexpr double kDistinctAngle = 17.0 * M_PI / 180.0;  // [rad]
-constexpr double kMaxShift = 0.5;  // [m] a refinement may move a pose
-constexpr double kMaxTurn = 10.0 * M_PI / 180.0;  // [rad]
 constexpr double kWallMargin = 0.4;  // [m] before its end a beam must be clear of walls
 constexpr std::size_t kRayBeams = 64;  // beams tested for passing through walls
 constexpr double kFreeMargin = 0.4;  // [m] from any wall that makes an end in free space count
 constexpr double kThroughPenalty = 0.5;
 constexpr double kFreePenalty = 0.5;
-
-using LikelihoodTable = std::array<float, 256>;
-
-/// Likelihood of a return at each distance byte.
-LikelihoodTable makeTable(double sigma)
-{
-  LikelihoodTable table{};
-  for (std::size_t d = 0; d < 255; ++d)
-  {
-    const double distance = static_cast<double>(d) * DenseField::kDistanceUnit;
-    table[d] = static_cast<float>(std::exp(-0.5 * distance * distance / (sigma * sigma)));
-  }
-  return table;
-}
-
-const LikelihoodTable& fineTable()
-{
-  static const LikelihoodTable table = makeTable(kFineSigma);
-  return table;
-}
-const LikelihoodTable& coarseTable()
-{
-  static const LikelihoodTable table = makeTable(kCoarseSigma);
-  return table;
-}
-
-/// Look-up of cells by map coordinates; outside lies one cell that knows nothing.
-class CellView
-{
- public:
-  explicit CellView(const DenseField& field)
-      : cells_(field.cells.data()),
-        x0_(static_cast<float>(field.frame.origin.x)),
-        y0_(static_cast<float>(field.frame.origin.y)),
-        scale_(static_cast<float>(1.0 / field.frame.resolution)),
-        width_(field.frame.width),
-        height_(field.frame.height)
-  {
-  }
-
-  const DenseCell& at(float x, float y) const
-  {
-    const float fx = (x - x0_) * scale_;
-    const float fy = (y - y0_) * scale_;
-    if (!(fx >= 0 && fy >= 0 && fx < static_cast<float>(width_) &&
-          fy < static_cast<float>(height_)))
-    {
-      return outside_;
-    }
-    return cells_[static_cast<std::size_t>(fy) * width_ + static_cast<std::size_t>(fx)];
-  }
-
-  /// The middle of the wall cell nearest to the cell that holds (x, y).
-  TPoint2D nearestWall(float x, float y, const DenseCell& cell) const
-  {
-    const double resolution = 1.0 / static_cast<double>(scale_);
-    const double ix = std::floor(static_cast<double>((x - x0_) * scale_)) + cell.dx + 0.5;
-    const double iy = std::floor(static_cast<double>((y - y0_) * scale_)) + cell.dy + 0.5;
-    return {static_cast<double>(x0_) + ix * resolution, static_cast<double>(y0_) + iy * resolution};
-  }
-
- private:
-  const DenseCell* cells_;
-  float x0_, y0_, scale_;
-  std::size_t width_, height_;
-  DenseCell outside_;
-};
-
-/// A pose with its rotation worked out.
-struct Placement
-{
-  explicit Placement(const TPose2D& pose)
-      : x(static_cast<float>(pose.x)),
-        y(static_cast<float>(pose.y)),
-        c(static_cast<float>(std::cos(pose.phi))),
-        s(static_cast<float>(std::sin(pose.phi)))
-  {
-  }
-  float placedX(float px, float py) const { return x + c * px - s * py; }
-  float placedY(float px, float py) const { return y + s * px + c * py; }
-  float x, y, c, s;
-};
 
 bool distinct(const TPose2D& a, const TPose2D& b)
 {
@@ -277,65 +193,6 @@ std::vector<RankedPose> DenseVerifier::rank(const DenseScan& scan,
   return poses;
 }
 
-TPose2D DenseVerifier::refine(const DenseScan& scan, const TPose2D& start, int steps,
-                              std::size_t beams) const
-{
-  const std::size_t count = std::min(beams, scan.size());
-  const CellView cells(field_);
-  TPose2D pose = start;
-  for (int step = 0; step < steps; ++step)
-  {
-    // Returns on a wall pull along the wall's normal only, others towards the nearest wall cell.
-    Eigen::Matrix3f hessian = Eigen::Matrix3f::Zero();
-    Eigen::Vector3f gradient = Eigen::Vector3f::Zero();
-    const Placement place(pose);
-    const float robust = step == 0 ? 0.25F : 0.12F;  // [m], scale of the Cauchy weight
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      const float rx = place.c * scan.x[i] - place.s * scan.y[i];
-      const float ry = place.s * scan.x[i] + place.c * scan.y[i];
-      const float px = place.x + rx;
-      const float py = place.y + ry;
-      const DenseCell& cell = cells.at(px, py);
-      if (cell.distance == 255) continue;
-      const TPoint2D wall = cells.nearestWall(px, py, cell);
-      const float ex = px - static_cast<float>(wall.x);
-      const float ey = py - static_cast<float>(wall.y);
-      const float squared = ex * ex + ey * ey;
-      const float weight = 1.0F / (1.0F + squared / (robust * robust));
-      const float nx = place.c * scan.nx[i] - place.s * scan.ny[i];
-      const float ny = place.s * scan.nx[i] + place.c * scan.ny[i];
-      const auto add = [&](float ax, float ay, float w)
-      {
-        const Eigen::Vector3f j(ax, ay, ay * rx - ax * ry);
-        hessian.noalias() += w * j * j.transpose();
-        gradient.noalias() += w * (ax * ex + ay * ey) * j;
-      };
-      if (nx != 0 || ny != 0)
-      {
-        add(nx, ny, weight);
-      }
-      else
-      {
-        add(1, 0, 0.5F * weight);
-        add(0, 1, 0.5F * weight);
-      }
-    }
-    // What the returns leave open stays where the proposal put it.
-    hessian(0, 0) += 0.05F;
-    hessian(1, 1) += 0.05F;
-    hessian(2, 2) += 0.05F;
-    const Eigen::Vector3f delta = hessian.ldlt().solve(-gradient);
-    pose.x += static_cast<double>(delta[0]);
-    pose.y += static_cast<double>(delta[1]);
-    pose.phi += static_cast<double>(delta[2]);
-  }
-  pose.phi = wrapToPi(pose.phi);
-  const bool inside = std::hypot(pose.x - start.x, pose.y - start.y) <= kMaxShift &&
-                      std::abs(wrapToPi(pose.phi - start.phi)) <= kMaxTurn;
-  return inside ? pose : start;
-}
-
 DenseEvidence DenseVerifier::evaluate(const DenseScan& scan, const TPose2D& pose) const
 {
   DenseEvidence evidence;
@@ -404,54 +261,5 @@ double DenseVerifier::throughWallShare(const DenseScan& scan, const TPose2D& pos
     }
   }
   return static_cast<double>(through) / static_cast<double>(count);
-}
-
-mrpt::math::CMatrixDouble33 DenseVerifier::covarianceAt(const DenseScan& scan, const TPose2D& pose,
-                                                        double common_sigma) const
-{
-  constexpr double kRangeSigma = 0.05;  // [m], of a return against the raster
-  constexpr double kOpenSigma = 5.0;  // [m], of a direction that nothing fixes
-  constexpr double kIndependentBeams = 40;  // neighbouring beams are correlated
-  const Placement place(pose);
-  const CellView cells(field_);
-  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
-  for (std::size_t i = 0; i < scan.size(); ++i)
-  {
-    const float rx = place.c * scan.x[i] - place.s * scan.y[i];
-    const float ry = place.s * scan.x[i] + place.c * scan.y[i];
-    const DenseCell& cell = cells.at(place.x + rx, place.y + ry);
-    const double weight = static_cast<double>(fineTable()[cell.distance]);
-    if (weight <= 0.05) continue;
-    const double nx = static_cast<double>(place.c * scan.nx[i] - place.s * scan.ny[i]);
-    const double ny = static_cast<double>(place.s * scan.nx[i] + place.c * scan.ny[i]);
-    const auto add = [&](double ax, double ay, double w)
-    {
-      const Eigen::Vector3d j(ax, ay, ay * static_cast<double>(rx) - ax * static_cast<double>(ry));
-      information += w * j * j.transpose();
-    };
-    if (nx != 0 || ny != 0)
-    {
-      add(nx, ny, weight);
-    }
-    else
-    {
-      add(1, 0, 0.5 * weight);
-      add(0, 1, 0.5 * weight);
-    }
-  }
-  const double tempering = std::min(1.0, kIndependentBeams / static_cast<double>(scan.size() + 1));
-  information *= tempering / (kRangeSigma * kRangeSigma);
-  information(0, 0) += 1.0 / (kOpenSigma * kOpenSigma);
-  information(1, 1) += 1.0 / (kOpenSigma * kOpenSigma);
-  information(2, 2) += 1.0 / (0.2 * 0.2);
-  Eigen::Matrix3d covariance = information.inverse();
-  covariance(0, 0) += common_sigma * common_sigma;
-  covariance(1, 1) += common_sigma * common_sigma;
-  mrpt::math::CMatrixDouble33 out;
-  for (int r = 0; r < 3; ++r)
-  {
-    for (int c = 0; c < 3; ++c) out(r, c) = 0.5 * (covariance(r, c) + covariance(c, r));
-  }
-  return out;
 }
 }  // namespace sigloc

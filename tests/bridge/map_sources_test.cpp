@@ -77,7 +77,7 @@ TEST(MapSources, ReadsAGridmapWithItsThreeStates)
   EXPECT_NEAR(raster.frame.origin.y, 2.0, 1e-6);
   const auto cell = [&](std::size_t x, std::size_t y)
   { return raster.cells[y * raster.frame.width + x]; };
-  EXPECT_EQ(cell(3, 2), CellState::wall);
+  EXPECT_EQ(cell(3, 2), CellState::solid_wall);
   EXPECT_EQ(cell(4, 2), CellState::free);
   EXPECT_EQ(cell(5, 2), CellState::unknown);
 
@@ -98,9 +98,9 @@ TEST(MapSources, ReadsARosMapUprightAndInItsPlace)
   EXPECT_NEAR(raster.frame.resolution, 0.1, 1e-6);
   ASSERT_EQ(raster.frame.width, 4U);
   ASSERT_EQ(raster.frame.height, 3U);
-  EXPECT_EQ(raster.cells[3], CellState::wall) << "the image's last row is the map's lowest";
+  EXPECT_EQ(raster.cells[3], CellState::solid_wall) << "the image's last row is the map's lowest";
   EXPECT_EQ(raster.cells[0], CellState::unknown);
-  EXPECT_EQ(raster.cells[8], CellState::wall);
+  EXPECT_EQ(raster.cells[8], CellState::solid_wall);
   EXPECT_EQ(raster.cells[9], CellState::free);
   EXPECT_EQ(raster.cells[10], CellState::unknown);
 }

@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ScanPoints.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sigloc
+{
+namespace
+{
+bool coversFullCircle(const LaserScan& scan)
+{
+  const double span = scan.angle_step * static_cast<double>(scan.ranges.size());
+  return span > 2 * M_PI - 1.5 * scan.angle_step;
+}
+
+bool breaksBetween(const ScanPoints& scan, std::size_t i, std::size_t j,
+                   const FeatureExtractorOptions& options)
+{
+  const double nearer = std::min(scan.ranges[i], scan.ranges[j]);
+  const double limit =
+      std::max(options.break_distance, options.break_factor * nearer * scan.beam_spacing);
+  return (scan.points[j] - scan.points[i]).norm() > limit;
+}
+
+}  // namespace
+
+ScanPoints validPoints(const LaserScan& scan, const FeatureExtractorOptions& options)
+{
+  const std::size_t n = scan.ranges.size();
+  ScanPoints out;
+  out.beam_spacing = scan.angle_step;
+  out.closed = coversFullCircle(scan);
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    const double range = static_cast<double>(scan.ranges[i]);
+    if (scan.valid[i] == 0 || !std::isfinite(range) || range < options.min_range || range <= 0 ||
+        range > scan.max_range)
+    {
+      continue;
+    }
+    const double angle = scan.first_angle + static_cast<double>(i) * scan.angle_step;
+    out.points.emplace_back(range * std::cos(angle), range * std::sin(angle));
+    out.ranges.push_back(range);
+    out.beams.push_back(i);
+  }
+  return out;
+}
+
+void startAtBreak(ScanPoints& scan, std::size_t beam_count, const FeatureExtractorOptions& options)
+{
+  const std::size_t n = scan.points.size();
+  if (!scan.closed || n < 3 || breaksBetween(scan, n - 1, 0, options)) return;
+  for (std::size_t i = 1; i < n; ++i)
+  {
+    if (!breaksBetween(scan, i - 1, i, options)) continue;
+    const auto shift = static_cast<std::ptrdiff_t>(i);
+    std::rotate(scan.points.begin(), scan.points.begin() + shift, scan.points.end());
+    std::rotate(scan.ranges.begin(), scan.ranges.begin() + shift, scan.ranges.end());
+    std::rotate(scan.beams.begin(), scan.beams.begin() + shift, scan.beams.end());
+    for (std::size_t k = n - i; k < n; ++k) scan.beams[k] += beam_count;
+    return;
+  }
+}
+
+std::vector<PointRange> clustersOf(const ScanPoints& scan, const FeatureExtractorOptions& options)
+{
+  std::vector<PointRange> clusters;
+  std::size_t first = 0;
+  for (std::size_t i = 1; i <= scan.points.size(); ++i)
+  {
+    if (i == scan.points.size() || breaksBetween(scan, i - 1, i, options))
+    {
+      if (!scan.points.empty()) clusters.push_back({first, i - 1});
+      first = i;
+    }
+  }
+  return clusters;
+}
+
+bool jumpsFarther(const ScanPoints& scan, std::size_t edge, int step,
+                  const FeatureExtractorOptions& options)
+{
+  const auto n = static_cast<std::ptrdiff_t>(scan.points.size());
+  const std::ptrdiff_t neighbour = static_cast<std::ptrdiff_t>(edge) + step;
+  if (neighbour < 0 || neighbour >= n) return false;
+  const auto other = static_cast<std::size_t>(neighbour);
+  const std::size_t beam_gap =
+      step > 0 ? scan.beams[other] - scan.beams[edge] : scan.beams[edge] - scan.beams[other];
+  return beam_gap <= 2 && scan.ranges[other] > scan.ranges[edge] + options.wall_end_jump;
+}
+
+}  // namespace sigloc

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mrpt/math/TPose2D.h>
+
+#include <cmath>
+#include <cstddef>
+
+#include "sigloc/map/DenseField.h"
+
+namespace sigloc
+{
+/// Look-up of cells by map coordinates; outside lies one cell that knows nothing.
+class CellView
+{
+ public:
+  explicit CellView(const DenseField& field)
+      : cells_(field.cells.data()),
+        x0_(static_cast<float>(field.frame.origin.x)),
+        y0_(static_cast<float>(field.frame.origin.y)),
+        scale_(static_cast<float>(1.0 / field.frame.resolution)),
+        width_(field.frame.width),
+        height_(field.frame.height)
+  {
+  }
+
+  const DenseCell& at(float x, float y) const
+  {
+    const float fx = (x - x0_) * scale_;
+    const float fy = (y - y0_) * scale_;
+    if (!(fx >= 0 && fy >= 0 && fx < static_cast<float>(width_) &&
+          fy < static_cast<float>(height_)))
+    {
+      return outside_;
+    }
+    return cells_[static_cast<std::size_t>(fy) * width_ + static_cast<std::size_t>(fx)];
+  }
+
+  /// The middle of the wall cell nearest to the cell that holds (x, y).
+  mrpt::math::TPoint2D nearestWall(float x, float y, const DenseCell& cell) const
+  {
+    const double resolution = 1.0 / static_cast<double>(scale_);
+    const double ix = std::floor(static_cast<double>((x - x0_) * scale_)) + cell.dx + 0.5;
+    const double iy = std::floor(static_cast<double>((y - y0_) * scale_)) + cell.dy + 0.5;
+    return {static_cast<double>(x0_) + ix * resolution, static_cast<double>(y0_) + iy * resolution};
+  }
+
+ private:
+  const DenseCell* cells_;
+  float x0_, y0_, scale_;
+  std::size_t width_, height_;
+  DenseCell outside_;
+};
+
+/// A pose with its rotation worked out.
+struct Placement
+{
+  explicit Placement(const mrpt::math::TPose2D& pose)
+      : x(static_cast<float>(pose.x)),
+        y(static_cast<float>(pose.y)),
+        c(static_cast<float>(std::cos(pose.phi))),
+        s(static_cast<float>(std::sin(pose.phi)))
+  {
+  }
+  float placedX(float px, float py) const { return x + c * px - s * py; }
+  float placedY(float px, float py) const { return y + s * px + c * py; }
+  float x, y, c, s;
+};
+
+}  // namespace sigloc
