@@ -4,6 +4,7 @@
 
 #include "sigloc/features/Feature.h"
 #include "sigloc/map/DenseField.h"
+#include "sigloc/signature/MapErrorModel.h"
 
 #include <cstdint>
 #include <optional>
@@ -12,15 +13,6 @@
 
 namespace sigloc
 {
-/// The map's own error, beyond the covariance of each feature: relative between two features at
-/// distance d, and common to a whole neighbourhood. \cite algorithm section 3
-struct MapErrorModel
-{
-  double relative_constant = 0.02;  ///< [m], a of sigma_rel(d) = a + b d
-  double relative_slope = 0.002;  ///< [-], b
-  double common_sigma = 0.10;  ///< [m], moves a neighbourhood together
-};
-
 /// A line that carries one or more mapped segments facing the same way: fragments of one wall.
 struct WallLine
 {

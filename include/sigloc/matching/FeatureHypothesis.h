@@ -22,7 +22,11 @@ struct FeatureHypothesis
 {
   GaussianPose pose;
   std::vector<FeaturePairing> pairings;
-  double log_odds = 0;  ///< against "all clutter", \cite algorithm section 4
+  std::uint32_t support = 0;  ///< pairings that count: a corner does not beside its own wall
+  double log_odds = 0;  ///< against "all clutter", \cite algorithm eq. (26)
+  /// How many hypotheses with this support are expected by chance among all bases retrieved: below
+  /// `GeneratorOptions::significance` chance is refuted. \cite algorithm eq. (28)
+  double chance = 1;
 };
 
 /// What generating and verifying cost, in operations; times never enter results.

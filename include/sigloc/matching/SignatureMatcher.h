@@ -7,6 +7,7 @@
 #include "sigloc/geometry/GaussianPose.h"
 #include "sigloc/map/FeatureMap.h"
 #include "sigloc/matching/FeatureHypothesis.h"
+#include "sigloc/matching/GenerationMode.h"
 #include "sigloc/matching/Verdict.h"
 
 #include <memory>
@@ -45,18 +46,6 @@ struct PoseRegion
   double heading_tolerance = 3.15;
 
   bool contains(const mrpt::math::TPose2D& pose) const;
-};
-
-/// How hypotheses are generated; the modes of \cite algorithm section 3.
-enum class GenerationMode : std::uint8_t
-{
-  automatic = 0,  ///< bases where a dense field backs the map, else patterns falling back to pairs
-                  ///< and anchors
-  plain = 1,  ///< (a) every signature
-  anchors = 2,  ///< (b) sampled anchors and partners
-  pairs = 3,  ///< (c) pair index
-  patterns = 4,  ///< (d) larger patterns
-  bases = 5,  ///< (e) small bases judged by the dense field
 };
 
 struct MatcherOptions

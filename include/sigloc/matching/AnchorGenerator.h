@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "sigloc/matching/FeatureVerifier.h"
+#include "sigloc/matching/PairLists.h"
+
+namespace sigloc
+{
+/// Mode (b): a fixed number of random observed anchors, each with a few random partners, against
+/// the whole map. Linear in the map and in the number of observed features.
+class AnchorGenerator : public FeatureHypothesisGenerator
+{
+ public:
+  AnchorGenerator(std::shared_ptr<const FeatureVerifier> verifier,
+                  std::shared_ptr<const PairLists> lists)
+      : verifier_(std::move(verifier)), lists_(std::move(lists))
+  {
+  }
+
+  std::vector<FeatureHypothesis> generate(const std::vector<Feature>& observed,
+                                          MatchingCounters& counters) const override;
+
+ private:
+  std::shared_ptr<const FeatureVerifier> verifier_;
+  std::shared_ptr<const PairLists> lists_;
+};
+
+/// Number of draws t after which all fail with probability `failure` when one succeeds with
+/// probability `success`. \cite algorithm eq. (19)
+std::uint32_t drawsNeeded(double failure, double success);
+}  // namespace sigloc

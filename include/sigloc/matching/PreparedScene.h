@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "sigloc/matching/GeneratorOptions.h"
+#include "sigloc/matching/PreparedMap.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace sigloc
+{
+/// What all modes need of the observed features, computed once a query. Refers to the features,
+/// which must outlive it.
+struct PreparedScene
+{
+  PreparedScene(const std::vector<Feature>& observed, const PreparedMap& map,
+                const GeneratorOptions& options);
+
+  std::size_t size() const { return views.size(); }
+
+  /// All indices by distance from feature i, nearest (i itself) first; derived features last,
+  /// because the walls they are made of count before them.
+  const std::uint32_t* orderFrom(std::size_t i) const { return &order[i * views.size()]; }
+
+  std::vector<DirectedFeature> views;
+  std::vector<std::uint32_t> order;
+  std::vector<double> chance;  ///< p_i: probability that a wrong pose finds a match for feature i
+  std::vector<double> hit_gain;  ///< ln(w / p_i), what a match says for the pose
+  std::vector<double> miss_gain;  ///< ln((1 - w) / (1 - p_i)), what a miss says
+  double mean_chance = 0;
+  double relative_sigma = 0;  ///< [m], the map's relative error over the scene's mean range
+};
+}  // namespace sigloc

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "sigloc/features/Feature.h"
+
+#include <cmath>
+
+namespace sigloc
+{
+/// A feature with the unit vector along its direction at hand, and, for a segment, the stretch its
+/// wall is known to cover: what the constraints of a signature look at.
+struct DirectedFeature
+{
+  const Feature* feature = nullptr;
+  mrpt::math::TPoint2D normal{1, 0};
+  double start = 0;  ///< [m] along the tangent from the position: where the wall begins
+  double end = 0;  ///< [m] and where it ends; fragments of one wall share one stretch
+
+  FeatureType type() const { return feature->type; }
+  const mrpt::math::TPoint2D& position() const { return feature->position; }
+  mrpt::math::TPoint2D tangent() const { return {normal.y, -normal.x}; }
+  double length() const { return end - start; }
+};
+
+/// Returns the view of a feature by itself: a segment covers its own length.
+inline DirectedFeature directed(const Feature& feature)
+{
+  const double half = feature.type == FeatureType::segment ? 0.5 * feature.size : 0;
+  return {&feature, {std::cos(feature.direction), std::sin(feature.direction)}, -half, half};
+}
+
+inline bool isSegment(FeatureType type)
+{
+  return type == FeatureType::segment;
+}
+/// Everything but a segment marks a place in the plane.
+inline bool isPointLike(FeatureType type)
+{
+  return type != FeatureType::segment;
+}
+/// A corner or wall end carries a direction besides its place; a circle's only says where it was
+/// seen from.
+inline bool hasBearing(FeatureType type)
+{
+  return type == FeatureType::corner || type == FeatureType::wall_end;
+}
+
+inline double dot(const mrpt::math::TPoint2D& a, const mrpt::math::TPoint2D& b)
+{
+  return a.x * b.x + a.y * b.y;
+}
+inline double cross(const mrpt::math::TPoint2D& a, const mrpt::math::TPoint2D& b)
+{
+  return a.x * b.y - a.y * b.x;
+}
+/// Variance [m^2] of the feature's position along a unit vector.
+inline double varianceAlong(const Feature& feature, const mrpt::math::TPoint2D& unit)
+{
+  const auto& p = feature.position_covariance;
+  return unit.x * unit.x * p(0, 0) + 2 * unit.x * unit.y * p(0, 1) + unit.y * unit.y * p(1, 1);
+}
+}  // namespace sigloc

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sigloc/matching/generators.h"
+
+#include "sigloc/matching/AnchorGenerator.h"
+#include "sigloc/matching/PlainGenerator.h"
+
+#include <stdexcept>
+
+namespace sigloc
+{
+std::unique_ptr<FeatureHypothesisGenerator> makeGenerator(GenerationMode mode,
+                                                          const FeatureMap& map,
+                                                          const GeneratorOptions& options)
+{
+  checkOptions(options);
+  const auto prepared = std::make_shared<const PreparedMap>(map);
+  const auto verifier = std::make_shared<const FeatureVerifier>(prepared, options);
+  const auto lists = [&](double cut_off)
+  { return std::make_shared<const PairLists>(*prepared, cut_off); };
+  switch (mode)
+  {
+    case GenerationMode::plain:
+      return std::make_unique<PlainGenerator>(verifier, lists(PairLists::kUncut));
+    case GenerationMode::anchors:
+      return std::make_unique<AnchorGenerator>(verifier,
+                                               lists(PairLists::cutOffFor(*prepared, options)));
+    default:
+      throw std::invalid_argument("makeGenerator: mode bases needs a dense field");
+  }
+}
+}  // namespace sigloc

@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sigloc/signature/location_constraint.h"
+
+#include <mrpt/math/wrap2pi.h>
+
+#include <algorithm>
+
+namespace sigloc
+{
+using mrpt::math::TPoint2D;
+
+namespace
+{
+// Added to every variance: features without any error (simulated ones) must not make a gate an
+// equality test on floating point numbers.
+constexpr double kRoundingVariance = 1e-12;  // [m^2], [rad^2]
+
+PlanarMeasurement pointMeasurement(const PoseEstimate& pose, const DirectedFeature& observed,
+                                   const DirectedFeature& mapped, double relative_sigma)
+{
+  const TPoint2D arm = pose.turn(observed.position());
+  const auto& p = observed.feature->position_covariance;
+  const auto& q = mapped.feature->position_covariance;
+  const Symmetric2 seen = rotated({p(0, 0), p(0, 1), p(1, 1)}, pose.c, pose.s);
+  const double own = relative_sigma * relative_sigma + kRoundingVariance;
+  PlanarMeasurement m;
+  m.residual = {mapped.position().x - pose.x - arm.x, mapped.position().y - pose.y - arm.y};
+  m.jacobian = {{{1, 0, -arm.y}, {0, 1, arm.x}}};
+  m.noise = {seen.xx + q(0, 0) + own, seen.xy + q(0, 1), seen.yy + q(1, 1) + own};
+  return m;
+}
+
+PlanarMeasurement lineMeasurement(const PoseEstimate& pose, const DirectedFeature& observed,
+                                  const DirectedFeature& mapped, double relative_sigma)
+{
+  const TPoint2D arm = pose.turn(observed.position());
+  const TPoint2D from_pose{mapped.position().x - pose.x - arm.x,
+                           mapped.position().y - pose.y - arm.y};
+  // The mapped line's angle error lifts or lowers the line at the observed piece by the lever.
+  const double lever = -dot(from_pose, mapped.tangent());
+  const double angle_noise = mapped.feature->direction_variance;
+  PlanarMeasurement m;
+  m.residual = {
+      mrpt::math::wrapToPi(mapped.feature->direction - observed.feature->direction - pose.heading),
+      dot(from_pose, mapped.normal)};
+  const double turn = mapped.normal.y * arm.x - mapped.normal.x * arm.y;
+  m.jacobian = {{{0, 0, 1}, {mapped.normal.x, mapped.normal.y, turn}}};
+  m.noise = {observed.feature->direction_variance + angle_noise + kRoundingVariance,
+             lever * angle_noise,
+             varianceAlong(*observed.feature, observed.normal) +
+                 varianceAlong(*mapped.feature, mapped.normal) + relative_sigma * relative_sigma +
+                 lever * lever * angle_noise + kRoundingVariance};
+  return m;
+}
+}  // namespace
+
+PlanarMeasurement placeMeasurement(const PoseEstimate& pose, const DirectedFeature& observed,
+                                   const DirectedFeature& mapped, double relative_sigma)
+{
+  return isSegment(observed.type()) ? lineMeasurement(pose, observed, mapped, relative_sigma)
+                                    : pointMeasurement(pose, observed, mapped, relative_sigma);
+}
+
+PlanarMeasurement directionMeasurement(const PoseEstimate& pose, const DirectedFeature& observed,
+                                       const DirectedFeature& mapped)
+{
+  PlanarMeasurement m;
+  m.residual[0] =
+      mrpt::math::wrapToPi(mapped.feature->direction - observed.feature->direction - pose.heading);
+  m.jacobian = {{{0, 0, 1}, {0, 0, 0}}};
+  m.noise = {
+      observed.feature->direction_variance + mapped.feature->direction_variance + kRoundingVariance,
+      0, 1};
+  m.degrees = 1;
+  return m;
+}
+
+PlanarMeasurement slideMeasurement(const PoseEstimate& pose, const DirectedFeature& observed,
+                                   const DirectedFeature& mapped)
+{
+  const TPoint2D arm = pose.turn(observed.position());
+  const TPoint2D tangent = mapped.tangent();
+  const TPoint2D from_pose{mapped.position().x - pose.x - arm.x,
+                           mapped.position().y - pose.y - arm.y};
+  const double middle = 0.5 * (mapped.start + mapped.end);
+  const double sigma = std::max(1.0, 0.5 * mapped.length());
+  PlanarMeasurement m;
+  m.residual[0] = dot(from_pose, tangent) + middle;
+  m.jacobian = {{{tangent.x, tangent.y, tangent.y * arm.x - tangent.x * arm.y}, {0, 0, 0}}};
+  m.noise = {sigma * sigma, 0, 1};
+  m.degrees = 1;
+  return m;
+}
+
+Stretch placedStretch(const PoseEstimate& pose, const DirectedFeature& observed,
+                      const DirectedFeature& mapped)
+{
+  const TPoint2D middle = pose.place(observed.position());
+  const TPoint2D tangent = mapped.tangent();
+  const double at = dot(middle - mapped.position(), tangent);
+  const double along = dot(pose.turn(observed.tangent()), tangent);
+  const double a = at + along * observed.start;
+  const double b = at + along * observed.end;
+  return {std::min(a, b), std::max(a, b)};
+}
+}  // namespace sigloc

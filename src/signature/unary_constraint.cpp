@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sigloc/signature/unary_constraint.h"
+
+namespace sigloc
+{
+bool unaryCompatible(const DirectedFeature& observed, const DirectedFeature& mapped, double gate)
+{
+  const Feature& e = *observed.feature;
+  const Feature& f = *mapped.feature;
+  if (e.type != f.type) return false;
+  if (e.label >= 0 && f.label >= 0 && e.label != f.label) return false;
+  // A vanishing variance would make the gate an equality test on floating point numbers.
+  constexpr double kRounding = 1e-12;
+  const double variance = e.size_variance + f.size_variance + kRounding;
+  switch (e.type)
+  {
+    case FeatureType::point:
+      return true;
+    case FeatureType::circle:
+    case FeatureType::corner:
+    {
+      const double difference = e.size - f.size;
+      return difference * difference <= gate * variance;
+    }
+    case FeatureType::segment:
+    {
+      // One-sided: a wall is seen in part, never longer than it is.
+      const Feature& piece = e;
+      const double end_variance =
+          varianceAlong(piece, observed.tangent()) + varianceAlong(f, mapped.tangent());
+      const double excess = observed.length() - mapped.length();
+      return excess <= 0 || excess * excess <= gate * (variance + 2 * end_variance);
+    }
+    case FeatureType::wall_end:
+    {
+      const double excess = e.size - f.size;
+      return e.side == f.side && (excess <= 0 || excess * excess <= gate * variance);
+    }
+  }
+  return false;
+}
+}  // namespace sigloc

@@ -1,0 +1,342 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+#include <mrpt/math/wrap2pi.h>
+
+#include "sigloc/eval/FeatureWorld.h"
+#include "sigloc/matching/FeatureVerifier.h"
+#include "sigloc/matching/generators.h"
+#include "sigloc/matching/PairLists.h"
+#include "sigloc/matching/PlainGenerator.h"
+#include "sigloc/signature/unary_constraint.h"
+
+namespace sigloc
+{
+namespace
+{
+using mrpt::math::TPose2D;
+
+bool near(const TPose2D& a, const TPose2D& b, double distance, double angle)
+{
+  return std::hypot(a.x - b.x, a.y - b.y) < distance &&
+         std::abs(mrpt::math::wrapToPi(a.phi - b.phi)) < angle;
+}
+
+std::vector<FeatureHypothesis> generate(GenerationMode mode, const FeatureMap& map,
+                                        const std::vector<Feature>& observed,
+                                        MatchingCounters* counters = nullptr)
+{
+  MatchingCounters own;
+  return makeGenerator(mode, map)->generate(observed, counters ? *counters : own);
+}
+
+std::vector<Feature> moved(const TPose2D& motion, const std::vector<Feature>& features)
+{
+  std::vector<Feature> out;
+  for (const Feature& feature : features) out.push_back(transformed(motion, feature));
+  return out;
+}
+
+FeatureWorldOptions smallScenes(bool every_type)
+{
+  FeatureWorldOptions options;
+  options.range = 6;
+  if (every_type) options.type_weights = {1, 2, 1, 1, 1};
+  return options;
+}
+
+class GeneratorLaws : public testing::TestWithParam<GenerationMode>
+{
+};
+
+std::string modeName(const testing::TestParamInfo<GenerationMode>& info)
+{
+  switch (info.param)
+  {
+    case GenerationMode::plain:
+      return "Plain";
+    case GenerationMode::anchors:
+      return "Anchors";
+    case GenerationMode::pairs:
+      return "Pairs";
+    case GenerationMode::patterns:
+      return "Patterns";
+    default:
+      return "Automatic";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Modes, GeneratorLaws,
+                         testing::Values(GenerationMode::plain, GenerationMode::anchors), modeName);
+
+TEST_P(GeneratorLaws, FindsThePoseAmongPointsAndAmongEveryType)
+{
+  for (const bool every_type : {false, true})
+  {
+    const FeatureWorldOptions options = smallScenes(every_type);
+    Random random(11);
+    const FeatureWorld world = makeFeatureWorld(150, options, random);
+    const FeatureMap map(world.mapped);
+    const auto generator = makeGenerator(GetParam(), map);
+    int right = 0;
+    constexpr int kPoses = 20;
+    for (int k = 0; k < kPoses; ++k)
+    {
+      const TPose2D truth = randomPose(world, options, random);
+      MatchingCounters counters;
+      const auto found =
+          generator->generate(observeFeatures(world, truth, options, random, 14), counters);
+      right += !found.empty() && near(found[0].pose.mean, truth, 0.3, 0.06);
+      for (const FeatureHypothesis& hypothesis : found)
+      {
+        EXPECT_TRUE(inverse(toSymmetric(hypothesis.pose.covariance)));
+      }
+    }
+    EXPECT_GE(right, kPoses - 1) << (every_type ? "every type" : "points");
+  }
+}
+
+TEST_P(GeneratorLaws, IsEquivariant)
+{
+  const FeatureWorldOptions options = smallScenes(true);
+  Random random(12);
+  const FeatureWorld world = makeFeatureWorld(80, options, random);
+  const TPose2D truth = randomPose(world, options, random);
+  const auto observed = observeFeatures(world, truth, options, random, 12);
+  const TPose2D a(3.0, -7.0, 2.5);
+  const TPose2D b(-0.4, 0.9, -1.9);
+  const auto plain = generate(GetParam(), FeatureMap(world.mapped), observed);
+  const auto both = generate(GetParam(), FeatureMap(moved(a, world.mapped)), moved(b, observed));
+  ASSERT_FALSE(plain.empty());
+  ASSERT_FALSE(both.empty());
+  // Map moved by A and observation by B give A (+) x (+) B^-1.
+  const TPose2D expected = a + plain[0].pose.mean + (TPose2D(0, 0, 0) - b);
+  EXPECT_TRUE(near(both[0].pose.mean, expected, 0.02, 0.005));
+}
+
+TEST_P(GeneratorLaws, OrderOfTheMapDoesNotMatter)
+{
+  const FeatureWorldOptions options = smallScenes(true);
+  Random random(13);
+  const FeatureWorld world = makeFeatureWorld(80, options, random);
+  const TPose2D truth = randomPose(world, options, random);
+  const auto observed = observeFeatures(world, truth, options, random, 12);
+  std::vector<Feature> reversed(world.mapped.rbegin(), world.mapped.rend());
+  const auto one = generate(GetParam(), FeatureMap(world.mapped), observed);
+  const auto two = generate(GetParam(), FeatureMap(reversed), observed);
+  ASSERT_FALSE(one.empty());
+  ASSERT_FALSE(two.empty());
+  EXPECT_TRUE(near(one[0].pose.mean, two[0].pose.mean, 1e-6, 1e-6));
+  EXPECT_EQ(one[0].support, two[0].support);
+}
+
+TEST_P(GeneratorLaws, MirrorImageEmptyAndForeignMapsGiveNothingSignificant)
+{
+  const FeatureWorldOptions options = smallScenes(false);
+  Random random(14);
+  const FeatureWorld world = makeFeatureWorld(100, options, random);
+  const FeatureWorld foreign = makeFeatureWorld(100, options, random);
+  const FeatureMap image(mirrored(world.mapped));
+  const FeatureMap other(foreign.mapped);
+  int significant = 0;
+  for (int k = 0; k < 5; ++k)
+  {
+    const TPose2D truth = randomPose(world, options, random);
+    const auto observed = observeFeatures(world, truth, options, random, 14);
+    for (const FeatureMap* map : {&image, &other})
+    {
+      for (const FeatureHypothesis& hypothesis : generate(GetParam(), *map, observed))
+      {
+        significant += hypothesis.chance < GeneratorOptions{}.significance;
+      }
+    }
+    EXPECT_TRUE(generate(GetParam(), FeatureMap(), observed).empty());
+  }
+  EXPECT_EQ(significant, 0);
+}
+
+TEST_P(GeneratorLaws, CopiesOfARoomGiveEqualCandidates)
+{
+  const FeatureWorldOptions options = smallScenes(true);
+  Random random(15);
+  const FeatureWorld room = makeFeatureWorld(30, options, random);
+  constexpr std::size_t kCopies = 3;
+  std::vector<Feature> features;
+  for (std::size_t copy = 0; copy < kCopies; ++copy)
+  {
+    // Whole powers of two keep the copies exact in floating point.
+    const TPose2D shift(64.0 * static_cast<double>(copy), 0, 0);
+    for (const Feature& feature : moved(shift, room.mapped)) features.push_back(feature);
+  }
+  const TPose2D truth = randomPose(room, options, random);
+  const auto observed = observeFeatures(room, truth, options, random, 14);
+  const auto found = generate(GetParam(), FeatureMap(features), observed);
+  ASSERT_GE(found.size(), kCopies);
+  for (std::size_t copy = 0; copy < kCopies; ++copy)
+  {
+    EXPECT_NEAR(found[copy].log_odds, found[0].log_odds, 1e-6);
+    EXPECT_EQ(found[copy].support, found[0].support);
+    EXPECT_NEAR(found[copy].pose.mean.x - truth.x,
+                64.0 * std::round((found[copy].pose.mean.x - truth.x) / 64.0), 0.5);
+  }
+  for (std::size_t k = kCopies; k < found.size(); ++k)
+  {
+    EXPECT_LT(found[k].log_odds, found[0].log_odds - 1);
+  }
+}
+
+TEST_P(GeneratorLaws, DegenerateInputGivesNoErrorAndNoNonsense)
+{
+  const FeatureWorldOptions options = smallScenes(true);
+  Random random(16);
+  const FeatureWorld world = makeFeatureWorld(40, options, random);
+  const auto generator_map = FeatureMap(world.mapped);
+  const auto generator = makeGenerator(GetParam(), generator_map);
+  MatchingCounters counters;
+  EXPECT_TRUE(generator->generate({}, counters).empty());
+  const auto observed = observeFeatures(world, randomPose(world, options, random), options, random);
+  EXPECT_TRUE(generator->generate({observed[0]}, counters).empty());
+  generator->generate({observed[0], observed[1]}, counters);
+
+  // Coincident and collinear points, exact: no covariance at all.
+  std::vector<Feature> line;
+  for (int k = 0; k < 8; ++k)
+  {
+    Feature point;
+    point.position = {static_cast<double>(k / 2), 0};
+    point.position_covariance.setZero();
+    line.push_back(point);
+  }
+  const FeatureMap line_map(line);
+  for (const FeatureHypothesis& hypothesis : generate(GetParam(), line_map, line))
+  {
+    EXPECT_TRUE(std::isfinite(hypothesis.log_odds));
+    EXPECT_TRUE(inverse(toSymmetric(hypothesis.pose.covariance)));
+  }
+}
+
+TEST_P(GeneratorLaws, HeadingsAtPiAndLinesThroughTheOrigin)
+{
+  FeatureWorldOptions options = smallScenes(true);
+  options.spurious = 0.1;
+  Random random(17);
+  FeatureWorld world = makeFeatureWorld(60, options, random);
+  const FeatureMap map(moved(TPose2D(-0.5 * world.side, -0.5 * world.side, 0), world.mapped));
+  for (const double heading : {M_PI, -M_PI, M_PI - 1e-9, 0.0})
+  {
+    const TPose2D truth(0.5 * world.side, 0.5 * world.side, heading);
+    const auto observed = observeFeatures(world, truth, options, random, 14);
+    const auto found = generate(GetParam(), map, observed);
+    ASSERT_FALSE(found.empty());
+    EXPECT_TRUE(near(found[0].pose.mean, TPose2D(0, 0, heading), 0.3, 0.06));
+    EXPECT_LE(std::abs(found[0].pose.mean.phi), M_PI + 1e-12);
+  }
+}
+
+TEST_P(GeneratorLaws, SameSeedSameResult)
+{
+  const FeatureWorldOptions options = smallScenes(true);
+  Random random(18);
+  const FeatureWorld world = makeFeatureWorld(60, options, random);
+  const FeatureMap map(world.mapped);
+  const auto observed = observeFeatures(world, randomPose(world, options, random), options, random);
+  const auto generator = makeGenerator(GetParam(), map);
+  MatchingCounters counters;
+  const auto one = generator->generate(observed, counters);
+  const auto two = generator->generate(observed, counters);
+  ASSERT_EQ(one.size(), two.size());
+  for (std::size_t k = 0; k < one.size(); ++k)
+  {
+    EXPECT_EQ(one[k].log_odds, two[k].log_odds);
+    EXPECT_EQ(one[k].pose.mean.x, two[k].pose.mean.x);
+  }
+}
+
+TEST(PairLists, BinarySearchEqualsBruteForce)
+{
+  const FeatureWorldOptions options = smallScenes(true);
+  Random random(19);
+  const FeatureWorld world = makeFeatureWorld(80, options, random);
+  const FeatureMap feature_map(world.mapped);
+  const auto map = std::make_shared<const PreparedMap>(feature_map);
+  const FeatureVerifier verifier(map, {});
+  const PairLists lists(*map, PairLists::kUncut);
+  const auto observed = observeFeatures(world, randomPose(world, options, random), options, random);
+  const PreparedScene scene(observed, *map, {});
+  std::vector<std::uint32_t> candidates;
+  std::size_t total = 0;
+  for (std::uint32_t i = 0; i < scene.size(); ++i)
+  {
+    for (std::uint32_t k = 0; k < map->size(); ++k)
+    {
+      if (map->view(k).type() != scene.views[i].type()) continue;
+      for (std::uint32_t j = 0; j < scene.size(); ++j)
+      {
+        if (j == i) continue;
+        gatherCandidates(scene, verifier, lists, {i, k}, j, candidates);
+        std::vector<std::uint32_t> expected;
+        for (std::uint32_t l = 0; l < map->size(); ++l)
+        {
+          const bool fits =
+              l != k && unaryCompatible(scene.views[j], map->view(l), verifier.gates().scalar) &&
+              binaryCompatible(scene.views[i], scene.views[j], map->view(k), map->view(l),
+                               feature_map.error(), verifier.gates());
+          if (fits) expected.push_back(l);
+        }
+        std::sort(candidates.begin(), candidates.end());
+        ASSERT_EQ(candidates, expected);
+        total += expected.size();
+      }
+    }
+  }
+  EXPECT_GT(total, 100U);
+}
+
+TEST(PlainGenerator, CountersStayBelowTheStatedComplexity)
+{
+  // A repetitive worst case: a square lattice of points, where every distance recurs.
+  std::vector<Feature> lattice;
+  for (int k = 0; k < 49; ++k)
+  {
+    Feature point;
+    point.position = {2.0 * (k % 7), 2.0 * (k / 7)};
+    point.position_covariance.setIdentity();
+    point.position_covariance *= 1e-4;
+    lattice.push_back(point);
+  }
+  const FeatureMap feature_map(lattice);
+  const auto map = std::make_shared<const PreparedMap>(feature_map);
+  const auto verifier = std::make_shared<const FeatureVerifier>(map, GeneratorOptions{});
+  const auto lists = std::make_shared<const PairLists>(*map, PairLists::kUncut);
+  const std::vector<Feature> observed(lattice.begin(), lattice.begin() + 9);
+  const PreparedScene scene(observed, *map, {});
+
+  // c as the square mean size of what a signature pair's lists hold together, over n.
+  double squares = 0;
+  std::vector<std::uint32_t> candidates;
+  const auto n = static_cast<std::uint32_t>(observed.size());
+  const auto m = static_cast<std::uint32_t>(lattice.size());
+  for (std::uint32_t i = 0; i < n; ++i)
+  {
+    for (std::uint32_t k = 0; k < m; ++k)
+    {
+      double sum = 0;
+      for (std::uint32_t j = 0; j < n; ++j)
+      {
+        if (j == i) continue;
+        gatherCandidates(scene, *verifier, *lists, {i, k}, j, candidates);
+        sum += static_cast<double>(candidates.size());
+      }
+      squares += sum * sum / (n * m);
+    }
+  }
+  const double c = std::sqrt(squares) / n;
+  MatchingCounters counters;
+  PlainGenerator(verifier, lists).generate(observed, counters);
+  EXPECT_GT(counters.hypotheses, 0U);
+  EXPECT_LE(counters.signature_pairs, static_cast<std::uint64_t>(n) * m);
+  EXPECT_LE(static_cast<double>(counters.hypotheses), n * n * m * c * 1.0001);
+  EXPECT_LE(static_cast<double>(counters.checks), std::pow(n, 3) * m * c * c * 1.0001);
+}
+}  // namespace
+}  // namespace sigloc
