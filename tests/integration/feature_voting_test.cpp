@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <mrpt/math/wrap2pi.h>
 
+#include <Eigen/Dense>
+
 #include <cmath>
 #include <set>
 
