@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <mrpt/obs/CObservationBearingRange.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -58,6 +56,18 @@ Feature toPoint(const CObservationBearingRange& observation,
 }
 }  // namespace
 
+std::vector<Feature> landmarksOf(const CObservationBearingRange& observation)
+{
+  std::vector<Feature> landmarks;
+  for (const auto& measured : observation.sensedData)
+  {
+    const bool usable = std::isfinite(measured.range) && measured.range > 0 &&
+                        std::isfinite(measured.yaw) && std::isfinite(measured.pitch);
+    if (usable) landmarks.push_back(toPoint(observation, measured));
+  }
+  return landmarks;
+}
+
 std::vector<Feature> landmarksOf(const mrpt::obs::CSensoryFrame& frame)
 {
   std::vector<Feature> landmarks;
@@ -65,12 +75,8 @@ std::vector<Feature> landmarksOf(const mrpt::obs::CSensoryFrame& frame)
   {
     const auto observation = std::dynamic_pointer_cast<const CObservationBearingRange>(entry);
     if (!observation) continue;
-    for (const auto& measured : observation->sensedData)
-    {
-      const bool usable = std::isfinite(measured.range) && measured.range > 0 &&
-                          std::isfinite(measured.yaw) && std::isfinite(measured.pitch);
-      if (usable) landmarks.push_back(toPoint(*observation, measured));
-    }
+    const std::vector<Feature> seen = landmarksOf(*observation);
+    landmarks.insert(landmarks.end(), seen.begin(), seen.end());
   }
   return landmarks;
 }

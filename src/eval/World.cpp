@@ -10,6 +10,7 @@
 namespace sigloc
 {
 using mrpt::math::TPoint2D;
+using mrpt::math::TPose2D;
 
 std::vector<WallSegment> outlineOf(const Furniture& furniture)
 {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservationBearingRange.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
 #include <optional>
@@ -21,7 +22,10 @@ std::optional<LaserScan> toLaserScan(const mrpt::obs::CObservation2DRangeScan& s
 /// Returns all usable 2D scans of a sensory frame.
 std::vector<LaserScan> laserScansOf(const mrpt::obs::CSensoryFrame& frame);
 
-/// Returns the landmarks of a frame's CObservationBearingRange as points in the robot frame with
-/// their covariances, without identities. Non-finite and non-positive ranges are skipped.
+/// Returns the landmarks of an observation as points in the robot frame with their covariances,
+/// without identities. Non-finite and non-positive ranges are skipped.
+std::vector<Feature> landmarksOf(const mrpt::obs::CObservationBearingRange& observation);
+
+/// Returns the landmarks of all CObservationBearingRange of a sensory frame.
 std::vector<Feature> landmarksOf(const mrpt::obs::CSensoryFrame& frame);
 }  // namespace sigloc

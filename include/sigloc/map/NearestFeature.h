@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mrpt/math/TPoint2D.h>
+
+#include <cstdint>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "sigloc/features/Feature.h"
+
+namespace sigloc
+{
+/// Returns the place on a feature that is nearest to a point: on the segment between its ends, on
+/// the full circle, else the feature's position. Both in the same frame [m].
+mrpt::math::TPoint2D nearestPlaceOn(const Feature& feature, const mrpt::math::TPoint2D& point);
+
+/// Finds the feature nearest to a point through a spatial hash. Immutable after construction and
+/// safe to share between threads.
+class NearestFeature
+{
+ public:
+  struct Hit
+  {
+    std::uint32_t feature = 0;  ///< index into the features of the constructor
+    mrpt::math::TPoint2D place;  ///< [m], on the feature
+    double distance = 0;  ///< [m]
+  };
+
+  explicit NearestFeature(std::vector<Feature> features);
+
+  /// Returns the nearest feature within `radius` [m], the one of lower index among equals. The cost
+  /// grows with the square of the radius.
+  std::optional<Hit> find(const mrpt::math::TPoint2D& point, double radius) const;
+
+  const std::vector<Feature>& features() const { return features_; }
+
+ private:
+  std::vector<Feature> features_;
+  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
+};
+}  // namespace sigloc

@@ -1,0 +1,313 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sigloc/bridge/SignatureMap.h"
+
+#include <mrpt/maps/CPointsMap.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservationBearingRange.h>
+#include <mrpt/opengl/CSetOfObjects.h>
+#include <mrpt/poses/CPose2D.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <tuple>
+
+#include "sigloc/bridge/scan_conversion.h"
+#include "sigloc/bridge/scene_building.h"
+#include "sigloc/bridge/sigmap_file.h"
+#include "sigloc/map/map_extension.h"
+
+namespace sigloc
+{
+using mrpt::math::TPoint2D;
+using mrpt::math::TPose2D;
+using mrpt::obs::CObservation;
+using mrpt::obs::CObservation2DRangeScan;
+using mrpt::obs::CObservationBearingRange;
+using mrpt::poses::CPose2D;
+using mrpt::poses::CPose3D;
+
+namespace
+{
+constexpr std::size_t kObservationsKept = 16;
+constexpr float kFarSquared = 1e4F;  // [m^2]
+constexpr double kFar = 10.0;  // [m], distances are looked up to here
+
+void mixIn(std::uint64_t value, std::uint64_t& hash)
+{
+  hash = (hash ^ value) * 0x9E3779B97F4A7C15ULL;
+  hash ^= hash >> 29U;
+}
+
+std::uint64_t bitsOf(double value)
+{
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, &value, sizeof(bits));
+  return bits;
+}
+
+/// Tells observations apart. An address alone would not do: freed memory is used again.
+std::uint64_t fingerprintOf(const CObservation& observation)
+{
+  constexpr std::size_t kSamples = 16;
+  std::uint64_t hash = 1;
+  mixIn(reinterpret_cast<std::uintptr_t>(&observation), hash);
+  mixIn(static_cast<std::uint64_t>(observation.timestamp.time_since_epoch().count()), hash);
+  if (const auto* scan = dynamic_cast<const CObservation2DRangeScan*>(&observation))
+  {
+    const std::size_t n = scan->getScanSize();
+    mixIn(n, hash);
+    mixIn(bitsOf(scan->sensorPose.x()) ^ bitsOf(scan->sensorPose.yaw()), hash);
+    const std::size_t stride = std::max<std::size_t>(1, n / kSamples);
+    for (std::size_t i = 0; i < n; i += stride)
+    {
+      mixIn(bitsOf(static_cast<double>(scan->getScanRange(i))), hash);
+    }
+  }
+  if (const auto* landmarks = dynamic_cast<const CObservationBearingRange*>(&observation))
+  {
+    for (const auto& measured : landmarks->sensedData)
+    {
+      mixIn(bitsOf(static_cast<double>(measured.range)), hash);
+    }
+  }
+  return hash;
+}
+
+std::vector<TPoint2D> returnsOf(const LaserScan& scan)
+{
+  std::vector<TPoint2D> points;
+  for (std::size_t i = 0; i < scan.ranges.size(); ++i)
+  {
+    if (scan.valid[i] == 0) continue;
+    const double angle = scan.first_angle + static_cast<double>(i) * scan.angle_step;
+    const auto range = static_cast<double>(scan.ranges[i]);
+    points.push_back(
+        scan.robot_from_sensor.composePoint({range * std::cos(angle), range * std::sin(angle)}));
+  }
+  return points;
+}
+}  // namespace
+
+SignatureMap::SignatureMap(FeatureMap map)
+    : prepared_map_(std::make_shared<FeatureMap>(std::move(map)))
+{
+}
+
+SignatureMap::Derived& SignatureMap::Derived::operator=(const Derived& other)
+{
+  if (this == &other) return *this;
+  const std::lock_guard<std::mutex> lock(mutex);
+  model.reset();
+  observations.clear();
+  return *this;
+}
+
+std::shared_ptr<const SignatureMap::Model> SignatureMap::model() const
+{
+  const std::lock_guard<std::mutex> lock(derived_.mutex);
+  if (derived_.model) return derived_.model;
+  std::shared_ptr<const FeatureMap> map = prepared_map_;
+  const auto& [building, extraction] =
+      std::tie(insertionOptions.building, insertionOptions.extraction);
+  if (!scans_.empty())
+  {
+    const bool from_nothing = prepared_map_->empty() && !prepared_map_->field();
+    map = std::make_shared<FeatureMap>(
+        from_nothing ? buildMapFromScans(scans_, building, extraction)
+                     : extendMap(*prepared_map_, scans_, building, extraction));
+  }
+  derived_.model = std::make_shared<Model>(Model{map, NearestFeature(map->features())});
+  return derived_.model;
+}
+
+std::shared_ptr<const FeatureMap> SignatureMap::featureMap() const
+{
+  return model()->map;
+}
+
+bool SignatureMap::isEmpty() const
+{
+  return scans_.empty() && prepared_map_->empty() && !prepared_map_->field();
+}
+
+std::string SignatureMap::asString() const
+{
+  const auto map = featureMap();
+  return "SignatureMap of " + std::to_string(map->features().size()) + " features" +
+         (map->field() ? " with a dense field" : "");
+}
+
+void SignatureMap::getVisualizationInto(mrpt::opengl::CSetOfObjects& scene) const
+{
+  if (!genericMapParams.enableSaveAs3DObject) return;
+  MapDrawing drawing;
+  drawing.raster = false;
+  scene.insert(drawMap(*featureMap(), drawing));
+}
+
+void SignatureMap::saveMetricMapRepresentationToFile(const std::string& prefix) const
+{
+  saveSigmap(*featureMap(), prefix + ".sigmap");
+}
+
+void SignatureMap::internal_clear()
+{
+  scans_.clear();
+  if (genericMapParams.enableObservationInsertion) prepared_map_ = std::make_shared<FeatureMap>();
+  derived_ = Derived();
+}
+
+bool SignatureMap::internal_insertObservation(const CObservation& observation,
+                                              const std::optional<const CPose3D>& robot_pose)
+{
+  const auto* range_scan = dynamic_cast<const CObservation2DRangeScan*>(&observation);
+  if (range_scan == nullptr) return false;
+  auto scan = toLaserScan(*range_scan);
+  // A scan without any return says nothing that a map could keep.
+  if (!scan || std::count(scan->valid.begin(), scan->valid.end(), 0) ==
+                   static_cast<std::ptrdiff_t>(scan->valid.size()))
+  {
+    return false;
+  }
+  PosedScans posed;
+  if (robot_pose) posed.map_from_robot = CPose2D(*robot_pose).asTPose();
+  posed.scans.push_back(std::move(*scan));
+  scans_.push_back(std::move(posed));
+  const std::lock_guard<std::mutex> lock(derived_.mutex);
+  derived_.model.reset();
+  return true;
+}
+
+bool SignatureMap::internal_canComputeObservationLikelihood(const CObservation& observation) const
+{
+  if (isEmpty()) return false;
+  return dynamic_cast<const CObservation2DRangeScan*>(&observation) != nullptr ||
+         dynamic_cast<const CObservationBearingRange*>(&observation) != nullptr;
+}
+
+std::shared_ptr<const SignatureMap::PreparedObservation> SignatureMap::prepared(
+    const CObservation& observation) const
+{
+  const std::uint64_t fingerprint = fingerprintOf(observation);
+  const std::lock_guard<std::mutex> lock(derived_.mutex);
+  auto& kept = derived_.observations;
+  for (const auto& entry : kept)
+  {
+    if (entry->fingerprint == fingerprint) return entry;
+  }
+  auto made = std::make_shared<PreparedObservation>();
+  made->fingerprint = fingerprint;
+  const std::size_t max_points = likelihoodOptions.points.max_points;
+  if (const auto* range_scan = dynamic_cast<const CObservation2DRangeScan*>(&observation))
+  {
+    const auto scan = toLaserScan(*range_scan);
+    if (scan) made->returns = thinned(returnsOf(*scan), max_points);
+  }
+  if (const auto* bearings = dynamic_cast<const CObservationBearingRange*>(&observation))
+  {
+    std::vector<TPoint2D> points;
+    for (const Feature& landmark : landmarksOf(*bearings)) points.push_back(landmark.position);
+    made->landmarks = thinned(points, max_points);
+  }
+  kept.push_front(made);
+  if (kept.size() > kObservationsKept) kept.pop_back();
+  return made;
+}
+
+double SignatureMap::internal_computeObservationLikelihood(const CObservation& observation,
+                                                           const CPose3D& taken_from) const
+{
+  // A multi-map asks every map about every observation.
+  if (!internal_canComputeObservationLikelihood(observation)) return 0;
+  const auto current = model();
+  const auto seen = prepared(observation);
+  const TPose2D pose = CPose2D(taken_from).asTPose();
+  const PointLikelihoodOptions& options = likelihoodOptions.points;
+  const auto& field = current->map->field();
+  return logLikelihood(current->nearest, seen->landmarks, pose, options) +
+         (field ? logLikelihood(*field, seen->returns, pose, options)
+                : logLikelihood(current->nearest, seen->returns, pose, options));
+}
+
+void SignatureMap::determineMatching2D(const mrpt::maps::CMetricMap* other_map,
+                                       const CPose2D& other_map_pose,
+                                       mrpt::tfest::TMatchingPairList& correspondences,
+                                       const mrpt::maps::TMatchingParams& params,
+                                       mrpt::maps::TMatchingExtraResults& extra_results) const
+{
+  correspondences.clear();
+  extra_results = {};
+  const auto* points = dynamic_cast<const mrpt::maps::CPointsMap*>(other_map);
+  if (points == nullptr || points->empty()) return;
+  const auto current = model();
+  const TPose2D map_from_other = other_map_pose.asTPose();
+  const TPoint2D pivot(params.angularDistPivotPoint.x, params.angularDistPivotPoint.y);
+  const std::size_t step = std::max<std::size_t>(1, params.decimation_other_map_points);
+  std::size_t asked = 0;
+  double squared_sum = 0;
+  for (std::size_t i = params.offset_other_map_points; i < points->size(); i += step)
+  {
+    ++asked;
+    float x = 0;
+    float y = 0;
+    float z = 0;
+    points->getPointFast(i, x, y, z);
+    const TPoint2D point =
+        map_from_other.composePoint({static_cast<double>(x), static_cast<double>(y)});
+    const double reach =
+        static_cast<double>(params.maxDistForCorrespondence) +
+        static_cast<double>(params.maxAngularDistForCorrespondence) * (point - pivot).norm();
+    const auto hit = current->nearest.find(point, reach);
+    if (!hit) continue;
+    const double squared = hit->distance * hit->distance;
+    squared_sum += squared;
+    correspondences.emplace_back(hit->feature, i, static_cast<float>(hit->place.x),
+                                 static_cast<float>(hit->place.y), 0.0F, x, y, z);
+    correspondences.back().errorSquareAfterTransformation = static_cast<float>(squared);
+  }
+  extra_results.sumSqrDist = static_cast<float>(squared_sum);
+  if (asked == 0) return;
+  extra_results.correspondencesRatio =
+      static_cast<float>(correspondences.size()) / static_cast<float>(asked);
+}
+
+float SignatureMap::compute3DMatchingRatio(const mrpt::maps::CMetricMap* other_map,
+                                           const CPose3D& other_map_pose,
+                                           const mrpt::maps::TMatchingRatioParams& params) const
+{
+  const CPose2D planar(other_map_pose);
+  if (const auto* other = dynamic_cast<const SignatureMap*>(other_map))
+  {
+    const auto current = model();
+    const auto theirs = other->featureMap();
+    if (theirs->empty()) return 0;
+    std::size_t found = 0;
+    for (const Feature& feature : theirs->features())
+    {
+      const TPoint2D place = planar.asTPose().composePoint(feature.position);
+      if (current->nearest.find(place, static_cast<double>(params.maxDistForCorr))) ++found;
+    }
+    return static_cast<float>(found) / static_cast<float>(theirs->features().size());
+  }
+  mrpt::maps::TMatchingParams matching;
+  matching.maxDistForCorrespondence = params.maxDistForCorr;
+  mrpt::maps::TMatchingExtraResults results;
+  mrpt::tfest::TMatchingPairList pairs;
+  determineMatching2D(other_map, planar, pairs, matching, results);
+  return results.correspondencesRatio;
+}
+
+float SignatureMap::squareDistanceToClosestCorrespondence(float x, float y) const
+{
+  const auto hit = model()->nearest.find({static_cast<double>(x), static_cast<double>(y)}, kFar);
+  return hit ? static_cast<float>(hit->distance * hit->distance) : kFarSquared;
+}
+
+void SignatureMap::auxParticleFilterCleanUp()
+{
+  const std::lock_guard<std::mutex> lock(derived_.mutex);
+  derived_.observations.clear();
+}
+}  // namespace sigloc

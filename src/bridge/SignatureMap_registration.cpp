@@ -1,0 +1,177 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// How MRPT creates, configures and stores a SignatureMap.
+#include <mrpt/config/CConfigFileMemory.h>
+#include <mrpt/core/initializer.h>
+#include <mrpt/serialization/CArchive.h>
+
+#include <algorithm>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+
+#include "sigloc/bridge/sigmap_file.h"
+#include "sigloc/bridge/SignatureMap.h"
+
+// Aliases for the `..._count` keys of an ini file, the class itself first.
+MAP_DEFINITION_REGISTER("sigloc::SignatureMap,signatureMap", sigloc::SignatureMap)
+IMPLEMENTS_SERIALIZABLE(SignatureMap, mrpt::maps::CMetricMap, sigloc)
+
+// Runs when the library is linked, preloaded or opened as a plug-in.
+MRPT_INITIALIZER(register_sigloc_classes)
+{
+  mrpt::rtti::registerClass(CLASS_ID(sigloc::SignatureMap));
+}
+
+namespace sigloc
+{
+using mrpt::config::CConfigFileBase;
+using mrpt::serialization::CArchive;
+
+namespace
+{
+constexpr std::uint32_t kMostOptions = 1000;
+
+/// Copies the keys of a section that `wanted` accepts.
+template <class Wanted>
+mrpt::config::CConfigFileMemory copyOf(const CConfigFileBase& source, const std::string& section,
+                                       const Wanted& wanted)
+{
+  std::vector<std::string> keys;
+  source.getAllKeys(section, keys);
+  mrpt::config::CConfigFileMemory copy;
+  for (const std::string& key : keys)
+  {
+    if (wanted(key)) copy.write(section, key, source.read_string(section, key, ""));
+  }
+  return copy;
+}
+
+bool isBuildingKey(const std::string& key)
+{
+  const auto keys = optionKeys<MapBuildingOptions>();
+  return std::find(keys.begin(), keys.end(), key) != keys.end();
+}
+
+// Options are stored by name, so that later versions may add and drop some.
+template <class Options>
+void writeOptions(const Options& options, CArchive& out)
+{
+  out << static_cast<std::uint32_t>(optionKeys<Options>().size());
+  Options::visitFields(
+      [&](const auto& field)
+      { out << std::string(field.key) << static_cast<double>(options.*(field.member)); });
+}
+
+template <class Options>
+Options readOptions(CArchive& in)
+{
+  std::uint32_t count = 0;
+  in >> count;
+  if (count > kMostOptions) throw std::runtime_error("SignatureMap: damaged options");
+  std::map<std::string, double> stored;
+  for (std::uint32_t i = 0; i < count; ++i)
+  {
+    std::string key;
+    double value = 0;
+    in >> key >> value;
+    stored[key] = value;
+  }
+  Options options;
+  Options::visitFields(
+      [&](const auto& field)
+      {
+        using T = std::decay_t<decltype(options.*(field.member))>;
+        const auto entry = stored.find(field.key);
+        if (entry != stored.end()) options.*(field.member) = static_cast<T>(entry->second);
+      });
+  checkOptions(options);
+  return options;
+}
+}  // namespace
+
+void SignatureMap::TInsertionOptions::loadFromConfigFile(const CConfigFileBase& source,
+                                                         const std::string& section)
+{
+  const auto of_building = copyOf(source, section, isBuildingKey);
+  const auto of_extraction =
+      copyOf(source, section, [](const std::string& key) { return !isBuildingKey(key); });
+  building = loadOptions(of_building, section, building);
+  extraction = loadOptions(of_extraction, section, extraction);
+}
+
+void SignatureMap::TInsertionOptions::saveToConfigFile(CConfigFileBase& target,
+                                                       const std::string& section) const
+{
+  saveOptions(building, target, section);
+  saveOptions(extraction, target, section);
+}
+
+void SignatureMap::TLikelihoodOptions::loadFromConfigFile(const CConfigFileBase& source,
+                                                          const std::string& section)
+{
+  points = loadOptions(source, section, points);
+}
+
+void SignatureMap::TLikelihoodOptions::saveToConfigFile(CConfigFileBase& target,
+                                                        const std::string& section) const
+{
+  saveOptions(points, target, section);
+}
+
+SignatureMap::TMapDefinition::TMapDefinition() = default;
+
+void SignatureMap::TMapDefinition::loadFromConfigFile_map_specific(
+    const CConfigFileBase& source, const std::string& sectionNamePrefix)
+{
+  sigmap_file = source.read_string(sectionNamePrefix + "_creationOpts", "sigmap_file", sigmap_file);
+  insertionOpts.loadFromConfigFile(source, sectionNamePrefix + "_insertOpts");
+  likelihoodOpts.loadFromConfigFile(source, sectionNamePrefix + "_likelihoodOpts");
+}
+
+void SignatureMap::TMapDefinition::dumpToTextStream_map_specific(std::ostream& out) const
+{
+  out << "sigmap_file = " << sigmap_file << '\n';
+  insertionOpts.dumpToTextStream(out);
+  likelihoodOpts.dumpToTextStream(out);
+}
+
+mrpt::maps::CMetricMap* SignatureMap::internal_CreateFromMapDefinition(
+    const mrpt::maps::TMetricMapInitializer& def)
+{
+  const auto& definition = dynamic_cast<const TMapDefinition&>(def);
+  auto map = definition.sigmap_file.empty()
+                 ? std::make_unique<SignatureMap>()
+                 : std::make_unique<SignatureMap>(loadSigmap(definition.sigmap_file));
+  map->insertionOptions = definition.insertionOpts;
+  map->likelihoodOptions = definition.likelihoodOpts;
+  return map.release();
+}
+
+std::uint8_t SignatureMap::serializeGetVersion() const
+{
+  return 0;
+}
+
+void SignatureMap::serializeTo(CArchive& out) const
+{
+  out << genericMapParams;
+  writeOptions(insertionOptions.building, out);
+  writeOptions(insertionOptions.extraction, out);
+  writeOptions(likelihoodOptions.points, out);
+  writeFeatureMap(*featureMap(), out);
+}
+
+void SignatureMap::serializeFrom(CArchive& in, std::uint8_t version)
+{
+  if (version != 0) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
+  in >> genericMapParams;
+  insertionOptions.building = readOptions<MapBuildingOptions>(in);
+  insertionOptions.extraction = readOptions<FeatureExtractorOptions>(in);
+  likelihoodOptions.points = readOptions<PointLikelihoodOptions>(in);
+  scans_.clear();
+  prepared_map_ = std::make_shared<FeatureMap>(readFeatureMap(in));
+  derived_ = Derived();
+}
+}  // namespace sigloc

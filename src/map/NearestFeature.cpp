@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sigloc/map/NearestFeature.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace sigloc
+{
+using mrpt::math::TPoint2D;
+
+namespace
+{
+constexpr double kCell = 1.0;  // [m]
+// Features are entered by sample places this far apart at most, so that a query has to look this
+// much farther than its radius.
+constexpr double kSpacing = 0.25;  // [m]
+
+std::int64_t cellIndex(double coordinate)
+{
+  return static_cast<std::int64_t>(std::floor(coordinate / kCell));
+}
+
+std::uint64_t keyOf(std::int64_t x, std::int64_t y)
+{
+  return (static_cast<std::uint64_t>(x) << 32U) ^ (static_cast<std::uint64_t>(y) & 0xFFFFFFFFU);
+}
+
+std::vector<TPoint2D> samplesOf(const Feature& feature)
+{
+  std::vector<TPoint2D> samples;
+  if (feature.type == FeatureType::segment)
+  {
+    const TPoint2D start = segmentStart(feature);
+    const auto steps = static_cast<int>(std::ceil(feature.size / kSpacing)) + 1;
+    for (int i = 0; i <= steps; ++i)
+    {
+      samples.push_back(start + tangentVector(feature) * (feature.size * i / steps));
+    }
+  }
+  else if (feature.type == FeatureType::circle)
+  {
+    const auto steps = static_cast<int>(std::ceil(2 * M_PI * feature.size / kSpacing)) + 3;
+    for (int i = 0; i < steps; ++i)
+    {
+      const double angle = 2 * M_PI * i / steps;
+      samples.push_back(feature.position +
+                        TPoint2D(std::cos(angle), std::sin(angle)) * feature.size);
+    }
+  }
+  else
+  {
+    samples.push_back(feature.position);
+  }
+  return samples;
+}
+}  // namespace
+
+TPoint2D nearestPlaceOn(const Feature& feature, const TPoint2D& point)
+{
+  const TPoint2D to_point = point - feature.position;
+  if (feature.type == FeatureType::segment)
+  {
+    const TPoint2D tangent = tangentVector(feature);
+    const double along = tangent.x * to_point.x + tangent.y * to_point.y;
+    return feature.position + tangent * std::clamp(along, -0.5 * feature.size, 0.5 * feature.size);
+  }
+  if (feature.type == FeatureType::circle)
+  {
+    const double norm = to_point.norm();
+    const TPoint2D outward = norm > 0 ? to_point * (1.0 / norm) : directionVector(feature);
+    return feature.position + outward * feature.size;
+  }
+  return feature.position;
+}
+
+NearestFeature::NearestFeature(std::vector<Feature> features) : features_(std::move(features))
+{
+  for (std::size_t k = 0; k < features_.size(); ++k)
+  {
+    for (const TPoint2D& sample : samplesOf(features_[k]))
+    {
+      auto& cell = cells_[keyOf(cellIndex(sample.x), cellIndex(sample.y))];
+      const auto index = static_cast<std::uint32_t>(k);
+      if (cell.empty() || cell.back() != index) cell.push_back(index);
+    }
+  }
+}
+
+std::optional<NearestFeature::Hit> NearestFeature::find(const TPoint2D& point, double radius) const
+{
+  std::optional<Hit> best;
+  const double reach = radius + kSpacing;
+  for (std::int64_t y = cellIndex(point.y - reach); y <= cellIndex(point.y + reach); ++y)
+  {
+    for (std::int64_t x = cellIndex(point.x - reach); x <= cellIndex(point.x + reach); ++x)
+    {
+      const auto cell = cells_.find(keyOf(x, y));
+      if (cell == cells_.end()) continue;
+      for (const std::uint32_t k : cell->second)
+      {
+        const TPoint2D place = nearestPlaceOn(features_[k], point);
+        const double distance = (place - point).norm();
+        if (distance > radius) continue;
+        const bool better =
+            !best || distance < best->distance || (distance == best->distance && k < best->feature);
+        if (better) best = Hit{k, place, distance};
+      }
+    }
+  }
+  return best;
+}
+}  // namespace sigloc

@@ -1,0 +1,295 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sigloc/bridge/SignatureMap.h"
+
+#include <gtest/gtest.h>
+#include <mrpt/config/CConfigFileMemory.h>
+#include <mrpt/io/CMemoryStream.h>
+#include <mrpt/maps/CMultiMetricMap.h>
+#include <mrpt/maps/COccupancyGridMap2D.h>
+#include <mrpt/maps/CSimplePointsMap.h>
+#include <mrpt/obs/CObservationBearingRange.h>
+#include <mrpt/opengl/CSetOfObjects.h>
+
+#include <thread>
+
+#include "bridge/rawlog_files.h"
+#include "bridge/sample_maps.h"
+#include "sigloc/bridge/map_sources.h"
+#include "sigloc/bridge/sigmap_file.h"
+
+using namespace sigloc;
+using namespace sigloc::test;
+using mrpt::poses::CPose3D;
+
+namespace
+{
+constexpr float kHalfWidth = 4.0F;  // [m] of the room
+constexpr float kHalfDepth = 2.5F;  // [m]
+
+/// The scan a full-circle laser takes at a place in an empty rectangular room around the origin.
+mrpt::obs::CObservation2DRangeScan::Ptr roomScan(const mrpt::math::TPose2D& pose, double time = 1)
+{
+  constexpr std::size_t kBeams = 361;
+  auto scan = makeScan(time);
+  scan->aperture = static_cast<float>(2 * M_PI);
+  scan->resizeScan(kBeams);
+  for (std::size_t i = 0; i < kBeams; ++i)
+  {
+    const double angle = pose.phi - M_PI + 2 * M_PI * static_cast<double>(i) / (kBeams - 1);
+    const double c = std::cos(angle);
+    const double s = std::sin(angle);
+    const double to_x = std::abs(c) < 1e-9 ? 1e9 : (std::copysign(kHalfWidth, c) - pose.x) / c;
+    const double to_y = std::abs(s) < 1e-9 ? 1e9 : (std::copysign(kHalfDepth, s) - pose.y) / s;
+    scan->setScanRange(i, static_cast<float>(std::min(to_x, to_y)));
+    scan->setScanRangeValidity(i, true);
+  }
+  return scan;
+}
+
+SignatureMap roomMap()
+{
+  SignatureMap map;
+  for (const double x : {-1.0, 0.0, 1.0})
+  {
+    map.insertObservation(*roomScan({x, 0.2 * x, 0.0}), CPose3D(x, 0.2 * x, 0, 0, 0, 0));
+  }
+  return map;
+}
+
+mrpt::config::CConfigFileMemory multiMapIni(const std::string& sigmap_file)
+{
+  mrpt::config::CConfigFileMemory ini;
+  ini.setContent(
+      "[M]\noccupancyGrid_count=1\nsignatureMap_count=1\n"
+      "[M_signatureMap_00_creationOpts]\nsigmap_file=" +
+      sigmap_file +
+      "\n[M_signatureMap_00_insertOpts]\nmerge_gap=0.7\nmin_segment_length=0.3\n"
+      "[M_signatureMap_00_likelihoodOpts]\nsigma=0.15\n");
+  return ini;
+}
+
+mrpt::maps::CMultiMetricMap multiMap(const mrpt::config::CConfigFileMemory& ini)
+{
+  mrpt::maps::TSetOfMetricMapInitializers initializers;
+  initializers.loadFromConfigFile(ini, "M");
+  mrpt::maps::CMultiMetricMap maps;
+  maps.setListOfMaps(initializers);
+  return maps;
+}
+}  // namespace
+
+TEST(SignatureMap, LearnsARoomFromInsertedScans)
+{
+  const SignatureMap map = roomMap();
+  EXPECT_FALSE(map.isEmpty());
+  const auto features = map.featureMap()->features();
+  const auto count = [&](FeatureType type)
+  {
+    return std::count_if(features.begin(), features.end(),
+                         [&](const Feature& feature) { return feature.type == type; });
+  };
+  EXPECT_EQ(count(FeatureType::segment), 4);
+  EXPECT_EQ(count(FeatureType::corner), 4);
+  EXPECT_TRUE(map.featureMap()->field());
+}
+
+TEST(SignatureMap, LikelihoodPeaksAtTheTruePose)
+{
+  const SignatureMap map = roomMap();
+  const auto scan = roomScan({0.5, -0.3, 0.4}, 7);
+  const auto at = [&](double x, double y, double phi)
+  { return map.computeObservationLikelihood(*scan, CPose3D(x, y, 0, phi, 0, 0)); };
+  const double best = at(0.5, -0.3, 0.4);
+  EXPECT_LE(best, 0.0);
+  EXPECT_GT(best, at(0.9, -0.3, 0.4));
+  EXPECT_GT(best, at(0.5, 0.2, 0.4));
+  EXPECT_GT(best, at(0.5, -0.3, 0.8));
+  EXPECT_GT(best, at(50, 50, 0.4));
+}
+
+TEST(SignatureMap, LikelihoodFollowsAnObservationThatChangesInPlace)
+{
+  const SignatureMap map = roomMap();
+  const CPose3D pose(0.5, -0.3, 0, 0.4, 0, 0);
+  auto scan = roomScan({0.5, -0.3, 0.4});
+  const double before = map.computeObservationLikelihood(*scan, pose);
+  *scan = *roomScan({-1.5, 1.0, 0.4});
+  EXPECT_LT(map.computeObservationLikelihood(*scan, pose), before);
+}
+
+TEST(SignatureMap, SaysNothingOfObservationsItDoesNotHandle)
+{
+  SignatureMap map = roomMap();
+  const auto odometry = makeOdometry(1, {1, 2, 3});
+  EXPECT_FALSE(map.canComputeObservationLikelihood(*odometry));
+  EXPECT_EQ(map.computeObservationLikelihood(*odometry, CPose3D()), 0.0);
+  EXPECT_FALSE(map.insertObservation(*odometry));
+  EXPECT_EQ(SignatureMap().computeObservationLikelihood(*makeScan(1), CPose3D()), 0.0);
+  auto blind = makeScan(1);
+  for (std::size_t i = 0; i < blind->getScanSize(); ++i) blind->setScanRangeValidity(i, false);
+  EXPECT_FALSE(SignatureMap().insertObservation(*blind));
+  EXPECT_EQ(map.computeObservationLikelihood(*blind, CPose3D()), 0.0);
+}
+
+TEST(SignatureMap, WeighsLandmarksOfAMapWithoutField)
+{
+  std::vector<Feature> trees(3);
+  trees[0].position = {5, 0};
+  trees[1].position = {0, 5};
+  trees[2].position = {-4, -1};
+  for (Feature& tree : trees)
+  {
+    tree.position_covariance(0, 0) = tree.position_covariance(1, 1) = 0.01;
+  }
+  const SignatureMap map{FeatureMap(trees)};
+  mrpt::obs::CObservationBearingRange seen;
+  seen.sensedData.resize(2);
+  seen.sensedData[0] = {5.0F, 0.0F, 0.0F, -1, {}};
+  seen.sensedData[1] = {5.0F, static_cast<float>(M_PI / 2), 0.0F, -1, {}};
+  const double right = map.computeObservationLikelihood(seen, CPose3D());
+  EXPECT_GT(right, map.computeObservationLikelihood(seen, CPose3D(0.5, 0, 0, 0, 0, 0)));
+  EXPECT_GT(right, map.computeObservationLikelihood(seen, CPose3D(0, 0, 0, 1, 0, 0)));
+}
+
+TEST(SignatureMap, GivesThreadsTheSameLikelihoods)
+{
+  const SignatureMap map = roomMap();
+  const auto scan = roomScan({0.5, -0.3, 0.4});
+  const auto sum_over_poses = [&]
+  {
+    double sum = 0;
+    for (int i = 0; i < 500; ++i)
+    {
+      sum += map.computeObservationLikelihood(*scan, CPose3D(0.002 * i, 0, 0, 0.4, 0, 0));
+    }
+    return sum;
+  };
+  std::vector<double> sums(4);
+  std::vector<std::thread> threads;
+  for (double& sum : sums) threads.emplace_back([&] { sum = sum_over_poses(); });
+  for (auto& thread : threads) thread.join();
+  for (const double sum : sums) EXPECT_EQ(sum, sums.front());
+}
+
+TEST(SignatureMap, PairsPointsWithTheNearestPlaceOnAWall)
+{
+  const SignatureMap map = roomMap();
+  mrpt::maps::CSimplePointsMap points;
+  points.insertPoint(3.8F, 0.5F);
+  points.insertPoint(0.0F, 0.0F);
+  mrpt::maps::TMatchingParams params;
+  mrpt::maps::TMatchingExtraResults results;
+  mrpt::tfest::TMatchingPairList pairs;
+  map.determineMatching2D(&points, {0, 0, 0}, pairs, params, results);
+  ASSERT_EQ(pairs.size(), 1U);
+  EXPECT_EQ(pairs[0].localIdx, 0U);
+  EXPECT_NEAR(pairs[0].global.x, kHalfWidth, 0.05);
+  EXPECT_NEAR(pairs[0].global.y, 0.5, 0.05);
+  EXPECT_NEAR(results.correspondencesRatio, 0.5, 1e-6);
+  const CPose3D shifted(0.2, 0, 0, 0, 0, 0);
+  EXPECT_NEAR(map.compute3DMatchingRatio(&points, shifted, {}), 0.5, 1e-6);
+  EXPECT_NEAR(map.compute3DMatchingRatio(&map, CPose3D(), {}), 1.0, 1e-6);
+  const mrpt::maps::COccupancyGridMap2D grid;
+  EXPECT_EQ(map.compute3DMatchingRatio(&grid, CPose3D(), {}), 0.0F);
+}
+
+TEST(SignatureMap, ExtendsAPreparedMap)
+{
+  SignatureMap map(*roomMap().featureMap());
+  const std::size_t before = map.featureMap()->features().size();
+  map.insertObservation(*roomScan({0, 0, 0}), CPose3D());
+  map.insertObservation(*roomScan({0.5, 0, 0}), CPose3D(0.5, 0, 0, 0, 0, 0));
+  EXPECT_EQ(map.featureMap()->features().size(), before) << "it knew that room";
+  const CPose3D far(30, 0, 0, 0, 0, 0);
+  map.insertObservation(*roomScan({0, 0, 0}), far);
+  map.insertObservation(*roomScan({0.5, 0, 0}), far + CPose3D(0.5, 0, 0, 0, 0, 0));
+  EXPECT_GE(map.featureMap()->features().size(), 2 * before);
+  const auto scan = roomScan({0.2, 0.1, 0});
+  EXPECT_GT(map.computeObservationLikelihood(*scan, far + CPose3D(0.2, 0.1, 0, 0, 0, 0)),
+            map.computeObservationLikelihood(*scan, CPose3D(15, 0, 0, 0, 0, 0)));
+}
+
+TEST(SignatureMap, ClearingKeepsAPreparedMapThatTakesNoInsertions)
+{
+  SignatureMap map(sampleMap(30, 20));
+  SignatureMap fixed(sampleMap(30, 20));
+  fixed.genericMapParams.enableObservationInsertion = false;
+  map.clear();
+  fixed.clear();
+  EXPECT_TRUE(map.isEmpty());
+  EXPECT_FALSE(fixed.isEmpty());
+}
+
+TEST(SignatureMap, SurvivesSerialization)
+{
+  SignatureMap map = roomMap();
+  map.insertionOptions.building.merge_gap = 0.7;
+  map.likelihoodOptions.points.max_points = 17;
+  mrpt::io::CMemoryStream memory;
+  auto archive = mrpt::serialization::archiveFrom(memory);
+  archive << map;
+  memory.Seek(0);
+  const auto object = archive.ReadObject();
+  const auto copy = std::dynamic_pointer_cast<SignatureMap>(object);
+  ASSERT_TRUE(copy) << "made through the class registry";
+  expectSameMap(*copy->featureMap(), *map.featureMap());
+  EXPECT_EQ(copy->insertionOptions.building.merge_gap, 0.7);
+  EXPECT_EQ(copy->likelihoodOptions.points.max_points, 17U);
+}
+
+TEST(SignatureMap, IsMadeFromAnIniAndDeepCopiedInAMultiMap)
+{
+  const TemporaryFolder folder;
+  const FeatureMap prepared = sampleMap(60, 40);
+  saveSigmap(prepared, folder / "m.sigmap");
+  mrpt::maps::CMultiMetricMap maps = multiMap(multiMapIni((folder / "m.sigmap").string()));
+  auto original = maps.mapByClass<SignatureMap>();
+  ASSERT_TRUE(original);
+  expectSameMap(*original->featureMap(), prepared);
+  EXPECT_EQ(original->insertionOptions.building.merge_gap, 0.7);
+  EXPECT_EQ(original->insertionOptions.extraction.min_segment_length, 0.3);
+  EXPECT_EQ(original->likelihoodOptions.points.sigma, 0.15);
+
+  const mrpt::maps::CMultiMetricMap copy = maps;
+  const auto copied = copy.mapByClass<SignatureMap>();
+  ASSERT_TRUE(copied);
+  EXPECT_NE(copied.get(), original.get());
+  original->clear();
+  expectSameMap(*copied->featureMap(), prepared);
+}
+
+TEST(SignatureMap, RefusesUnknownKeysAndBadFiles)
+{
+  auto ini = multiMapIni("");
+  ini.write("M_signatureMap_00_likelihoodOpts", "sgima", 0.2);
+  EXPECT_THROW(multiMap(ini), std::exception);
+  ini = multiMapIni("");
+  ini.write("M_signatureMap_00_insertOpts", "merge_gap", "much");
+  EXPECT_THROW(multiMap(ini), std::exception);
+  EXPECT_THROW(multiMap(multiMapIni("/nonexistent.sigmap")), std::exception);
+}
+
+TEST(SignatureMap, WritesItsOptionsAsItReadsThem)
+{
+  SignatureMap::TInsertionOptions options;
+  options.building.merge_gap = 0.9;
+  options.extraction.split_distance = 0.08;
+  mrpt::config::CConfigFileMemory ini;
+  options.saveToConfigFile(ini, "s");
+  SignatureMap::TInsertionOptions read;
+  read.loadFromConfigFile(ini, "s");
+  EXPECT_EQ(read.building.merge_gap, 0.9);
+  EXPECT_EQ(read.extraction.split_distance, 0.08);
+}
+
+TEST(SignatureMap, DrawsItselfAndWritesASigmap)
+{
+  const SignatureMap map = roomMap();
+  mrpt::opengl::CSetOfObjects scene;
+  map.getVisualizationInto(scene);
+  EXPECT_FALSE(scene.empty());
+  const TemporaryFolder folder;
+  map.saveMetricMapRepresentationToFile((folder / "out").string());
+  expectSameMap(loadSigmap(folder / "out.sigmap"), *map.featureMap());
+}
