@@ -50,11 +50,17 @@ function(sigloc_add_library name)
   target_link_libraries(${name} PUBLIC ${ARG_LINK} PRIVATE $<BUILD_INTERFACE:sigloc_flags>)
 endfunction()
 
-# sigloc_add_app(NAME LINK target...): an executable from apps/<NAME>/*.cpp.
+# sigloc_add_app(NAME LINK target...): an executable from apps/<NAME>/*.cpp. Its target is called
+# NAME-app where a library has the name already.
 function(sigloc_add_app name)
   cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
+  set(target ${name})
+  if(TARGET ${name})
+    set(target ${name}-app)
+  endif()
   file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/apps/${name}/*.cpp")
-  add_executable(${name} ${sources})
-  target_link_libraries(${name} PRIVATE ${ARG_LINK} CLI11::CLI11 sigloc_flags)
-  set_property(GLOBAL APPEND PROPERTY SIGLOC_APPS ${name})
+  add_executable(${target} ${sources})
+  set_target_properties(${target} PROPERTIES OUTPUT_NAME ${name})
+  target_link_libraries(${target} PRIVATE ${ARG_LINK} CLI11::CLI11 sigloc_flags)
+  set_property(GLOBAL APPEND PROPERTY SIGLOC_APPS ${target})
 endfunction()

@@ -136,7 +136,7 @@ TPose2D DenseSearchSpace::poseOf(const LatticePose& pose) const
 
 std::vector<TPoint2D> DenseSearchSpace::latticePoints(const std::vector<LaserScan>& scans) const
 {
-  const std::vector<TPoint2D> all = endPoints(scans);
+  std::vector<TPoint2D> all = endPoints(scans);
   if (all.size() <= options_.points) return all;
   std::vector<TPoint2D> chosen;
   for (std::size_t i = 0; i < options_.points; ++i)

@@ -191,13 +191,13 @@ double WorldRayCaster::cast(const TPoint2D& origin, double angle, double max_ran
 
   // Walk the cells (Amanatides and Woo): next_x and next_y are the distances at which the ray
   // crosses into the next column and row.
-  const auto cellOf = [&](double value, double grid_low, std::int64_t count)
+  const auto cell_of = [&](double value, double grid_low, std::int64_t count)
   {
     const auto c = static_cast<std::int64_t>(std::floor((value - grid_low) / cell_size_));
     return std::clamp<std::int64_t>(c, 0, count - 1);
   };
-  std::int64_t column = cellOf(origin.x + enter * direction.x, grid_origin_.x, columns_);
-  std::int64_t row = cellOf(origin.y + enter * direction.y, grid_origin_.y, rows_);
+  std::int64_t column = cell_of(origin.x + enter * direction.x, grid_origin_.x, columns_);
+  std::int64_t row = cell_of(origin.y + enter * direction.y, grid_origin_.y, rows_);
   const std::int64_t step_x = direction.x > 0 ? 1 : -1;
   const std::int64_t step_y = direction.y > 0 ? 1 : -1;
   const auto border = [&](std::int64_t cell, double o, double d, double grid_low)

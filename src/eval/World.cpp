@@ -10,7 +10,6 @@
 namespace sigloc
 {
 using mrpt::math::TPoint2D;
-using mrpt::math::TPose2D;
 
 std::vector<WallSegment> outlineOf(const Furniture& furniture)
 {

@@ -74,7 +74,7 @@ std::vector<Furniture> furnish(const Bounds& room, double mean, const TPoint2D& 
 {
   std::vector<Furniture> items;
   const auto count =
-      static_cast<std::size_t>(std::max(0.0, mean + random.uniform(-1.0, 1.0)) + 0.5);
+      static_cast<std::size_t>(std::lround(std::max(0.0, mean + random.uniform(-1.0, 1.0))));
   for (std::size_t attempt = 0; attempt < 20 * count && items.size() < count; ++attempt)
   {
     Furniture item;

@@ -31,6 +31,7 @@ std::vector<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_
     const std::vector<LatticePose>& poses)
 {
   std::vector<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>> keys;
+  keys.reserve(poses.size());
   for (const LatticePose& p : poses) keys.emplace_back(p.score, p.heading, p.row, p.column);
   return keys;
 }

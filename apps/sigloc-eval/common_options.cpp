@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common_options.h"
+
+#include <unistd.h>
+
+#include <cmath>
+#include <iomanip>
+#include <iostream>
+#include <stdexcept>
+
+namespace sigloc
+{
+void CommonOptions::declare(CLI::App& command)
+{
+  command.add_option("--method", methods, "methods to run, separated by commas")->delimiter(',');
+  command.add_option("--max-queries", max_queries, "ask this many, evenly spaced (default: all)");
+  command.add_option("--seed", seed, "of everything random")->capture_default_str();
+  command.add_option("--threads", threads, "queries asked at a time; each is timed on its own")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 256));
+  command.add_option("--region", region, "x0,x1,y0,y1 [m]: the robot is known to be inside")
+      ->delimiter(',')
+      ->expected(4);
+  command.add_option("--heading", heading, "heading and tolerance [deg]: known roughly")
+      ->delimiter(',')
+      ->expected(2);
+  command.add_flag("--no-dense", no_dense, "the signature methods do without the dense field");
+  command.add_flag("--quiet", quiet, "no progress bar, no table");
+  command.add_option("--out", out, "folder for summary.json, results.csv, report.md and plots")
+      ->required();
+}
+
+std::optional<PoseRegion> CommonOptions::poseRegion() const
+{
+  if (region.empty() && heading.empty()) return std::nullopt;
+  constexpr double kFar = 1e9;  // [m]
+  PoseRegion prior{-kFar, kFar, -kFar, kFar};
+  if (!region.empty())
+  {
+    prior.x_min = region[0];
+    prior.x_max = region[1];
+    prior.y_min = region[2];
+    prior.y_max = region[3];
+    if (prior.x_min > prior.x_max || prior.y_min > prior.y_max)
+    {
+      throw std::invalid_argument("--region: the lower bound exceeds the upper one");
+    }
+  }
+  if (!heading.empty())
+  {
+    prior.heading = heading[0] * M_PI / 180;
+    prior.heading_tolerance = heading[1] * M_PI / 180;
+  }
+  return prior;
+}
+
+mrpt::math::TPose2D poseOfFlag(const std::vector<double>& values)
+{
+  if (values.empty()) return {};
+  return {values[0], values[1], values[2] * M_PI / 180};
+}
+
+std::function<void(const std::string&, double)> progressBar(bool quiet)
+{
+  if (quiet || isatty(STDERR_FILENO) == 0) return {};
+  return [](const std::string& what, double share)
+  {
+    constexpr int kWidth = 40;
+    const int filled = static_cast<int>(std::lround(share * kWidth));
+    std::cerr << "\r" << std::left << std::setw(20) << what << " ["
+              << std::string(static_cast<std::size_t>(filled), '#')
+              << std::string(static_cast<std::size_t>(kWidth - filled), ' ') << "] " << std::right
+              << std::setw(3) << std::lround(100 * share) << " %" << (share >= 1 ? "\n" : "")
+              << std::flush;
+  };
+}
+}  // namespace sigloc

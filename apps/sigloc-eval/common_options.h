@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mrpt/math/TPose2D.h>
+#include <CLI/CLI.hpp>
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sigloc/matching/SignatureMatcher.h"
+
+namespace sigloc
+{
+/// The options that every sub-command takes.
+struct CommonOptions
+{
+  std::vector<std::string> methods;
+  std::uint32_t max_queries = 0;
+  std::uint32_t seed = 1;
+  std::uint32_t threads = 1;
+  std::vector<double> region;  ///< x0,x1,y0,y1
+  std::vector<double> heading;  ///< degrees, tolerance
+  bool no_dense = false;
+  bool quiet = false;
+  std::string out;
+
+  /// Declares them; the object must live as long as the command.
+  void declare(CLI::App& command);
+
+  /// The prior that --region and --heading give together.
+  std::optional<PoseRegion> poseRegion() const;
+};
+
+/// Returns the pose of a flag "x,y,deg"; the identity for an empty list.
+mrpt::math::TPose2D poseOfFlag(const std::vector<double>& values);
+
+/// Returns a progress bar on stderr, or an empty function when it is no terminal or `quiet`.
+std::function<void(const std::string&, double)> progressBar(bool quiet);
+}  // namespace sigloc

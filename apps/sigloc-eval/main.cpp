@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <array>
+#include <exception>
+#include <functional>
+#include <iostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "commands.h"
+
+namespace
+{
+struct Command
+{
+  const char* name;
+  const char* description;
+  sigloc::CommandSetup set_up;
+};
+
+constexpr std::array kCommands = {
+    Command{"relocate", "find robots from one look each, method by method", sigloc::setUpRelocate},
+};
+
+std::string commandLine(int argc, char** argv)
+{
+  std::string line = "sigloc-eval";
+  for (int i = 1; i < argc; ++i) line += std::string(" ") + argv[i];
+  return line;
+}
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  CLI::App app{"Compares ways of finding a lost robot, on logs and in simulation.", "sigloc-eval"};
+  app.require_subcommand(1);
+  std::vector<std::pair<CLI::App*, std::function<int()>>> runs;
+  for (const Command& command : kCommands)
+  {
+    CLI::App* sub = app.add_subcommand(command.name, command.description);
+    runs.emplace_back(sub, command.set_up(*sub, commandLine(argc, argv)));
+  }
+  try
+  {
+    app.parse(argc, argv);
+    for (const auto& [sub, run] : runs)
+    {
+      if (sub->parsed()) return run();
+    }
+  }
+  catch (const CLI::Success& help)
+  {
+    return app.exit(help);
+  }
+  catch (const std::exception& error)
+  {
+    std::cerr << "sigloc-eval: " << error.what() << "\n";
+    return 1;
+  }
+  return 1;
+}

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sigloc/eval/relocate.h"
+
+#include <iostream>
+
+#include "commands.h"
+
+namespace sigloc
+{
+namespace
+{
+struct RelocateFlags
+{
+  CommonOptions common;
+  EvaluationSources sources;
+  std::vector<double> map_from_queries;
+  bool simulated = false;
+
+  int run(const std::string& command_line) const
+  {
+    RelocateOptions options;
+    options.sources = sources;
+    options.sources.map_from_queries = poseOfFlag(map_from_queries);
+    options.sources.max_queries = common.max_queries;
+    if (!common.methods.empty()) options.methods = common.methods;
+    options.method.region = common.poseRegion();
+    options.method.use_dense_field = !common.no_dense;
+    options.method.seed = common.seed;
+    if (simulated)
+    {
+      options.gates.wrong_distance = options.gates.right_distance;
+      options.gates.wrong_angle_deg = options.gates.right_angle_deg;
+    }
+    options.threads = common.threads;
+    options.command = command_line;
+    options.progress = progressBar(common.quiet);
+    const RelocateReport report = runRelocate(options);
+    writeRelocateReport(report, common.out);
+    if (!common.quiet) std::cout << relocateTable(report);
+    return report.complete ? 0 : 2;
+  }
+};
+}  // namespace
+
+std::function<int()> setUpRelocate(CLI::App& command, const std::string& command_line)
+{
+  const auto flags = std::make_shared<RelocateFlags>();
+  EvaluationSources& sources = flags->sources;
+  command.add_option("--map", sources.map, "whatever sigloc-map build takes")->required();
+  command.add_option("--queries", sources.queries, "simplemap: every key frame is a query");
+  command.add_option("--rawlog", sources.rawlog, "rawlog: every step with truth is a query");
+  command.add_option("--ground-truth", sources.ground_truth,
+                     "truth of the rawlog: rows `time x y phi`, or 3 or 7 columns");
+  command.add_option("--interleave", sources.interleave,
+                     "every k-th scan of the map is a query, the rest map");
+  command
+      .add_option("--map-from-queries", flags->map_from_queries,
+                  "x,y,deg: frame of the queries' truth in the map")
+      ->delimiter(',')
+      ->expected(3);
+  command.add_flag("--foreign", sources.foreign, "the queries are of another place");
+  command.add_flag("--simulated", flags->simulated,
+                   "the truth is exact: every confident answer that is not right is wrong");
+  flags->common.declare(command);
+  return [flags, command_line] { return flags->run(command_line); };
+}
+}  // namespace sigloc

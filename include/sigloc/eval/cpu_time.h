@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace sigloc
+{
+/// CPU time that the calling thread has used [s]: what a method costs, whatever else the machine
+/// does meanwhile.
+double threadCpuSeconds();
+
+/// Starts a new measurement of the largest resident set of this process, where the system can.
+void resetPeakMemory();
+
+/// The largest resident set since the last reset [MB].
+double peakMemoryMb();
+}  // namespace sigloc

@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sigloc/eval/plot.h"
+
+#include <stdio.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+namespace sigloc
+{
+namespace
+{
+// gnuplot's double-quoted strings take backslash escapes.
+std::string quoted(const std::string& text)
+{
+  std::string out = "\"";
+  for (const char c : text)
+  {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + "\"";
+}
+
+std::string scriptOf(const Plot& plot, const std::filesystem::path& png)
+{
+  std::ostringstream script;
+  script << std::setprecision(9);
+  for (std::size_t i = 0; i < plot.series.size(); ++i)
+  {
+    script << "$series" << i << " << END_OF_DATA\n";
+    for (const auto& [x, y] : plot.series[i].points)
+    {
+      if (std::isfinite(x) && std::isfinite(y)) script << x << " " << y << "\n";
+    }
+    script << "END_OF_DATA\n";
+  }
+  script << "set terminal pngcairo size 900,600 noenhanced\n"
+         << "set output " << quoted(png.string()) << "\n"
+         << "set title " << quoted(plot.title) << "\n"
+         << "set xlabel " << quoted(plot.x_label) << "\n"
+         << "set ylabel " << quoted(plot.y_label) << "\n"
+         << "set grid\nset key outside right top\n";
+  if (plot.log_x) script << "set logscale x\n";
+  if (plot.log_y) script << "set logscale y\n";
+  script << "plot ";
+  bool first = true;
+  for (std::size_t i = 0; i < plot.series.size(); ++i)
+  {
+    if (plot.series[i].points.empty()) continue;
+    script << (first ? "" : ", ") << "$series" << i << " using 1:2 with "
+           << (plot.series[i].markers ? "linespoints" : "lines") << " linewidth 2 title "
+           << quoted(plot.series[i].title);
+    first = false;
+  }
+  script << "\n";
+  return first ? std::string() : script.str();
+}
+}  // namespace
+
+PlotSeries cumulativeShare(const std::string& title, std::vector<double> values, std::size_t cases)
+{
+  std::sort(values.begin(), values.end());
+  PlotSeries series;
+  series.title = title;
+  for (std::size_t i = 0; i < values.size(); ++i)
+  {
+    series.points.emplace_back(values[i], static_cast<double>(i + 1) / static_cast<double>(cases));
+  }
+  return series;
+}
+
+bool drawPlot(const Plot& plot, const std::filesystem::path& png)
+{
+  const std::string script = scriptOf(plot, png);
+  if (script.empty()) return false;
+  FILE* gnuplot = popen("gnuplot >/dev/null 2>&1", "w");
+  if (!gnuplot) return false;
+  const bool written = fwrite(script.data(), 1, script.size(), gnuplot) == script.size();
+  return pclose(gnuplot) == 0 && written;
+}
+}  // namespace sigloc

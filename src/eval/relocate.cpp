@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sigloc/eval/relocate.h"
+
+#include <mrpt/io/CMemoryStream.h>
+#include <mrpt/serialization/CArchive.h>
+
+#include <algorithm>
+#include <atomic>
+#include <limits>
+#include <mutex>
+#include <stdexcept>
+
+#include "sigloc/bridge/sigmap_file.h"
+#include "sigloc/eval/cpu_time.h"
+#include "sigloc/eval/run_parallel.h"
+
+namespace sigloc
+{
+namespace
+{
+std::size_t serializedBytes(const FeatureMap& map)
+{
+  mrpt::io::CMemoryStream stream;
+  auto archive = mrpt::serialization::archiveFrom(stream);
+  writeFeatureMap(map, archive);
+  return static_cast<std::size_t>(stream.getTotalBytesCount());
+}
+
+double nsPerLookup(const RelocationMethod& method, const std::vector<RelocationRecord>& records)
+{
+  double lookups = 0;
+  double milliseconds = 0;
+  for (const RelocationRecord& record : records)
+  {
+    lookups += static_cast<double>(record.poses_scored) * method.lookupsPerPose();
+    milliseconds += record.time_ms;
+  }
+  return lookups > 0 ? 1e6 * milliseconds / lookups : std::numeric_limits<double>::quiet_NaN();
+}
+
+RelocateMethodReport runMethod(const std::string& name, const EvaluationData& data,
+                               const RelocateOptions& options)
+{
+  RelocateMethodReport report;
+  report.name = name;
+  resetPeakMemory();
+  const double before = threadCpuSeconds();
+  const auto method = makeRelocationMethod(name, data.map, options.method);
+  report.prepare_seconds = threadCpuSeconds() - before;
+  report.records.resize(data.queries.size());
+  std::atomic<std::size_t> done{0};
+  std::mutex progress_mutex;
+  const auto ask = [&](std::size_t i)
+  {
+    const EvaluationQuery& query = data.queries[i];
+    const double start = threadCpuSeconds();
+    const RelocationResult answer = method->localize(query.scans);
+    const double time = threadCpuSeconds() - start;
+    report.records[i] = judgeRelocation(query, answer, method->claimsVerdict(),
+                                        method->propose(query.scans), options.gates);
+    report.records[i].time_ms = 1e3 * time;
+    const double share = static_cast<double>(++done) / static_cast<double>(data.queries.size());
+    const std::lock_guard<std::mutex> lock(progress_mutex);
+    if (options.progress) options.progress(name, share);
+  };
+  runParallel(data.queries.size(), options.threads, ask);
+  report.summary = summarize(report.records, options.gates);
+  report.summary.claims_verdict = method->claimsVerdict();
+  report.summary.ns_per_lookup = nsPerLookup(*method, report.records);
+  report.summary.peak_rss_mb = peakMemoryMb();
+  return report;
+}
+}  // namespace
+
+RelocateReport runRelocate(const RelocateOptions& options)
+{
+  if (options.methods.empty()) throw std::invalid_argument("no method to run");
+  const std::vector<std::string> known = relocationMethodNames();
+  for (const std::string& name : options.methods)
+  {
+    if (std::find(known.begin(), known.end(), name) == known.end())
+    {
+      throw std::invalid_argument("unknown method '" + name + "'");
+    }
+  }
+  RelocateReport report;
+  report.provenance.command = options.command;
+  report.provenance.seed = options.method.seed;
+  for (const auto& path : {options.sources.map, options.sources.queries, options.sources.rawlog,
+                           options.sources.ground_truth})
+  {
+    if (!path.empty()) report.provenance.data_files.push_back(path);
+  }
+  const EvaluationData data = readEvaluationData(options.sources);
+  report.map_features = data.map.features->features().size();
+  report.map_bytes = serializedBytes(*data.map.features);
+  report.map_build_seconds = data.map.build_seconds;
+  report.without_truth = data.without_truth;
+  report.complete = data.complete;
+  report.foreign = options.sources.foreign;
+  for (const std::string& name : options.methods)
+  {
+    report.methods.push_back(runMethod(name, data, options));
+  }
+  return report;
+}
+}  // namespace sigloc

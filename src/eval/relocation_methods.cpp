@@ -1,0 +1,171 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <functional>
+#include <stdexcept>
+#include <utility>
+
+#include "sigloc/eval/FeatureVoting.h"
+#include "sigloc/eval/lattice_search.h"
+#include "sigloc/eval/RelocationMethod.h"
+#include "sigloc/features/FeatureExtractor.h"
+
+namespace sigloc
+{
+namespace
+{
+class SignatureRelocation : public RelocationMethod
+{
+ public:
+  SignatureRelocation(const EvaluationMap& map, const RelocationMethodOptions& options,
+                      GenerationMode mode)
+      : matcher_(map.features, matcherOptions(options, mode)), region_(options.region)
+  {
+  }
+
+  RelocationResult localize(const std::vector<LaserScan>& scans) const override
+  {
+    return matcher_.localize(observeScene(scans), region_);
+  }
+
+  std::optional<std::vector<mrpt::math::TPose2D>> propose(
+      const std::vector<LaserScan>& scans) const override
+  {
+    return matcher_.propose(observeScene(scans));
+  }
+
+  bool claimsVerdict() const override { return true; }
+
+ private:
+  static MatcherOptions matcherOptions(const RelocationMethodOptions& options, GenerationMode mode)
+  {
+    MatcherOptions out;
+    out.mode = static_cast<std::uint32_t>(mode);
+    out.use_dense_field = options.use_dense_field;
+    out.seed = options.seed;
+    return out;
+  }
+
+  SignatureMatcher matcher_;
+  std::optional<PoseRegion> region_;
+};
+
+DenseSearchSpace searchSpaceOf(const EvaluationMap& map, const RelocationMethodOptions& options)
+{
+  if (!map.raster) throw std::invalid_argument("a dense search needs a map with a grid or scans");
+  DenseSearchOptions search;
+  search.region = options.region;
+  return DenseSearchSpace(*map.raster, search);
+}
+
+/// The reference search and its pruned form share all but the search itself.
+class DenseRelocation : public RelocationMethod
+{
+ public:
+  DenseRelocation(const EvaluationMap& map, const RelocationMethodOptions& options, bool pruned)
+      : space_(searchSpaceOf(map, options))
+  {
+    if (pruned) pruned_search_.emplace(space_);
+  }
+
+  RelocationResult localize(const std::vector<LaserScan>& scans) const override
+  {
+    const auto points = space_.latticePoints(scans);
+    RelocationResult result;
+    if (points.empty()) return result;
+    const LatticeSearchResult found =
+        pruned_search_ ? pruned_search_->search(points) : searchExhaustively(space_, points);
+    result.candidates = space_.refineAndRank(found.best, scans);
+    result.verdict = Verdict::ambiguous;
+    result.counters.poses_scored = found.poses_scored;
+    return result;
+  }
+
+  double lookupsPerPose() const override { return space_.options().points; }
+
+ private:
+  DenseSearchSpace space_;
+  std::optional<BranchAndBoundSearch> pruned_search_;
+};
+
+class VotingRelocation : public RelocationMethod
+{
+ public:
+  VotingRelocation(const EvaluationMap& map, const RelocationMethodOptions& options)
+      : map_(map.features), voting_(*map_, votingOptions(options))
+  {
+  }
+
+  RelocationResult localize(const std::vector<LaserScan>& scans) const override
+  {
+    FeatureVoting::Result votes = voting_.vote(observeScene(scans).features);
+    RelocationResult result;
+    result.candidates = std::move(votes.candidates);
+    result.verdict = Verdict::ambiguous;
+    result.counters.hypotheses = votes.votes;
+    return result;
+  }
+
+ private:
+  static FeatureVotingOptions votingOptions(const RelocationMethodOptions& options)
+  {
+    FeatureVotingOptions out;
+    out.region = options.region;
+    return out;
+  }
+
+  std::shared_ptr<const FeatureMap> map_;
+  FeatureVoting voting_;
+};
+
+struct MethodEntry
+{
+  const char* name;
+  std::function<std::unique_ptr<RelocationMethod>(const EvaluationMap&,
+                                                  const RelocationMethodOptions&)>
+      make;
+};
+
+template <class Method, class... Arguments>
+MethodEntry entry(const char* name, Arguments... arguments)
+{
+  return {name, [=](const EvaluationMap& map, const RelocationMethodOptions& options)
+          { return std::make_unique<Method>(map, options, arguments...); }};
+}
+
+const std::vector<MethodEntry>& methodTable()
+{
+  static const std::vector<MethodEntry> table = {
+      entry<SignatureRelocation>("signature", GenerationMode::automatic),
+      entry<SignatureRelocation>("signature-plain", GenerationMode::plain),
+      entry<SignatureRelocation>("signature-anchors", GenerationMode::anchors),
+      entry<SignatureRelocation>("signature-pairs", GenerationMode::pairs),
+      entry<SignatureRelocation>("signature-patterns", GenerationMode::patterns),
+      entry<SignatureRelocation>("signature-bases", GenerationMode::bases),
+      entry<DenseRelocation>("exhaustive", false),
+      entry<DenseRelocation>("branch-and-bound", true),
+      entry<VotingRelocation>("voting"),
+  };
+  return table;
+}
+}  // namespace
+
+std::vector<std::string> relocationMethodNames()
+{
+  std::vector<std::string> names;
+  for (const MethodEntry& method : methodTable()) names.emplace_back(method.name);
+  return names;
+}
+
+std::unique_ptr<RelocationMethod> makeRelocationMethod(const std::string& name,
+                                                       const EvaluationMap& map,
+                                                       const RelocationMethodOptions& options)
+{
+  for (const MethodEntry& method : methodTable())
+  {
+    if (name == method.name) return method.make(map, options);
+  }
+  std::string known;
+  for (const std::string& each : relocationMethodNames()) known += " " + each;
+  throw std::invalid_argument("unknown method '" + name + "'; known are:" + known);
+}
+}  // namespace sigloc

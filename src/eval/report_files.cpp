@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sigloc/eval/report_files.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iomanip>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <stdexcept>
+
+namespace sigloc
+{
+std::string fixedNumber(double value, int decimals)
+{
+  if (std::isnan(value)) return "";
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(decimals) << value;
+  return text.str();
+}
+
+std::string withInterval(const Proportion& proportion)
+{
+  if (proportion.cases == 0) return "-";
+  return fixedNumber(proportion.value(), 3) + " (" + fixedNumber(proportion.low(), 2) + "-" +
+         fixedNumber(proportion.high(), 2) + ")";
+}
+
+nlohmann::ordered_json toJson(const Quantiles& quantiles)
+{
+  return {{"median", quantiles.median}, {"p95", quantiles.p95}, {"mean", quantiles.mean}};
+}
+
+void addProportion(nlohmann::ordered_json& object, const std::string& name,
+                   const Proportion& proportion)
+{
+  object[name] = proportion.value();
+  object[name + "_interval"] = nullptr;
+  if (proportion.cases > 0)
+  {
+    object[name + "_interval"] =
+        nlohmann::ordered_json::array({proportion.low(), proportion.high()});
+  }
+}
+
+std::string markdownTable(const std::vector<std::vector<std::string>>& rows)
+{
+  std::vector<std::size_t> widths;
+  for (const auto& row : rows)
+  {
+    widths.resize(std::max(widths.size(), row.size()), 3);
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+  }
+  std::ostringstream out;
+  for (std::size_t r = 0; r < rows.size(); ++r)
+  {
+    out << "|";
+    for (std::size_t i = 0; i < widths.size(); ++i)
+    {
+      const std::string cell = i < rows[r].size() ? rows[r][i] : "";
+      out << " " << cell << std::string(widths[i] - cell.size(), ' ') << " |";
+    }
+    out << "\n";
+    if (r > 0) continue;
+    out << "|";
+    for (const std::size_t width : widths) out << std::string(width + 2, '-') << "|";
+    out << "\n";
+  }
+  return out.str();
+}
+
+std::string provenanceSection(const nlohmann::ordered_json& provenance)
+{
+  std::ostringstream out;
+  for (const auto& [key, value] : provenance.items())
+  {
+    if (key == "data") continue;
+    out << "* " << key << ": `" << (value.is_string() ? value.get<std::string>() : value.dump())
+        << "`\n";
+  }
+  for (const auto& file : provenance.at("data"))
+  {
+    out << "* data: `" << file.at("file").get<std::string>() << "`, MD5 `"
+        << file.at("md5").get<std::string>() << "`\n";
+  }
+  return out.str();
+}
+
+void writeTextFile(const std::filesystem::path& path, const std::string& text)
+{
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file) throw std::runtime_error(path.string() + ": cannot be written");
+}
+
+void makeFolder(const std::filesystem::path& folder)
+{
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw std::runtime_error(folder.string() + ": " + error.message());
+}
+}  // namespace sigloc
