@@ -78,8 +78,9 @@ struct DriveStep
   std::vector<Feature> landmarks;
 };
 
-/// Every simulated log starts at this time [s since 1970]: files do not depend on the clock.
-constexpr double kSimulationEpoch = 1.0e9;
+/// Every simulated log starts at this time [s since 1970]: files do not depend on the clock. It is
+/// no whole number, because pf-localization takes a truth file whose first one is for step indices.
+constexpr double kSimulationEpoch = 1.0e9 + 0.25;
 
 /// Returns the true poses of a drive between random places, one every step_time: along shortest
 /// paths at constant speed, looking ahead along the path, turning on the spot where it bends
