@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace sigloc
@@ -41,9 +43,10 @@ struct OffscreenRenderer::Context
   OSMesaContext handle = makeContext();
   // OSMesa wants a colour buffer to make a context current; the pictures are drawn elsewhere.
   std::vector<unsigned char> dummy = std::vector<unsigned char>(4 * kDummySide * kDummySide);
-  std::unique_ptr<mrpt::opengl::CFBORender> target;
+  // One a picture size.
+  std::map<std::pair<unsigned, unsigned>, std::unique_ptr<mrpt::opengl::CFBORender>> targets;
 
-  Context(unsigned width, unsigned height)
+  Context()
   {
     const bool current =
         handle != nullptr && OSMesaMakeCurrent(handle, dummy.data(), GL_UNSIGNED_BYTE, kDummySide,
@@ -55,43 +58,49 @@ struct OffscreenRenderer::Context
           "OSMesa: no off-screen GL context (another libGL answered first? "
           "LD_PRELOAD=libOSMesa.so.8 repairs that)");
     }
-    mrpt::opengl::CFBORender::Parameters parameters(width, height);
-    parameters.create_EGL_context = false;
-    target = std::make_unique<mrpt::opengl::CFBORender>(parameters);
   }
   ~Context()
   {
-    target.reset();
+    targets.clear();
     OSMesaDestroyContext(handle);
   }
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
+
+  mrpt::opengl::CFBORender& target(const PictureSize& size)
+  {
+    auto& target = targets[{size.width, size.height}];
+    if (!target)
+    {
+      mrpt::opengl::CFBORender::Parameters parameters(kSuperSampling * size.width,
+                                                      kSuperSampling * size.height);
+      parameters.create_EGL_context = false;
+      target = std::make_unique<mrpt::opengl::CFBORender>(parameters);
+    }
+    return *target;
+  }
 };
 
-OffscreenRenderer::OffscreenRenderer(unsigned width, unsigned height)
-    : width_(width),
-      height_(height),
-      context_(std::make_unique<Context>(kSuperSampling * width, kSuperSampling * height))
-{
-}
+OffscreenRenderer::OffscreenRenderer() : context_(std::make_unique<Context>()) {}
 
 OffscreenRenderer::~OffscreenRenderer() = default;
 
 mrpt::img::CImage OffscreenRenderer::render(const mrpt::opengl::COpenGLScene& scene,
-                                            const View& view)
+                                            const View& view, const PictureSize& size)
 {
-  auto& camera = context_->target->getCamera(scene);
+  auto& target = context_->target(size);
+  auto& camera = target.getCamera(scene);
   camera.setOrthogonal();
   camera.setAzimuthDegrees(-90);
   camera.setElevationDegrees(90);
   camera.setPointingAt(static_cast<float>(view.x), static_cast<float>(view.y), 0);
   // MRPT's orthogonal camera shows half of its "distance" along the shorter side of the picture.
-  const double shorter_to_height = std::min(1.0, static_cast<double>(width_) / height_);
+  const double shorter_to_height = std::min(1.0, static_cast<double>(size.width) / size.height);
   camera.setZoomDistance(static_cast<float>(2 * view.height * shorter_to_height));
   mrpt::img::CImage large;
-  context_->target->render_RGB(scene, large);
+  target.render_RGB(scene, large);
   mrpt::img::CImage small;
-  large.scaleImage(small, width_, height_, mrpt::img::IMG_INTERP_AREA);
+  large.scaleImage(small, size.width, size.height, mrpt::img::IMG_INTERP_AREA);
   return small;
 }
 }  // namespace sigloc

@@ -17,6 +17,13 @@ struct View
   double height = 10;  ///< [m] from the lower to the upper edge
 };
 
+/// Size of a picture [pixels].
+struct PictureSize
+{
+  unsigned width = 0;
+  unsigned height = 0;
+};
+
 /// Renders scenes from straight above without a display, through OSMesa. Linked by executables
 /// only: a plug-in must not bring a second GL into a viewer.
 ///
@@ -25,20 +32,18 @@ struct View
 class OffscreenRenderer
 {
  public:
-  /// Size of the pictures [pixels]. Throws std::runtime_error when no GL context can be made.
-  OffscreenRenderer(unsigned width, unsigned height);
+  /// Throws std::runtime_error when no GL context can be made.
+  OffscreenRenderer();
   ~OffscreenRenderer();
   OffscreenRenderer(const OffscreenRenderer&) = delete;
   OffscreenRenderer& operator=(const OffscreenRenderer&) = delete;
 
-  unsigned width() const { return width_; }
-  unsigned height() const { return height_; }
-  mrpt::img::CImage render(const mrpt::opengl::COpenGLScene& scene, const View& view);
+  /// Returns a picture of the given size [pixels].
+  mrpt::img::CImage render(const mrpt::opengl::COpenGLScene& scene, const View& view,
+                           const PictureSize& size);
 
  private:
   struct Context;
-  unsigned width_;
-  unsigned height_;
   std::unique_ptr<Context> context_;
 };
 }  // namespace sigloc

@@ -11,25 +11,33 @@ namespace
 {
 using mrpt::img::TColorf;
 
-constexpr double kTitleShare = 0.09;  // of a panel's height, kept free of the map
-constexpr double kLegendShare = 0.05;
-constexpr double kSideShare = 0.02;
+constexpr double kTitlePixels = 95;  // kept free of the map
+constexpr double kLegendPixels = 50;
+constexpr double kSidePixels = 18;
+constexpr double kLinePitchPixels = 34;
 constexpr double kCloseUpHeight = 30.0;  // [m]
 constexpr double kLinePixels = 2.0;
 constexpr double kMarkPixels = 9.0;
 constexpr float kTextScale = 34.0F;  // [pixels of the super-sampled picture]
+constexpr double kCharacterPixels = 15.5;  // width, about
+
+// Overview and close-up stand side by side, or, for a wide map, one above the other.
+constexpr PictureSize kBesideSize{960, 1080};
+constexpr PictureSize kAboveSize{1600, 640};
+constexpr PictureSize kBelowSize{1600, 900};
 
 struct LegendEntry
 {
   const char* text;
   TColorf color;
+  bool small_feature = false;
 };
 
 const std::vector<LegendEntry> kMapLegend = {
     {"wall", TColorf(0.12F, 0.31F, 0.63F)},
     {"circle", TColorf(0.43F, 0.47F, 0)},
-    {"corner", TColorf(0, 0.55F, 0.51F)},
-    {"wall end", TColorf(0.59F, 0.35F, 0.08F)},
+    {"corner", TColorf(0, 0.55F, 0.51F), true},
+    {"wall end", TColorf(0.59F, 0.35F, 0.08F), true},
 };
 const std::vector<LegendEntry> kStepLegend = {
     {"returns", TColorf(0.88F, 0.12F, 0.12F)},
@@ -49,26 +57,33 @@ void addText(mrpt::opengl::COpenGLViewport& viewport, double x, double y, const 
   viewport.addTextMessage(x, y, text, index, font);
 }
 
-/// Copies a picture into a wider one of the same height, `column` pixels from the left.
-void paste(const mrpt::img::CImage& from, mrpt::img::CImage& to, unsigned column)
+/// Copies a picture into a larger one, its upper left corner at (column, row).
+void paste(const mrpt::img::CImage& from, mrpt::img::CImage& to, unsigned column, unsigned row_0)
 {
   const std::size_t row_bytes = from.getWidth() * static_cast<std::size_t>(from.channelCount());
   for (unsigned row = 0; row < from.getHeight(); ++row)
   {
-    std::copy_n(from.ptrLine<std::uint8_t>(row), row_bytes, to.ptr<std::uint8_t>(column, row));
+    std::copy_n(from.ptrLine<std::uint8_t>(row), row_bytes,
+                to.ptr<std::uint8_t>(column, row_0 + row));
   }
 }
 
-/// Frames a box within the part of the panel that text leaves free.
-View frame(const PlanarBox& box, double width_to_height)
+bool isWide(const PlanarBox& box)
 {
-  const double free_height = 1 - kTitleShare - kLegendShare;
-  const double free_width = (1 - 2 * kSideShare) * width_to_height;
+  return box.x_max - box.x_min > 1.6 * (box.y_max - box.y_min);
+}
+
+/// Frames a box within the part of the picture that text leaves free.
+View frame(const PlanarBox& box, const PictureSize& size)
+{
+  const double free_height = size.height - kTitlePixels - kLegendPixels;
+  const double free_width = size.width - 2 * kSidePixels;
+  const double metres_per_pixel =
+      std::max({(box.y_max - box.y_min) / free_height, (box.x_max - box.x_min) / free_width, 1e-3});
   View view;
-  view.height =
-      std::max({(box.y_max - box.y_min) / free_height, (box.x_max - box.x_min) / free_width, 1.0});
+  view.height = metres_per_pixel * size.height;
   view.x = 0.5 * (box.x_min + box.x_max);
-  view.y = 0.5 * (box.y_min + box.y_max) + 0.5 * (kTitleShare - kLegendShare) * view.height;
+  view.y = 0.5 * (box.y_min + box.y_max) + 0.5 * (kTitlePixels - kLegendPixels) * metres_per_pixel;
   return view;
 }
 }  // namespace
@@ -79,14 +94,20 @@ struct PictureMaker::Panel
   mrpt::opengl::COpenGLScene scene;
   mrpt::opengl::CSetOfObjects::Ptr step_objects;
   View view;
+  PictureSize size;
   double metres_per_pixel;
+  bool small_features;
 
-  Panel(const FeatureMap& map, const View& initial_view, unsigned panel_height, bool small_features)
-      : view(initial_view), metres_per_pixel(initial_view.height / panel_height)
+  Panel(const FeatureMap& map, const View& initial_view, const PictureSize& panel_size)
+      : view(initial_view),
+        size(panel_size),
+        metres_per_pixel(initial_view.height / panel_size.height),
+        small_features(view.height <= 2 * kCloseUpHeight)
   {
     auto viewport = scene.getViewport();
     viewport->setCustomBackgroundColor(TColorf(0.87F, 0.87F, 0.87F));
-    viewport->setViewportClipDistances(0.1F, 4 * static_cast<float>(view.height) + 100);
+    const double widest = std::max(view.height, view.height * size.width / size.height);
+    viewport->setViewportClipDistances(0.1F, static_cast<float>(4 * widest + 100));
     MapDrawing drawing;
     drawing.line_width = kLinePixels * metres_per_pixel;
     drawing.small_features = small_features;
@@ -106,32 +127,33 @@ struct PictureMaker::Panel
   {
     auto viewport = scene.getViewport();
     std::size_t index = 0;
-    constexpr double kFirstLine = 0.965;
-    constexpr double kLineSpacing = 0.031;
     for (const std::string& line : title)
     {
-      addText(*viewport, kSideShare, kFirstLine - kLineSpacing * static_cast<double>(index), line,
-              index, TColorf(0, 0, 0));
+      const double y = 1 - kLinePitchPixels * static_cast<double>(index + 1) / size.height;
+      addText(*viewport, kSidePixels / size.width, y, line, index, TColorf(0, 0, 0));
       ++index;
     }
-    double x = kSideShare;
+    double x = kSidePixels / size.width;
     for (const LegendEntry& entry : legend)
     {
-      addText(*viewport, x, 0.015, entry.text, index++, entry.color);
-      constexpr double kCharacterShare = 0.0165;  // of the panel's width, about
-      x += kCharacterShare * (static_cast<double>(std::string_view(entry.text).size()) + 2.5);
+      if (entry.small_feature && !small_features) continue;
+      addText(*viewport, x, 0.3 * kLegendPixels / size.height, entry.text, index++, entry.color);
+      const auto characters = static_cast<double>(std::string_view(entry.text).size());
+      x += kCharacterPixels * (characters + 2) / size.width;
     }
   }
 };
 
-PictureMaker::PictureMaker(const FeatureMap& map, unsigned panel_width, unsigned panel_height)
-    : renderer_(panel_width, panel_height)
+PictureMaker::PictureMaker(const FeatureMap& map)
 {
-  const View whole = frame(boundsOf(map), static_cast<double>(panel_width) / panel_height);
-  overview_ = std::make_unique<Panel>(map, whole, panel_height, whole.height <= 2 * kCloseUpHeight);
+  const PlanarBox box = boundsOf(map);
+  const PictureSize overview_size = isWide(box) ? kAboveSize : kBesideSize;
+  const PictureSize close_up_size = isWide(box) ? kBelowSize : kBesideSize;
+  const View whole = frame(box, overview_size);
+  overview_ = std::make_unique<Panel>(map, whole, overview_size);
   View near = whole;
   near.height = kCloseUpHeight;
-  close_up_ = std::make_unique<Panel>(map, near, panel_height, true);
+  close_up_ = std::make_unique<Panel>(map, near, close_up_size);
 }
 
 PictureMaker::~PictureMaker() = default;
@@ -139,7 +161,7 @@ PictureMaker::~PictureMaker() = default;
 mrpt::img::CImage PictureMaker::mapPicture(const std::vector<std::string>& title)
 {
   overview_->write(title, kMapLegend);
-  return renderer_.render(overview_->scene, overview_->view);
+  return renderer_.render(overview_->scene, overview_->view, overview_->size);
 }
 
 mrpt::img::CImage PictureMaker::stepPicture(const StepDrawing& step,
@@ -159,11 +181,15 @@ mrpt::img::CImage PictureMaker::stepPicture(const StepDrawing& step,
   overview_->write(title, kStepLegend);
   close_up_->show(step);
   close_up_->write({}, kMapLegend);
-  const mrpt::img::CImage left = renderer_.render(overview_->scene, overview_->view);
-  const mrpt::img::CImage right = renderer_.render(close_up_->scene, close_up_->view);
-  mrpt::img::CImage both(2 * renderer_.width(), renderer_.height(), mrpt::img::CH_RGB);
-  paste(left, both, 0);
-  paste(right, both, renderer_.width());
+  const auto whole = renderer_.render(overview_->scene, overview_->view, overview_->size);
+  const auto near = renderer_.render(close_up_->scene, close_up_->view, close_up_->size);
+  const PictureSize& a = overview_->size;
+  const PictureSize& b = close_up_->size;
+  const bool stacked = a.width == kAboveSize.width;
+  mrpt::img::CImage both(stacked ? a.width : a.width + b.width,
+                         stacked ? a.height + b.height : a.height, mrpt::img::CH_RGB);
+  paste(whole, both, 0, 0);
+  paste(near, both, stacked ? 0 : a.width, stacked ? a.height : 0);
   return both;
 }
 }  // namespace sigloc

@@ -11,20 +11,20 @@
 
 namespace sigloc
 {
-/// Makes the pictures of a run: on the left the whole map, on the right the surroundings of the
-/// first hypothesis, each panel with text and legend. The map is uploaded once.
+/// Makes the pictures of a run: the whole map and, right of it or below it, the surroundings of the
+/// first hypothesis, with text and legend. The map is uploaded once.
 class PictureMaker
 {
  public:
-  /// Size of one panel [pixels]. Throws std::runtime_error when off-screen rendering is impossible.
-  explicit PictureMaker(const FeatureMap& map, unsigned panel_width = 960,
-                        unsigned panel_height = 1080);
+  /// Throws std::runtime_error when off-screen rendering is impossible.
+  explicit PictureMaker(const FeatureMap& map);
   ~PictureMaker();
 
-  /// Returns the whole map alone, one panel.
+  /// Returns the whole map alone.
   mrpt::img::CImage mapPicture(const std::vector<std::string>& title);
 
-  /// Returns the two panels side by side. Line widths and mark sizes of `step` are set here.
+  /// Returns overview and close-up in one picture. Line widths and mark sizes of `step` are set
+  /// here.
   mrpt::img::CImage stepPicture(const StepDrawing& step, const std::vector<std::string>& title);
 
  private:

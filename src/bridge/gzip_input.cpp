@@ -29,6 +29,22 @@ bool isClassNameCharacter(char c)
   return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
          std::string_view("_:<>, *").find(c) != std::string_view::npos;
 }
+
+/// Returns how many bytes a file holds when unpacked; a guess for a truncated one.
+std::uint64_t unpackedSize(const std::filesystem::path& path, std::uint64_t file_size)
+{
+  constexpr std::uint64_t kTrailerBytes = 4;  // gzip's last field, little-endian
+  std::ifstream file(path, std::ios::binary);
+  const bool packed = file.get() == 0x1F && file.get() == 0x8B;
+  if (!packed || file_size < kTrailerBytes) return file_size;
+  file.seekg(-static_cast<std::streamoff>(kTrailerBytes), std::ios::end);
+  std::uint64_t size = 0;
+  for (std::uint64_t i = 0; i < kTrailerBytes; ++i)
+  {
+    size |= static_cast<std::uint64_t>(file.get() & 0xFF) << (8 * i);
+  }
+  return size;
+}
 }  // namespace
 
 void requireFile(const std::filesystem::path& path)
@@ -50,6 +66,7 @@ GzipInput::GzipInput(const std::filesystem::path& path) : path_(path)
   std::error_code error;
   const auto size = std::filesystem::file_size(path, error);
   file_size_ = error ? 0 : size;
+  unpacked_size_ = unpackedSize(path, file_size_);
   file_ = gzopen(path.c_str(), "rb");
   if (file_ == nullptr) fail(path, "cannot be opened");
   gzbuffer(file_, kBufferBytes);
@@ -100,9 +117,9 @@ bool GzipInput::atEnd()
 
 double GzipInput::progress() const
 {
-  if (file_size_ == 0) return 1.0;
-  const auto consumed = static_cast<double>(std::max<z_off_t>(0, gzoffset(file_)));
-  return std::min(1.0, consumed / static_cast<double>(file_size_));
+  if (unpacked_size_ == 0) return 1.0;
+  // By unpacked bytes: a small packed file is read into the buffer at once.
+  return std::min(1.0, static_cast<double>(position_) / static_cast<double>(unpacked_size_));
 }
 
 std::string GzipInput::nextClassName()

@@ -32,7 +32,7 @@ class GzipInput final : public mrpt::io::CStream
   bool atEnd();
   /// True when the compressed data broke off or failed its check.
   bool damaged() const { return damaged_; }
-  /// Share of the file's bytes consumed so far, in [0, 1].
+  /// Share of the file's contents consumed so far, in [0, 1].
   double progress() const;
   /// Returns the class of the MRPT object that comes next without consuming anything, or "" when no
   /// object header follows.
@@ -50,6 +50,7 @@ class GzipInput final : public mrpt::io::CStream
   std::filesystem::path path_;
   gzFile_s* file_ = nullptr;
   std::uint64_t file_size_ = 0;
+  std::uint64_t unpacked_size_ = 0;
   std::uint64_t position_ = 0;
   std::string ahead_;  // read from the file, not yet handed out
   bool damaged_ = false;

@@ -122,7 +122,7 @@ void addFeature(TriangleBatch& batch, const Feature& feature, double width, bool
                     one_color.value_or(kSegmentColor));
       break;
     case FeatureType::circle:
-      batch.addRing(feature.position, std::max(feature.size, width), width,
+      batch.addRing(feature.position, std::max(feature.size, 0.7 * width), 0.7 * width,
                     one_color.value_or(kCircleColor));
       break;
     case FeatureType::corner:

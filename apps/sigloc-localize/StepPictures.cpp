@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "StepPictures.h"
+
+#include <mrpt/core/bits_math.h>
+#include <mrpt/core/format.h>
+
+#include <filesystem>
+#include <stdexcept>
+
+namespace sigloc
+{
+namespace
+{
+std::vector<std::string> titleOf(const StepRecord& step)
+{
+  const Belief& belief = step.belief;
+  const std::size_t count = belief.hypotheses.size();
+  std::string second = "truth unknown";
+  if (step.error)
+  {
+    second = mrpt::format("off by %.2f m, %.1f deg", step.error->distance,
+                          mrpt::RAD2DEG(step.error->angle));
+  }
+  else if (step.truth)
+  {
+    second = "no pose";
+  }
+  return {mrpt::format("step %zu, %.1f m: %s (%.3f), %zu %s", step.number, step.travelled,
+                       toString(belief.verdict), belief.probability, count,
+                       count == 1 ? "hypothesis" : "hypotheses"),
+          second};
+}
+}  // namespace
+
+StepPictures::StepPictures(const LocalizationRun& run)
+{
+  if (run.setup().report.pictures) pictures_.emplace(run.map());
+}
+
+std::string StepPictures::keyMoment(const StepRecord& step)
+{
+  const auto first = [&](const char* moment) { return moments_seen_.insert(moment).second; };
+  const bool ambiguous = step.belief.verdict == Verdict::ambiguous;
+  if (step.relocated && first("first_relocation")) return "first_relocation";
+  if (step.belief.verdict == Verdict::localized && first("localized")) return "localized";
+  if (ambiguous && step.belief.hypotheses.size() > 1 && first("ambiguous")) return "ambiguous";
+  return "";
+}
+
+void StepPictures::take(const LocalizationRun& run, const RunWriter& writer)
+{
+  const StepRecord& step = run.steps().back();
+  if (!step.belief.hypotheses.empty()) path_.push_back(step.belief.hypotheses.front().pose.mean);
+  const std::string moment = run.atEnd() ? "end" : keyMoment(step);
+  const std::uint32_t every = run.setup().scene_frequency;
+  if (!moment.empty() || (every != 0 && (step.number - 1) % every == 0)) draw(run, writer, moment);
+}
+
+void StepPictures::draw(const LocalizationRun& run, const RunWriter& writer,
+                        const std::string& moment)
+{
+  const StepRecord& step = run.steps().back();
+  StepDrawing drawing;
+  drawing.observed = &run.scene();
+  drawing.belief = &step.belief;
+  drawing.truth = step.truth;
+  drawing.path = path_;
+  writer.writeScene(run.map(), step, drawing);
+  if (!pictures_) return;
+  const auto folder = writer.workFolder() / "pictures";
+  std::filesystem::create_directories(folder);
+  const auto file = folder / (stepName(step) + (moment.empty() ? "" : "_" + moment) + ".png");
+  if (!pictures_->stepPicture(drawing, titleOf(step)).saveToFile(file.string()))
+  {
+    throw std::runtime_error(file.string() + ": cannot write");
+  }
+}
+}  // namespace sigloc

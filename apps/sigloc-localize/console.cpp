@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "console.h"
+
+#include <mrpt/core/bits_math.h>
+#include <mrpt/core/format.h>
+#include <unistd.h>
+
+#include <iomanip>
+#include <iostream>
+#include <sstream>
+
+namespace sigloc
+{
+namespace
+{
+std::string reached(const std::optional<std::size_t>& step, const std::optional<double>& metres)
+{
+  if (!step) return "never";
+  return mrpt::format("step %zu, after %.1f m", *step, *metres);
+}
+
+std::string timing(double median, double p95, std::size_t count)
+{
+  if (count == 0) return "none";
+  return mrpt::format("%.2f ms in the median, %.2f ms in 95 %% (%zu)", median, p95, count);
+}
+
+std::string mapLine(const RunSummary& summary, const LocalizationSetup& setup)
+{
+  return setup.map_file.filename().string() +
+         mrpt::format(": %zu features, %s in %.1f s", summary.map_features,
+                      summary.map_reused ? "unchanged since the last run, reused" : "built",
+                      summary.map_seconds);
+}
+
+std::string endLine(const RunSummary& summary, const Belief& belief)
+{
+  std::string line = mrpt::format("%s (%.3f)", toString(summary.final_verdict), belief.probability);
+  if (const auto& pose = summary.final_pose)
+  {
+    line += mrpt::format(", first hypothesis (%.2f m, %.2f m, %.1f deg)", pose->x, pose->y,
+                         mrpt::RAD2DEG(pose->phi));
+  }
+  return line;
+}
+
+std::string errorLine(const RunSummary& summary)
+{
+  if (!summary.final_error) return "truth unknown";
+  return mrpt::format("%.2f m, %.1f deg", summary.final_error->distance,
+                      mrpt::RAD2DEG(summary.final_error->angle));
+}
+}  // namespace
+
+Progress::Progress(bool quiet) : quiet_(quiet), terminal_(isatty(STDOUT_FILENO) != 0) {}
+
+void Progress::show(const LocalizationRun& run)
+{
+  if (quiet_) return;
+  const StepRecord& step = run.steps().back();
+  constexpr std::size_t kStepsBetweenLines = 50;
+  if (!terminal_ && step.number % kStepsBetweenLines != 1) return;
+  const std::string line =
+      mrpt::format("%3.0f %%  step %zu  %.1f m  %s (%.3f)  %zu hypotheses", 100 * run.progress(),
+                   step.number, step.travelled, toString(step.belief.verdict),
+                   step.belief.probability, step.belief.hypotheses.size());
+  if (terminal_)
+  {
+    constexpr int kLineWidth = 78;
+    std::cout << '\r' << std::left << std::setw(kLineWidth) << line << std::flush;
+  }
+  else
+  {
+    std::cout << line << '\n';
+  }
+}
+
+void Progress::finish()
+{
+  if (!quiet_ && terminal_) std::cout << '\n';
+}
+
+std::string summaryTable(const LocalizationRun& run)
+{
+  const RunSummary summary = run.summary();
+  std::ostringstream table;
+  const auto row = [&](const char* name, const std::string& value)
+  { table << std::left << std::setw(24) << name << value << '\n'; };
+  row("map", mapLine(summary, run.setup()));
+  row("log", run.setup().rawlog_file.filename().string() +
+                 mrpt::format(": %zu steps, %.1f m%s", summary.steps, summary.distance,
+                              summary.truncated ? ", TRUNCATED" : ""));
+  const bool scored = summary.final_error || summary.steps_to_first_right;
+  row("first right hypothesis",
+      scored ? reached(summary.steps_to_first_right, summary.metres_to_first_right)
+             : "truth unknown");
+  row("localized", reached(summary.steps_to_localized, summary.metres_to_localized));
+  row("confidently wrong", mrpt::format("%zu steps", summary.confidently_wrong_steps));
+  row("at the end", endLine(summary, run.steps().back().belief));
+  row("final error", errorLine(summary));
+  row("relocation",
+      timing(summary.relocation_ms_median, summary.relocation_ms_p95, summary.relocations));
+  row("tracking step",
+      timing(summary.step_ms_median, summary.step_ms_p95, summary.steps - summary.relocations));
+  return table.str();
+}
+}  // namespace sigloc

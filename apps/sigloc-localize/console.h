@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "sigloc/bridge/LocalizationRun.h"
+
+namespace sigloc
+{
+/// Shows how a run is getting on: one line rewritten in place on a terminal, a line now and then
+/// elsewhere, nothing when quiet.
+class Progress
+{
+ public:
+  explicit Progress(bool quiet);
+  void show(const LocalizationRun& run);
+  /// Ends the rewritten line.
+  void finish();
+
+ private:
+  bool quiet_;
+  bool terminal_;
+};
+
+/// Returns the table that ends a run.
+std::string summaryTable(const LocalizationRun& run);
+}  // namespace sigloc

@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// sigloc-localize: finds and follows a lost robot in a known map, from a recorded log.
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <optional>
+
+#include "console.h"
+#include "StepPictures.h"
+
+namespace
+{
+namespace fs = std::filesystem;
+
+constexpr int kBadInput = 1;
+constexpr int kTruncatedInput = 2;
+
+struct Arguments
+{
+  fs::path config;
+  fs::path rawlog;
+  fs::path output;
+  std::optional<std::uint32_t> seed;
+  bool quiet = false;
+};
+
+/// Runs once; returns the exit code.
+int localize(const sigloc::LocalizationSetup& setup, bool quiet)
+{
+  std::optional<sigloc::RunWriter> writer;
+  if (!setup.output_folder.empty()) writer.emplace(setup.output_folder);
+  sigloc::LocalizationRun run(setup, writer ? writer->mapCache(setup.map_file) : fs::path());
+  std::optional<sigloc::StepPictures> pictures;
+  if (writer) pictures.emplace(run);
+  sigloc::Progress progress(quiet);
+  while (const sigloc::StepRecord* step = run.next())
+  {
+    progress.show(run);
+    if (!writer) continue;
+    writer->writeBelief(*step);
+    pictures->take(run, *writer);
+  }
+  progress.finish();
+  if (writer) writer->finish(run);
+  std::cout << sigloc::summaryTable(run);
+  if (writer) std::cout << "written to              " << setup.output_folder.string() << '\n';
+  if (!run.summary().truncated) return 0;
+  std::cerr << "sigloc-localize: " << setup.rawlog_file.string() << ": truncated or damaged after "
+            << run.steps().size() << " steps; the results cover those\n";
+  return kTruncatedInput;
+}
+
+int runAll(const Arguments& arguments)
+{
+  sigloc::LocalizationSetup setup =
+      sigloc::readLocalizationSetup(arguments.config, arguments.rawlog);
+  if (!arguments.output.empty()) setup.output_folder = arguments.output;
+  if (arguments.seed) setup.matcher.seed = *arguments.seed;
+  if (setup.repetitions == 1) return localize(setup, arguments.quiet);
+
+  int exit_code = 0;
+  const fs::path folder = setup.output_folder;
+  const std::uint32_t first_seed = setup.matcher.seed;
+  for (std::uint32_t i = 0; i < setup.repetitions; ++i)
+  {
+    setup.matcher.seed = first_seed + i;
+    if (!folder.empty()) setup.output_folder = folder.string() + "_" + std::to_string(i);
+    exit_code = std::max(exit_code, localize(setup, arguments.quiet));
+  }
+  return exit_code;
+}
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  CLI::App app("Finds and follows a lost robot in a known map by matching signatures.",
+               "sigloc-localize");
+  Arguments arguments;
+  bool print_defaults = false;
+  auto* const config =
+      app.add_option("CONFIG.ini", arguments.config, "configuration, as pf-localization reads it");
+  app.add_option("DATASET.rawlog", arguments.rawlog, "log to use instead of rawlog_file");
+  app.add_option("--out", arguments.output, "output folder instead of logOutput_dir");
+  app.add_option("--seed", arguments.seed, "seed instead of the one in [sigloc.matcher]");
+  app.add_flag("--quiet", arguments.quiet, "no progress");
+  app.add_flag("--print-defaults", print_defaults, "print all [sigloc.*] sections and exit");
+  try
+  {
+    app.parse(argc, argv);
+    if (print_defaults)
+    {
+      std::cout << sigloc::defaultOptionSections();
+      return 0;
+    }
+    if (config->count() == 0) throw std::runtime_error("CONFIG.ini is missing; see --help");
+    return runAll(arguments);
+  }
+  catch (const CLI::ParseError& error)
+  {
+    if (error.get_exit_code() == 0) return app.exit(error);
+    std::cerr << "sigloc-localize: " << error.what() << '\n';
+  }
+  catch (const std::exception& error)
+  {
+    std::cerr << "sigloc-localize: " << sigloc::firstLine(error.what()) << '\n';
+  }
+  return kBadInput;
+}

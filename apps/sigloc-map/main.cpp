@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// sigloc-map: builds, describes and draws the maps that sigloc localizes in.
+#include <array>
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "pictures.h"
+#include "sigloc/bridge/LocalizationSetup.h"
+#include "sigloc/bridge/map_sources.h"
+#include "sigloc/bridge/sigmap_file.h"
+
+namespace
+{
+using nlohmann::ordered_json;
+
+constexpr std::array<const char*, 5> kTypeNames = {"points", "segments", "circles", "corners",
+                                                   "wall_ends"};
+
+ordered_json describe(const sigloc::FeatureMap& map, const std::filesystem::path& path)
+{
+  std::array<std::size_t, kTypeNames.size()> counts{};
+  for (const sigloc::Feature& feature : map.features())
+  {
+    ++counts.at(static_cast<std::size_t>(feature.type));
+  }
+  ordered_json info;
+  info["file"] = path.string();
+  info["bytes"] = std::filesystem::file_size(path);
+  info["features"] = map.features().size();
+  for (std::size_t i = 0; i < counts.size(); ++i) info[kTypeNames[i]] = counts[i];
+  info["lines"] = map.lines().size();
+  const sigloc::PlanarBox box = sigloc::boundsOf(map);
+  info["bounds_m"] = {box.x_min, box.x_max, box.y_min, box.y_max};
+  info["area_m2"] = map.area();
+  info["dense_field"] = nullptr;
+  if (map.field())
+  {
+    info["dense_field"] = {{"width", map.field()->frame.width},
+                           {"height", map.field()->frame.height},
+                           {"resolution_m", map.field()->frame.resolution}};
+  }
+  info["source"] = map.provenance().source_path;
+  info["source_checksum"] = map.provenance().source_checksum;
+  return info;
+}
+
+void build(const std::filesystem::path& input, const std::filesystem::path& output,
+           const std::filesystem::path& config)
+{
+  sigloc::LocalizationSetup setup;
+  if (!config.empty()) setup = sigloc::readOptionSections(config);
+  const sigloc::FeatureMap map = sigloc::buildMapFromFile(input, setup.map, setup.features);
+  if (map.empty()) throw std::runtime_error(input.string() + ": no feature found in it");
+  sigloc::saveSigmap(map, output);
+  std::cout << output.string() << ": " << map.features().size() << " features\n";
+}
+
+void info(const std::filesystem::path& path, bool as_json)
+{
+  const ordered_json description = describe(sigloc::loadSigmap(path), path);
+  if (as_json)
+  {
+    std::cout << description.dump(2) << '\n';
+    return;
+  }
+  for (const auto& [key, value] : description.items())
+  {
+    std::cout << key << ": " << (value.is_string() ? value.get<std::string>() : value.dump())
+              << '\n';
+  }
+}
+
+void draw(const std::filesystem::path& path, const std::filesystem::path& output)
+{
+  const sigloc::FeatureMap map = sigloc::loadSigmap(path);
+  sigloc::PictureMaker pictures(map);
+  const std::string title = path.filename().string() + ": " +
+                            std::to_string(map.features().size()) + " features, " +
+                            std::to_string(std::lround(map.area())) + " m2";
+  if (!pictures.mapPicture({title}).saveToFile(output.string()))
+  {
+    throw std::runtime_error(output.string() + ": cannot write");
+  }
+}
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  CLI::App app("Builds, describes and draws maps for localization by signatures.", "sigloc-map");
+  app.require_subcommand(1);
+  std::filesystem::path input;
+  std::filesystem::path output;
+  std::filesystem::path config;
+  bool as_json = false;
+
+  CLI::App* build_command = app.add_subcommand(
+      "build",
+      "Builds a .sigmap from a .simplemap[.gz], .gridmap[.gz], ROS .yaml, CARMEN log or "
+      "landmark file");
+  build_command->add_option("-i,--input", input, "map source")->required();
+  build_command->add_option("-o,--output", output, ".sigmap to write")->required();
+  build_command->add_option("--config", config, "ini with [sigloc.map] and [sigloc.features]");
+
+  CLI::App* info_command = app.add_subcommand("info", "Describes a .sigmap");
+  info_command->add_option("file", input, ".sigmap to read")->required();
+  info_command->add_flag("--json", as_json, "as JSON");
+
+  CLI::App* draw_command = app.add_subcommand("draw", "Draws a .sigmap");
+  draw_command->add_option("file", input, ".sigmap to read")->required();
+  draw_command->add_option("-o,--output", output, "PNG to write")->required();
+
+  try
+  {
+    app.parse(argc, argv);
+    if (build_command->parsed()) build(input, output, config);
+    if (info_command->parsed()) info(input, as_json);
+    if (draw_command->parsed()) draw(input, output);
+    return 0;
+  }
+  catch (const CLI::ParseError& error)
+  {
+    if (error.get_exit_code() == 0) return app.exit(error);
+    std::cerr << "sigloc-map: " << error.what() << '\n';
+  }
+  catch (const std::exception& error)
+  {
+    std::cerr << "sigloc-map: " << sigloc::firstLine(error.what()) << '\n';
+  }
+  return 1;
+}

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "sigloc/bridge/LocalizationRun.h"
+#include "sigloc/bridge/scene_building.h"
+
+namespace sigloc
+{
+/// Writes the output folder of a run, all or nothing: into `<folder>.partial` first, which takes
+/// the folder's name in finish().
+///
+/// | file                                | what |
+/// |-------------------------------------|------|
+/// | belief/step_00001.CPosePDFSOG, .txt | belief after step 1, as an MRPT object and as rows
+/// `log-weight x y phi C11 C22 C33 C12 C13 C23` |
+/// | 3D/step_00001.3Dscene               | map and step, for SceneViewer3D |
+/// | path.tum                            | first hypothesis of each step: `time x y z qx qy qz qw`
+/// | | steps.csv                           | one row a step | | annotated.rawlog | the log with a
+/// CObservationRobotPose "sigloc" a step | | summary.json                        | the figures of
+/// RunSummary |
+class RunWriter
+{
+ public:
+  /// Throws std::runtime_error when `folder` exists and holds anything but an earlier run, or when
+  /// it cannot be written.
+  explicit RunWriter(const std::filesystem::path& folder);
+  /// Removes what an unfinished run has written.
+  ~RunWriter();
+  RunWriter(const RunWriter&) = delete;
+  RunWriter& operator=(const RunWriter&) = delete;
+
+  /// Where files belong until finish(), pictures of an app included.
+  const std::filesystem::path& workFolder() const { return work_; }
+
+  /// Where the prepared map is kept: beside the output folder, so that runs share it.
+  std::filesystem::path mapCache(const std::filesystem::path& map_file) const;
+
+  void writeBelief(const StepRecord& step) const;
+  void writeScene(const FeatureMap& map, const StepRecord& step, const StepDrawing& drawing) const;
+  /// Writes everything that covers the whole run and gives the folder its name.
+  void finish(const LocalizationRun& run);
+
+ private:
+  std::filesystem::path folder_;
+  std::filesystem::path work_;
+  std::filesystem::path created_;  // the topmost folder that did not exist before
+  bool finished_ = false;
+};
+
+/// "step_00012", the common stem of a step's files.
+std::string stepName(const StepRecord& step);
+
+/// Returns `summary.json`'s text; unknown values are null.
+std::string toJson(const RunSummary& summary);
+
+/// Copies a rawlog of either kind and adds the first hypothesis of each step to it: into the
+/// sensory frame, or after the step's last scan. The copy ends where reading the log ends.
+void writeAnnotatedRawlog(const std::filesystem::path& rawlog, const std::vector<StepRecord>& steps,
+                          const std::filesystem::path& output);
+}  // namespace sigloc

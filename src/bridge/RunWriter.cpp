@@ -1,0 +1,223 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sigloc/bridge/RunWriter.h"
+
+#include <mrpt/core/bits_math.h>
+#include <mrpt/io/CFileOutputStream.h>
+#include <mrpt/opengl/COpenGLScene.h>
+#include <mrpt/serialization/CArchive.h>
+
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <iomanip>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "sigloc/bridge/pose_pdf.h"
+
+namespace sigloc
+{
+namespace
+{
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+constexpr const char* kSummaryFile = "summary.json";
+
+[[noreturn]] void failToWrite(const fs::path& path)
+{
+  throw std::runtime_error(path.string() + ": cannot write");
+}
+
+std::ofstream openText(const fs::path& path)
+{
+  std::ofstream file(path);
+  if (!file) failToWrite(path);
+  return file;
+}
+
+void closeText(std::ofstream& file, const fs::path& path)
+{
+  file.close();
+  if (!file) failToWrite(path);
+}
+
+void writePath(const std::vector<StepRecord>& steps, const fs::path& path)
+{
+  std::ofstream file = openText(path);
+  file << "# time x y z qx qy qz qw: first hypothesis of each step, map frame\n" << std::fixed;
+  for (const StepRecord& step : steps)
+  {
+    if (step.belief.hypotheses.empty()) continue;
+    const mrpt::math::TPose2D& pose = step.belief.hypotheses.front().pose.mean;
+    file << std::setprecision(6) << step.time << ' ' << pose.x << ' ' << pose.y << " 0 0 0 "
+         << std::setprecision(9) << std::sin(0.5 * pose.phi) << ' ' << std::cos(0.5 * pose.phi)
+         << '\n';
+  }
+  closeText(file, path);
+}
+
+/// Writes `,a,b,c` of the first pose's fields, empty where there is none.
+void writePoseColumns(std::ofstream& file, const Belief& belief)
+{
+  if (belief.hypotheses.empty())
+  {
+    file << ",,,,,,";
+    return;
+  }
+  const GaussianPose& pose = belief.hypotheses.front().pose;
+  const auto sd = [&](int i) { return std::sqrt(std::max(0.0, pose.covariance(i, i))); };
+  file << ',' << pose.mean.x << ',' << pose.mean.y << ',' << mrpt::RAD2DEG(pose.mean.phi) << ','
+       << sd(0) << ',' << sd(1) << ',' << mrpt::RAD2DEG(sd(2));
+}
+
+void writeSteps(const std::vector<StepRecord>& steps, const fs::path& path)
+{
+  std::ofstream file = openText(path);
+  file << "step,time,travelled_m,verdict,probability,reliability,hypotheses,elsewhere,relocated,"
+          "x,y,phi_deg,sd_x,sd_y,sd_phi_deg,error_m,error_deg,right,confidently_wrong,"
+          "extraction_ms,tracking_ms,reason\n"
+       << std::fixed << std::setprecision(6);
+  for (const StepRecord& step : steps)
+  {
+    const Belief& belief = step.belief;
+    file << step.number << ',' << step.time << ',' << step.travelled << ','
+         << toString(belief.verdict) << ',' << belief.probability << ',' << belief.reliability
+         << ',' << belief.hypotheses.size() << ',' << belief.elsewhere << ',' << step.relocated;
+    writePoseColumns(file, belief);
+    if (step.error)
+    {
+      file << ',' << step.error->distance << ',' << mrpt::RAD2DEG(step.error->angle) << ','
+           << step.right << ',' << step.confidently_wrong;
+    }
+    else
+    {
+      file << ",,,,";
+    }
+    file << ',' << step.extraction_ms << ',' << step.tracking_ms << ','
+         << ordered_json(belief.reason).dump() << '\n';
+  }
+  closeText(file, path);
+}
+
+template <class T>
+ordered_json orNull(const std::optional<T>& value)
+{
+  return value ? ordered_json(*value) : ordered_json(nullptr);
+}
+}  // namespace
+
+RunWriter::RunWriter(const fs::path& folder) : folder_(fs::absolute(folder).lexically_normal())
+{
+  if (!folder_.has_filename()) folder_ = folder_.parent_path();  // "out/" is "out"
+  work_ = folder_.string() + ".partial";
+  const bool exists = fs::exists(folder_);
+  if (exists && !fs::is_directory(folder_))
+  {
+    throw std::runtime_error(folder.string() + ": is not a folder");
+  }
+  if (exists && !fs::is_empty(folder_) && !fs::exists(folder_ / kSummaryFile))
+  {
+    throw std::runtime_error(folder.string() +
+                             ": holds something else than an earlier run; not overwritten");
+  }
+  std::error_code error;
+  fs::remove_all(work_, error);
+  created_ = work_;
+  while (!fs::exists(created_.parent_path())) created_ = created_.parent_path();
+  for (const char* const part : {"belief", "3D"})
+  {
+    if (!error) fs::create_directories(work_ / part, error);
+  }
+  if (error) throw std::runtime_error(folder.string() + ": " + error.message());
+}
+
+RunWriter::~RunWriter()
+{
+  std::error_code ignored;
+  if (!finished_) fs::remove_all(created_, ignored);
+}
+
+fs::path RunWriter::mapCache(const fs::path& map_file) const
+{
+  const std::string name = map_file.filename().string();
+  return folder_.parent_path() / (name.substr(0, name.find('.', 1)) + ".sigmap");
+}
+
+void RunWriter::writeBelief(const StepRecord& step) const
+{
+  const mrpt::poses::CPosePDFSOG sum = toSumOfGaussians(step.belief);
+  const fs::path stem = work_ / "belief" / stepName(step);
+  const fs::path object_path = stem.string() + ".CPosePDFSOG";
+  const fs::path text_path = stem.string() + ".txt";
+  mrpt::io::CFileOutputStream file;
+  if (!file.open(object_path.string())) failToWrite(object_path);
+  mrpt::serialization::archiveFrom(file) << sum;
+  if (!sum.saveToTextFile(text_path.string())) failToWrite(text_path);
+}
+
+void RunWriter::writeScene(const FeatureMap& map, const StepRecord& step,
+                           const StepDrawing& drawing) const
+{
+  mrpt::opengl::COpenGLScene scene;
+  scene.insert(drawMap(map));
+  scene.insert(drawStep(drawing));
+  const fs::path path = work_ / "3D" / (stepName(step) + ".3Dscene");
+  if (!scene.saveToFile(path.string())) failToWrite(path);
+}
+
+void RunWriter::finish(const LocalizationRun& run)
+{
+  writePath(run.steps(), work_ / "path.tum");
+  writeSteps(run.steps(), work_ / "steps.csv");
+  writeAnnotatedRawlog(run.setup().rawlog_file, run.steps(), work_ / "annotated.rawlog");
+  std::ofstream file = openText(work_ / kSummaryFile);
+  file << toJson(run.summary()) << '\n';
+  closeText(file, work_ / kSummaryFile);
+  fs::remove_all(folder_);  // an earlier run, or empty: checked at the start
+  fs::rename(work_, folder_);
+  finished_ = true;
+}
+
+std::string stepName(const StepRecord& step)
+{
+  std::string number = std::to_string(step.number);
+  constexpr std::size_t kDigits = 5;
+  if (number.size() < kDigits) number.insert(0, kDigits - number.size(), '0');
+  return "step_" + number;
+}
+
+std::string toJson(const RunSummary& summary)
+{
+  ordered_json json;
+  json["steps"] = summary.steps;
+  json["distance_m"] = summary.distance;
+  json["steps_to_first_right"] = orNull(summary.steps_to_first_right);
+  json["meters_to_first_right"] = orNull(summary.metres_to_first_right);
+  json["steps_to_localized"] = orNull(summary.steps_to_localized);
+  json["meters_to_localized"] = orNull(summary.metres_to_localized);
+  json["final_error_m"] = nullptr;
+  json["final_error_deg"] = nullptr;
+  if (summary.final_error)
+  {
+    json["final_error_m"] = summary.final_error->distance;
+    json["final_error_deg"] = mrpt::RAD2DEG(summary.final_error->angle);
+  }
+  json["final_verdict"] = toString(summary.final_verdict);
+  json["final_pose"] = nullptr;
+  if (const auto& pose = summary.final_pose) json["final_pose"] = {pose->x, pose->y, pose->phi};
+  json["confidently_wrong_steps"] = summary.confidently_wrong_steps;
+  json["relocation_ms_median"] = summary.relocation_ms_median;
+  json["relocation_ms_p95"] = summary.relocation_ms_p95;
+  json["step_ms_median"] = summary.step_ms_median;
+  json["step_ms_p95"] = summary.step_ms_p95;
+  json["relocations"] = summary.relocations;
+  json["map_features"] = summary.map_features;
+  json["map_reused"] = summary.map_reused;
+  json["map_seconds"] = summary.map_seconds;
+  json["seed"] = summary.seed;
+  json["truncated"] = summary.truncated;
+  return json.dump(2);
+}
+}  // namespace sigloc

@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sigloc/bridge/LocalizationSetup.h"
+
+#include <gtest/gtest.h>
+
+#include "bridge/rawlog_files.h"
+
+namespace sigloc
+{
+namespace
+{
+using namespace sigloc::test;
+
+LocalizationSetup read(const TemporaryFolder& folder, const std::string& more)
+{
+  writeText(folder / "a.map", "m");
+  writeText(folder / "a.rawlog", "r");
+  writeText(folder / "run.ini",
+            "[LocalizationExperiment]\nmap_file=a.map\nrawlog_file=a.rawlog\n" + more);
+  return readLocalizationSetup(folder / "run.ini");
+}
+
+TEST(LocalizationSetup, findsFilesBesideTheIni)
+{
+  const TemporaryFolder folder;
+  const LocalizationSetup setup = read(folder, "");
+  EXPECT_EQ(setup.map_file, folder / "a.map");
+  EXPECT_EQ(setup.rawlog_file, folder / "a.rawlog");
+  EXPECT_TRUE(setup.ground_truth_file.empty());
+  EXPECT_TRUE(setup.output_folder.empty());
+  EXPECT_FALSE(setup.prior);
+  EXPECT_EQ(setup.repetitions, 1U);
+}
+
+TEST(LocalizationSetup, readsTheKeysOfPfLocalization)
+{
+  const TemporaryFolder folder;
+  const LocalizationSetup setup =
+      read(folder,
+           "rawlog_offset=3\nlogOutput_dir=LOG // comment\n3DSceneFrequency=5\n"
+           "experimentRepetitions=2\nparticles_count=100 200\ninit_PDF_mode=1\n"
+           "init_PDF_min_x=-1\ninit_PDF_max_x=2\ninit_PDF_min_y=-3\ninit_PDF_max_y=4\n"
+           "init_PDF_min_yaw_deg=0\ninit_PDF_max_yaw_deg=90\n[MetricMap]\nfoo=bar\n");
+  EXPECT_EQ(setup.rawlog_offset, 3U);
+  EXPECT_EQ(setup.output_folder, "LOG");
+  EXPECT_EQ(setup.scene_frequency, 5U);
+  EXPECT_EQ(setup.repetitions, 2U);
+  ASSERT_TRUE(setup.prior);
+  EXPECT_EQ(setup.prior->x_min, -1);
+  EXPECT_EQ(setup.prior->y_max, 4);
+  EXPECT_NEAR(setup.prior->heading, M_PI / 4, 1e-9);
+  EXPECT_NEAR(setup.prior->heading_tolerance, M_PI / 4, 1e-9);
+}
+
+TEST(LocalizationSetup, namesTheIniAndTheReason)
+{
+  const TemporaryFolder folder;
+  const auto reason = [&](const std::string& more)
+  { return messageOf<std::runtime_error>([&] { read(folder, more); }); };
+  EXPECT_NE(reason("rawlog_offset=few\n").find("run.ini: [LocalizationExperiment]: bad value"),
+            std::string::npos);
+  EXPECT_NE(reason("rawlog_offset=-1\n").find("rawlog_offset"), std::string::npos);
+  EXPECT_NE(reason("ground_truth_path_file=gone.txt\n").find("gone.txt"), std::string::npos);
+  EXPECT_NE(reason("[sigloc.matcher]\nmode=9\n").find("mode"), std::string::npos);
+}
+
+TEST(LocalizationSetup, messagesLoseMrptsTrimmings)
+{
+  EXPECT_EQ(firstLine("==== MRPT exception ====\nMessage:  It broke\nLocation: x.cpp:1\n"),
+            "It broke");
+  EXPECT_EQ(firstLine("plain"), "plain");
+  EXPECT_EQ(firstLine(""), "");
+}
+}  // namespace
+}  // namespace sigloc

@@ -1,0 +1,169 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+#include <mrpt/maps/CSimpleMap.h>
+#include <mrpt/poses/CPose3DPDFGaussian.h>
+
+#include "command_line.h"
+
+namespace sigloc
+{
+namespace
+{
+using namespace sigloc::test;
+
+/// Exit code 1, one line on stderr with `name` in it, and no file that was not there before.
+void expectRefused(const TemporaryFolder& folder, const std::set<std::string>& before,
+                   const CommandResult& result, const std::string& name)
+{
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(countLines(result.errors), 1) << result.errors;
+  EXPECT_NE(result.errors.find(name), std::string::npos) << result.errors;
+  EXPECT_EQ(result.output, "");
+  EXPECT_EQ(listing(folder), before);
+}
+
+void writeConfig(const TemporaryFolder& folder, const std::string& map, const std::string& rawlog,
+                 const std::string& more = "")
+{
+  writeText(folder / "run.ini", "[LocalizationExperiment]\nmap_file = " + map +
+                                    "\nrawlog_file = " + rawlog + "\n" + more);
+}
+
+CommandResult localize(const TemporaryFolder& folder)
+{
+  return run(folder, "sigloc-localize", {"run.ini", "--out", "new/out", "--quiet"});
+}
+
+class BadFile : public ::testing::TestWithParam<Damage>
+{
+};
+
+TEST_P(BadFile, asMapSourceIsRefused)
+{
+  const TemporaryFolder folder;
+  makeBadFile(GetParam(), kLabMap, folder / "bad.simplemap.gz");
+  const auto before = listing(folder);
+  const auto result =
+      run(folder, "sigloc-map", {"build", "-i", "bad.simplemap.gz", "-o", "m.sigmap"});
+  expectRefused(folder, before, result, "bad.simplemap.gz");
+}
+
+TEST_P(BadFile, asSigmapIsRefused)
+{
+  const TemporaryFolder folder;
+  makeBadFile(GetParam(), kLabMap, folder / "bad.sigmap");
+  const auto before = listing(folder);
+  expectRefused(folder, before, run(folder, "sigloc-map", {"info", "bad.sigmap"}), "bad.sigmap");
+  expectRefused(folder, before, run(folder, "sigloc-map", {"draw", "bad.sigmap", "-o", "a.png"}),
+                "bad.sigmap");
+}
+
+TEST_P(BadFile, asMapOfARunIsRefused)
+{
+  const TemporaryFolder folder;
+  makeBadFile(GetParam(), kLabMap, folder / "bad.simplemap.gz");
+  writeConfig(folder, "bad.simplemap.gz", kLabLog.string());
+  const auto before = listing(folder);
+  expectRefused(folder, before, localize(folder), "bad.simplemap.gz");
+}
+
+TEST_P(BadFile, asRawlogIsRefused)
+{
+  if (GetParam() == Damage::truncated) return;  // a run on what can be read: see below
+  const TemporaryFolder folder;
+  makeBadFile(GetParam(), kLabLog, folder / "bad.rawlog");
+  writeConfig(folder, kLabMap.string(), "bad.rawlog");
+  const auto before = listing(folder);
+  expectRefused(folder, before, localize(folder), "bad.rawlog");
+}
+
+TEST_P(BadFile, asConfigurationIsRefused)
+{
+  const TemporaryFolder folder;
+  writeConfig(folder, kLabMap.string(), kLabLog.string());
+  makeBadFile(GetParam(), folder / "run.ini", folder / "bad.ini");
+  const auto before = listing(folder);
+  const auto result = run(folder, "sigloc-localize", {"bad.ini", "--out", "new/out"});
+  expectRefused(folder, before, result, "bad.ini");
+}
+
+INSTANTIATE_TEST_SUITE_P(All, BadFile,
+                         ::testing::Values(Damage::missing, Damage::empty, Damage::truncated,
+                                           Damage::foreign, Damage::random));
+
+TEST(BadInput, rawlogWithoutScansIsRefused)
+{
+  const TemporaryFolder folder;
+  writeObjects(folder / "bad.rawlog", {makeOdometry(1, {}), makeOdometry(2, {1, 0, 0})});
+  writeConfig(folder, kLabMap.string(), "bad.rawlog");
+  const auto before = listing(folder);
+  expectRefused(folder, before, localize(folder), "bad.rawlog");
+}
+
+TEST(BadInput, mapWithoutFeaturesIsRefused)
+{
+  const TemporaryFolder folder;
+  auto scan = makeScan(1);
+  for (std::size_t i = 0; i < scan->getScanSize(); ++i) scan->setScanRangeValidity(i, false);
+  mrpt::maps::CSimpleMap map;
+  map.insert(mrpt::poses::CPose3DPDFGaussian::Create(), makeFrame(scan));
+  ASSERT_TRUE(map.saveToFile((folder / "bad.simplemap").string()));
+  writeConfig(folder, "bad.simplemap", kLabLog.string());
+  const auto before = listing(folder);
+  expectRefused(folder, before, localize(folder), "bad.simplemap");
+  expectRefused(folder, before,
+                run(folder, "sigloc-map", {"build", "-i", "bad.simplemap", "-o", "m.sigmap"}),
+                "bad.simplemap");
+}
+
+TEST(BadInput, unknownKeyIsNamed)
+{
+  const TemporaryFolder folder;
+  writeConfig(folder, kLabMap.string(), kLabLog.string(), "[sigloc.tracker]\nmax_hypothesis = 3\n");
+  const auto before = listing(folder);
+  const auto result = localize(folder);
+  expectRefused(folder, before, result, "run.ini");
+  EXPECT_NE(result.errors.find("max_hypothesis"), std::string::npos) << result.errors;
+}
+
+TEST(BadInput, unknownSectionIsNamed)
+{
+  const TemporaryFolder folder;
+  writeConfig(folder, kLabMap.string(), kLabLog.string(), "[sigloc.trakcer]\nseed = 3\n");
+  const auto before = listing(folder);
+  const auto result = localize(folder);
+  expectRefused(folder, before, result, "run.ini");
+  EXPECT_NE(result.errors.find("sigloc.trakcer"), std::string::npos) << result.errors;
+}
+
+TEST(BadInput, badValueIsNamed)
+{
+  const TemporaryFolder folder;
+  writeConfig(folder, kLabMap.string(), kLabLog.string(), "[sigloc.map]\nmerge_gap = wide\n");
+  const auto before = listing(folder);
+  const auto result = localize(folder);
+  expectRefused(folder, before, result, "run.ini");
+  EXPECT_NE(result.errors.find("merge_gap"), std::string::npos) << result.errors;
+}
+
+TEST(BadInput, foreignOutputFolderIsLeftAlone)
+{
+  const TemporaryFolder folder;
+  writeConfig(folder, kLabMap.string(), kLabLog.string());
+  std::filesystem::create_directories(folder / "new/out");
+  writeText(folder / "new/out/thesis.tex", "dear");
+  const auto before = listing(folder);
+  expectRefused(folder, before, localize(folder), "new/out");
+}
+
+TEST(BadInput, unknownFlagIsRefused)
+{
+  const TemporaryFolder folder;
+  for (const char* const program : {"sigloc-map", "sigloc-localize"})
+  {
+    expectRefused(folder, {}, run(folder, program, {"--no-such-flag"}), program);
+  }
+}
+}  // namespace
+}  // namespace sigloc

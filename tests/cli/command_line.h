@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <random>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "bridge/rawlog_files.h"
+
+namespace sigloc::test
+{
+inline const std::filesystem::path kDatasets = "/usr/share/mrpt/datasets";
+inline const std::filesystem::path kLabMap = kDatasets / "localization_demo.simplemap.gz";
+inline const std::filesystem::path kLabLog = kDatasets / "localization_demo.rawlog";
+
+struct CommandResult
+{
+  int exit_code = -1;
+  std::string output;
+  std::string errors;
+};
+
+inline std::string quoted(const std::string& text)
+{
+  return "'" + text + "'";
+}
+
+/// Runs one of the project's programs with nothing to read from, in `folder`.
+inline CommandResult run(const TemporaryFolder& folder, const std::string& program,
+                         const std::vector<std::string>& arguments)
+{
+  const TemporaryFolder streams;
+  std::string command = "cd " + quoted(folder.path().string()) + " && " +
+                        quoted(std::string(SIGLOC_BIN_FOLDER) + "/" + program);
+  for (const std::string& argument : arguments) command += " " + quoted(argument);
+  command += " </dev/null >" + quoted((streams / "out").string()) + " 2>" +
+             quoted((streams / "err").string());
+  const int status = std::system(command.c_str());
+  CommandResult result;
+  if (WIFEXITED(status)) result.exit_code = WEXITSTATUS(status);
+  result.output = readBytes(streams / "out");
+  result.errors = readBytes(streams / "err");
+  return result;
+}
+
+/// All files and folders below a folder.
+inline std::set<std::string> listing(const TemporaryFolder& folder)
+{
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path()))
+  {
+    names.insert(entry.path().string());
+  }
+  return names;
+}
+
+inline std::ptrdiff_t countLines(const std::string& text)
+{
+  return std::count(text.begin(), text.end(), '\n');
+}
+
+/// The ways in which a file can be bad.
+enum class Damage
+{
+  missing,
+  empty,
+  truncated,
+  foreign,
+  random,
+};
+
+/// Makes `path` a bad version of the sound file `model`.
+inline void makeBadFile(Damage damage, const std::filesystem::path& model,
+                        const std::filesystem::path& path)
+{
+  std::string bytes;
+  switch (damage)
+  {
+    case Damage::missing:
+      return;
+    case Damage::empty:
+      break;
+    case Damage::truncated:
+      bytes = readBytes(model);
+      bytes.resize(bytes.size() / 2);
+      break;
+    case Damage::foreign:
+      bytes = "%PDF-1.4\nnothing that MRPT would read\n";
+      break;
+    case Damage::random:
+    {
+      std::mt19937 generator(7);
+      for (int i = 0; i < 5000; ++i) bytes += static_cast<char>(generator() & 0xFFU);
+      break;
+    }
+  }
+  writeText(path, bytes);
+}
+}  // namespace sigloc::test
