@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+
+#include "bridge/rawlog_files.h"
+
+namespace sigloc
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+/// Runs sigloc-simulate; what it says goes to `folder`/out and `folder`/err.
+int simulate(const test::TemporaryFolder& folder, const std::string& arguments)
+{
+  const std::string command = std::string(SIGLOC_SIMULATE) + " " + arguments + " </dev/null >" +
+                              (folder / "out").string() + " 2>" + (folder / "err").string();
+  const int status = std::system(command.c_str());
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+TEST(SimulateApp, WritesEveryWorldTheSameTwice)
+{
+  for (const char* world : {"office", "corridor", "hall", "park", "points"})
+  {
+    const test::TemporaryFolder folder;
+    const std::string arguments = std::string("--metres 5 --map-spacing 6 --world ") + world;
+    ASSERT_EQ(simulate(folder, arguments + " --out " + (folder / "a").string()), 0) << world;
+    ASSERT_EQ(simulate(folder, arguments + " --out " + (folder / "b").string()), 0) << world;
+    std::size_t files = 0;
+    for (const auto& entry : fs::directory_iterator(folder / "a"))
+    {
+      const fs::path twin = folder / "b" / entry.path().filename();
+      EXPECT_GT(fs::file_size(entry.path()), 0U) << entry.path();
+      EXPECT_EQ(test::readBytes(entry.path()), test::readBytes(twin)) << entry.path();
+      ++files;
+    }
+    EXPECT_EQ(files, std::string(world) == "points" ? 4U : 5U) << world;
+  }
+}
+
+TEST(SimulateApp, BadArgumentsGiveOneLineAndNothingElse)
+{
+  for (const char* arguments :
+       {"--world moon --out DIR", "--seed x --out DIR", "--clutter 2 --out DIR",
+        "--metres nan --out DIR", "--width 3 --out DIR", "--clearance 5 --out DIR",
+        "--no-such-flag --out DIR", "--out /proc/none", "", "--out DIR/err/below"})
+  {
+    const test::TemporaryFolder folder;
+    std::string text = arguments;
+    if (const auto at = text.find("DIR"); at != std::string::npos)
+    {
+      text.replace(at, 3,
+                   text.find("DIR/") == at ? folder.path().string() : (folder / "x").string());
+    }
+    EXPECT_EQ(simulate(folder, text), 1) << arguments;
+    const std::string errors = test::readBytes(folder / "err");
+    EXPECT_EQ(std::count(errors.begin(), errors.end(), '\n'), 1) << errors;
+    EXPECT_TRUE(test::readBytes(folder / "out").empty()) << arguments;
+    EXPECT_FALSE(fs::exists(folder / "x")) << arguments;
+  }
+}
+
+TEST(SimulateApp, HelpEndsWell)
+{
+  const test::TemporaryFolder folder;
+  EXPECT_EQ(simulate(folder, "--help"), 0);
+  EXPECT_NE(test::readBytes(folder / "out").find("--world"), std::string::npos);
+}
+}  // namespace
+}  // namespace sigloc
