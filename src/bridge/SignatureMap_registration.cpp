@@ -14,8 +14,9 @@
 #include "sigloc/bridge/sigmap_file.h"
 #include "sigloc/bridge/SignatureMap.h"
 
-// Aliases for the `..._count` keys of an ini file, the class itself first.
-MAP_DEFINITION_REGISTER("sigloc::SignatureMap,signatureMap", sigloc::SignatureMap)
+// MRPT drops the namespace and the case where it looks for `signatureMap_count`: a second name
+// would make a second map.
+MAP_DEFINITION_REGISTER("sigloc::SignatureMap", sigloc::SignatureMap)
 IMPLEMENTS_SERIALIZABLE(SignatureMap, mrpt::maps::CMetricMap, sigloc)
 
 // Runs when the library is linked, preloaded or opened as a plug-in.

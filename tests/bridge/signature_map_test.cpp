@@ -246,6 +246,7 @@ TEST(SignatureMap, IsMadeFromAnIniAndDeepCopiedInAMultiMap)
   mrpt::maps::CMultiMetricMap maps = multiMap(multiMapIni((folder / "m.sigmap").string()));
   auto original = maps.mapByClass<SignatureMap>();
   ASSERT_TRUE(original);
+  EXPECT_EQ(maps.maps.size(), 2U) << "one grid, one signature map";
   expectSameMap(*original->featureMap(), prepared);
   EXPECT_EQ(original->insertionOptions.building.merge_gap, 0.7);
   EXPECT_EQ(original->insertionOptions.extraction.min_segment_length, 0.3);
