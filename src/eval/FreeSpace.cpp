@@ -51,21 +51,21 @@ void FreeSpace::blockNearSegment(const WallSegment& segment, double clearance)
 {
   // A surface always blocks the cells it runs through, or a robot of no size would pass.
   const double reach = std::max(clearance, 0.71 * cell_size_);
-  const auto clampedColumn = [&](double x)
+  const auto clamped_column = [&](double x)
   {
     return std::clamp<std::int64_t>(static_cast<std::int64_t>((x - bounds_.x_min) / cell_size_), 0,
                                     columns_ - 1);
   };
-  const auto clampedRow = [&](double y)
+  const auto clamped_row = [&](double y)
   {
     return std::clamp<std::int64_t>(static_cast<std::int64_t>((y - bounds_.y_min) / cell_size_), 0,
                                     rows_ - 1);
   };
   const auto [x_low, x_high] = std::minmax(segment.start.x, segment.end.x);
   const auto [y_low, y_high] = std::minmax(segment.start.y, segment.end.y);
-  for (auto r = clampedRow(y_low - reach); r <= clampedRow(y_high + reach); ++r)
+  for (auto r = clamped_row(y_low - reach); r <= clamped_row(y_high + reach); ++r)
   {
-    for (auto c = clampedColumn(x_low - reach); c <= clampedColumn(x_high + reach); ++c)
+    for (auto c = clamped_column(x_low - reach); c <= clamped_column(x_high + reach); ++c)
     {
       const auto cell = static_cast<std::size_t>(r * columns_ + c);
       if (free_[cell] != 0 && distanceToSegment(centreOf(cell), segment) < reach) free_[cell] = 0;
@@ -135,8 +135,10 @@ std::size_t FreeSpace::cellAt(const TPoint2D& p) const
 TPoint2D FreeSpace::centreOf(std::size_t cell) const
 {
   const auto columns = static_cast<std::size_t>(columns_);
-  return {bounds_.x_min + (static_cast<double>(cell % columns) + 0.5) * cell_size_,
-          bounds_.y_min + (static_cast<double>(cell / columns) + 0.5) * cell_size_};
+  const std::size_t column = cell % columns;
+  const std::size_t row = cell / columns;
+  return {bounds_.x_min + (static_cast<double>(column) + 0.5) * cell_size_,
+          bounds_.y_min + (static_cast<double>(row) + 0.5) * cell_size_};
 }
 
 bool FreeSpace::contains(const TPoint2D& p) const

@@ -78,14 +78,14 @@ std::vector<TPose2D> simulateTruth(const FreeSpace& space, const DriveOptions& o
   EndlessPath path(space, seed);
   const double max_turn = options.turn_rate_deg * M_PI / 180.0 * options.step_time;
   const double stride = options.speed * options.step_time;
-  const auto headingAt = [&](double distance, double fallback)
+  const auto heading_at = [&](double distance, double fallback)
   {
     const TPoint2D d = path.at(distance + kLookAhead) - path.at(distance);
     // Where the path turns back on itself, the place ahead may be the place itself.
     return std::hypot(d.x, d.y) > 0.05 ? std::atan2(d.y, d.x) : fallback;
   };
   double driven = 0;
-  double phi = headingAt(0, 0);
+  double phi = heading_at(0, 0);
   std::vector<TPose2D> poses;
   while (poses.size() < options.max_steps)
   {
@@ -93,7 +93,7 @@ std::vector<TPose2D> simulateTruth(const FreeSpace& space, const DriveOptions& o
     poses.emplace_back(place.x, place.y, mrpt::math::wrapToPi(phi));
     if (driven >= options.metres) break;
     const double next = std::min(driven + stride, options.metres);
-    const double turn = mrpt::math::wrapToPi(headingAt(next, phi) - phi);
+    const double turn = mrpt::math::wrapToPi(heading_at(next, phi) - phi);
     if (std::abs(turn) <= max_turn)
     {
       driven = next;

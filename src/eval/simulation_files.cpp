@@ -187,7 +187,7 @@ void writeGridMap(const World& world, double resolution, const fs::path& path)
                static_cast<float>(resolution), 0.5F);
   const FreeSpace space(world, 0.0, resolution);
   // Free space ends up to a cell before a surface; the cells between are free unless drawn over.
-  const auto nearFreeSpace = [&](int c, int r)
+  const auto near_free_space = [&](int c, int r)
   {
     const double x = grid.idx2x(c);
     const double y = grid.idx2y(r);
@@ -201,7 +201,7 @@ void writeGridMap(const World& world, double resolution, const fs::path& path)
     {
       const auto c = static_cast<int>(column);
       const auto r = static_cast<int>(row);
-      if (nearFreeSpace(c, r)) grid.setCell(c, r, kFree);
+      if (near_free_space(c, r)) grid.setCell(c, r, kFree);
     }
   }
   drawSurfaces(world, grid);
