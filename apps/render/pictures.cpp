@@ -12,14 +12,17 @@ namespace
 using mrpt::img::TColorf;
 
 constexpr double kTitlePixels = 95;  // kept free of the map
-constexpr double kLegendPixels = 50;
+constexpr double kLegendPixels = 84;
 constexpr double kSidePixels = 18;
 constexpr double kLinePitchPixels = 34;
-constexpr double kCloseUpHeight = 30.0;  // [m]
-constexpr double kLinePixels = 2.0;
-constexpr double kMarkPixels = 9.0;
+constexpr double kCloseUpSide = 22.0;  // [m], the shorter side
+constexpr double kLinePixels = 2.4;
+constexpr double kMarkPixels = 10.0;
 constexpr float kTextScale = 34.0F;  // [pixels of the super-sampled picture]
+constexpr unsigned kGapPixels = 4;  // between overview and close-up
 constexpr double kCharacterPixels = 15.5;  // width, about
+
+constexpr double kSmallFeatureScale = 0.06;  // [m/pixel], corners and wall ends clutter above it
 
 // Overview and close-up stand side by side, or, for a wide map, one above the other.
 constexpr PictureSize kBesideSize{960, 1080};
@@ -30,14 +33,13 @@ struct LegendEntry
 {
   const char* text;
   TColorf color;
-  bool small_feature = false;
 };
 
 const std::vector<LegendEntry> kMapLegend = {
     {"wall", TColorf(0.12F, 0.31F, 0.63F)},
     {"circle", TColorf(0.43F, 0.47F, 0)},
-    {"corner", TColorf(0, 0.55F, 0.51F), true},
-    {"wall end", TColorf(0.59F, 0.35F, 0.08F), true},
+    {"corner", TColorf(0, 0.55F, 0.51F)},
+    {"wall end", TColorf(0.59F, 0.35F, 0.08F)},
 };
 const std::vector<LegendEntry> kStepLegend = {
     {"returns", TColorf(0.88F, 0.12F, 0.12F)},
@@ -102,7 +104,7 @@ struct PictureMaker::Panel
       : view(initial_view),
         size(panel_size),
         metres_per_pixel(initial_view.height / panel_size.height),
-        small_features(view.height <= 2 * kCloseUpHeight)
+        small_features(metres_per_pixel <= kSmallFeatureScale)
   {
     auto viewport = scene.getViewport();
     viewport->setCustomBackgroundColor(TColorf(0.87F, 0.87F, 0.87F));
@@ -123,7 +125,8 @@ struct PictureMaker::Panel
     scene.insert(step_objects);
   }
 
-  void write(const std::vector<std::string>& title, const std::vector<LegendEntry>& legend)
+  void write(const std::vector<std::string>& title,
+             const std::vector<std::vector<LegendEntry>>& legend)
   {
     auto viewport = scene.getViewport();
     std::size_t index = 0;
@@ -133,13 +136,16 @@ struct PictureMaker::Panel
       addText(*viewport, kSidePixels / size.width, y, line, index, TColorf(0, 0, 0));
       ++index;
     }
-    double x = kSidePixels / size.width;
-    for (const LegendEntry& entry : legend)
+    for (std::size_t row = 0; row < legend.size(); ++row)
     {
-      if (entry.small_feature && !small_features) continue;
-      addText(*viewport, x, 0.3 * kLegendPixels / size.height, entry.text, index++, entry.color);
-      const auto characters = static_cast<double>(std::string_view(entry.text).size());
-      x += kCharacterPixels * (characters + 2) / size.width;
+      const double y = (0.2 * kLegendPixels + kLinePitchPixels * static_cast<double>(row));
+      double x = kSidePixels;
+      for (const LegendEntry& entry : legend[row])
+      {
+        addText(*viewport, x / size.width, y / size.height, entry.text, index++, entry.color);
+        const auto characters = static_cast<double>(std::string_view(entry.text).size());
+        x += kCharacterPixels * (characters + 2);
+      }
     }
   }
 };
@@ -152,7 +158,8 @@ PictureMaker::PictureMaker(const FeatureMap& map)
   const View whole = frame(box, overview_size);
   overview_ = std::make_unique<Panel>(map, whole, overview_size);
   View near = whole;
-  near.height = kCloseUpHeight;
+  near.height =
+      kCloseUpSide * std::max(1.0, static_cast<double>(close_up_size.height) / close_up_size.width);
   close_up_ = std::make_unique<Panel>(map, near, close_up_size);
 }
 
@@ -160,7 +167,7 @@ PictureMaker::~PictureMaker() = default;
 
 mrpt::img::CImage PictureMaker::mapPicture(const std::vector<std::string>& title)
 {
-  overview_->write(title, kMapLegend);
+  overview_->write(title, {kMapLegend});
   return renderer_.render(overview_->scene, overview_->view, overview_->size);
 }
 
@@ -178,18 +185,19 @@ mrpt::img::CImage PictureMaker::stepPicture(const StepDrawing& step,
     close_up_->view.y = centre->y;
   }
   overview_->show(step);
-  overview_->write(title, kStepLegend);
+  overview_->write(title, {kMapLegend, kStepLegend});
   close_up_->show(step);
-  close_up_->write({}, kMapLegend);
   const auto whole = renderer_.render(overview_->scene, overview_->view, overview_->size);
   const auto near = renderer_.render(close_up_->scene, close_up_->view, close_up_->size);
   const PictureSize& a = overview_->size;
   const PictureSize& b = close_up_->size;
   const bool stacked = a.width == kAboveSize.width;
-  mrpt::img::CImage both(stacked ? a.width : a.width + b.width,
-                         stacked ? a.height + b.height : a.height, mrpt::img::CH_RGB);
+  mrpt::img::CImage both(stacked ? a.width : a.width + kGapPixels + b.width,
+                         stacked ? a.height + kGapPixels + b.height : a.height, mrpt::img::CH_RGB);
+  both.filledRectangle(0, 0, static_cast<int>(both.getWidth()) - 1,
+                       static_cast<int>(both.getHeight()) - 1, mrpt::img::TColor(70, 70, 70));
   paste(whole, both, 0, 0);
-  paste(near, both, stacked ? 0 : a.width, stacked ? a.height : 0);
+  paste(near, both, stacked ? 0 : a.width + kGapPixels, stacked ? a.height + kGapPixels : 0);
   return both;
 }
 }  // namespace sigloc

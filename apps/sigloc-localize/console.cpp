@@ -91,7 +91,7 @@ std::string summaryTable(const LocalizationRun& run)
   row("log", run.setup().rawlog_file.filename().string() +
                  mrpt::format(": %zu steps, %.1f m%s", summary.steps, summary.distance,
                               summary.truncated ? ", TRUNCATED" : ""));
-  const bool scored = summary.final_error || summary.steps_to_first_right;
+  const bool scored = !run.setup().ground_truth_file.empty();
   row("first right hypothesis",
       scored ? reached(summary.steps_to_first_right, summary.metres_to_first_right)
              : "truth unknown");

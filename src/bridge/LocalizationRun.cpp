@@ -205,7 +205,7 @@ RunSummary LocalizationRun::summary() const
     const double total_ms = step.extraction_ms + step.tracking_ms;
     (step.relocated ? relocation_times : tracking_times).push_back(total_ms);
     if (step.confidently_wrong) ++summary.confidently_wrong_steps;
-    if (step.right && !summary.steps_to_first_right)
+    if (step.right && state_->truth && !summary.steps_to_first_right)
     {
       summary.steps_to_first_right = step.number;
       summary.metres_to_first_right = step.travelled;

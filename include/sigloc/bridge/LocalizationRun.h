@@ -45,7 +45,7 @@ struct RunSummary
 {
   std::size_t steps = 0;
   double distance = 0;  ///< [m]
-  std::optional<std::size_t> steps_to_first_right;
+  std::optional<std::size_t> steps_to_first_right;  ///< none where the path's truth is unknown
   std::optional<double> metres_to_first_right;
   std::optional<std::size_t> steps_to_localized;
   std::optional<double> metres_to_localized;
