@@ -259,6 +259,7 @@ std::optional<MotionIncrement> RawlogReader::State::takeMotion(
 RawlogReader::RawlogReader(const std::filesystem::path& path)
     : state_(std::make_unique<State>(path))
 {
+  detail::requireIntact(path);
   const std::string name = state_->input.nextClassName();
   const auto fail = [&](const std::string& reason)
   { throw std::runtime_error(path.string() + ": " + reason); };

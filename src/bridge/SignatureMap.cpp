@@ -110,7 +110,7 @@ std::shared_ptr<const SignatureMap::Model> SignatureMap::model() const
   if (derived_.model) return derived_.model;
   std::shared_ptr<const FeatureMap> map = prepared_map_;
   const auto& [building, extraction] =
-      std::tie(insertionOptions.building, insertionOptions.extraction);
+      std::tie(insertion_options.building, insertion_options.extraction);
   if (!scans_.empty())
   {
     const bool from_nothing = prepared_map_->empty() && !prepared_map_->field();
@@ -199,7 +199,7 @@ std::shared_ptr<const SignatureMap::PreparedObservation> SignatureMap::prepared(
   }
   auto made = std::make_shared<PreparedObservation>();
   made->fingerprint = fingerprint;
-  const std::size_t max_points = likelihoodOptions.points.max_points;
+  const std::size_t max_points = likelihood_options.points.max_points;
   if (const auto* range_scan = dynamic_cast<const CObservation2DRangeScan*>(&observation))
   {
     const auto scan = toLaserScan(*range_scan);
@@ -224,7 +224,7 @@ double SignatureMap::internal_computeObservationLikelihood(const CObservation& o
   const auto current = model();
   const auto seen = prepared(observation);
   const TPose2D pose = CPose2D(taken_from).asTPose();
-  const PointLikelihoodOptions& options = likelihoodOptions.points;
+  const PointLikelihoodOptions& options = likelihood_options.points;
   const auto& field = current->map->field();
   return logLikelihood(current->nearest, seen->landmarks, pose, options) +
          (field ? logLikelihood(*field, seen->returns, pose, options)

@@ -124,18 +124,18 @@ void SignatureMap::TLikelihoodOptions::saveToConfigFile(CConfigFileBase& target,
 SignatureMap::TMapDefinition::TMapDefinition() = default;
 
 void SignatureMap::TMapDefinition::loadFromConfigFile_map_specific(
-    const CConfigFileBase& source, const std::string& sectionNamePrefix)
+    const CConfigFileBase& source, const std::string& section_prefix)
 {
-  sigmap_file = source.read_string(sectionNamePrefix + "_creationOpts", "sigmap_file", sigmap_file);
-  insertionOpts.loadFromConfigFile(source, sectionNamePrefix + "_insertOpts");
-  likelihoodOpts.loadFromConfigFile(source, sectionNamePrefix + "_likelihoodOpts");
+  sigmap_file = source.read_string(section_prefix + "_creationOpts", "sigmap_file", sigmap_file);
+  insertion_options.loadFromConfigFile(source, section_prefix + "_insertOpts");
+  likelihood_options.loadFromConfigFile(source, section_prefix + "_likelihoodOpts");
 }
 
 void SignatureMap::TMapDefinition::dumpToTextStream_map_specific(std::ostream& out) const
 {
   out << "sigmap_file = " << sigmap_file << '\n';
-  insertionOpts.dumpToTextStream(out);
-  likelihoodOpts.dumpToTextStream(out);
+  insertion_options.dumpToTextStream(out);
+  likelihood_options.dumpToTextStream(out);
 }
 
 mrpt::maps::CMetricMap* SignatureMap::internal_CreateFromMapDefinition(
@@ -145,8 +145,8 @@ mrpt::maps::CMetricMap* SignatureMap::internal_CreateFromMapDefinition(
   auto map = definition.sigmap_file.empty()
                  ? std::make_unique<SignatureMap>()
                  : std::make_unique<SignatureMap>(loadSigmap(definition.sigmap_file));
-  map->insertionOptions = definition.insertionOpts;
-  map->likelihoodOptions = definition.likelihoodOpts;
+  map->insertion_options = definition.insertion_options;
+  map->likelihood_options = definition.likelihood_options;
   return map.release();
 }
 
@@ -158,9 +158,9 @@ std::uint8_t SignatureMap::serializeGetVersion() const
 void SignatureMap::serializeTo(CArchive& out) const
 {
   out << genericMapParams;
-  writeOptions(insertionOptions.building, out);
-  writeOptions(insertionOptions.extraction, out);
-  writeOptions(likelihoodOptions.points, out);
+  writeOptions(insertion_options.building, out);
+  writeOptions(insertion_options.extraction, out);
+  writeOptions(likelihood_options.points, out);
   writeFeatureMap(*featureMap(), out);
 }
 
@@ -168,9 +168,9 @@ void SignatureMap::serializeFrom(CArchive& in, std::uint8_t version)
 {
   if (version != 0) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
   in >> genericMapParams;
-  insertionOptions.building = readOptions<MapBuildingOptions>(in);
-  insertionOptions.extraction = readOptions<FeatureExtractorOptions>(in);
-  likelihoodOptions.points = readOptions<PointLikelihoodOptions>(in);
+  insertion_options.building = readOptions<MapBuildingOptions>(in);
+  insertion_options.extraction = readOptions<FeatureExtractorOptions>(in);
+  likelihood_options.points = readOptions<PointLikelihoodOptions>(in);
   scans_.clear();
   prepared_map_ = std::make_shared<FeatureMap>(readFeatureMap(in));
   derived_ = Derived();

@@ -9,8 +9,10 @@
 #include <cctype>
 #include <cstring>
 #include <fstream>
+#include <memory>
 #include <stdexcept>
 #include <string_view>
+#include <vector>
 
 namespace sigloc::detail
 {
@@ -58,6 +60,20 @@ void requireFile(const std::filesystem::path& path)
   {
     fail(path, "is empty");
   }
+}
+
+void requireIntact(const std::filesystem::path& path)
+{
+  const std::unique_ptr<gzFile_s, int (*)(gzFile_s*)> file(gzopen(path.c_str(), "rb"), gzclose);
+  if (!file) fail(path, "cannot be opened");
+  gzbuffer(file.get(), kBufferBytes);
+  std::vector<char> content(kBufferBytes);
+  int got = gzread(file.get(), content.data(), kBufferBytes);
+  if (gzdirect(file.get()) != 0) return;  // not compressed: nothing to check it by
+  while (got > 0) got = gzread(file.get(), content.data(), kBufferBytes);
+  int code = Z_OK;
+  gzerror(file.get(), &code);
+  if (code == Z_DATA_ERROR) fail(path, "damaged");
 }
 
 GzipInput::GzipInput(const std::filesystem::path& path) : path_(path)
@@ -151,6 +167,8 @@ std::uint64_t GzipInput::Seek(std::int64_t, TSeekOrigin)
 
 void readObjectFile(const std::filesystem::path& path, mrpt::serialization::CSerializable& object)
 {
+  requireFile(path);
+  requireIntact(path);
   GzipInput input(path);
   const std::string name = input.nextClassName();
   const auto* const expected = object.GetRuntimeClass();

@@ -56,6 +56,11 @@ class GzipInput final : public mrpt::io::CStream
   bool damaged_ = false;
 };
 
+/// Throws std::runtime_error "path: damaged" for a gz-compressed file whose content fails gzip's
+/// own check; one that is merely cut off passes. MRPT's readers may crash on objects with wrong
+/// bytes in them, so this comes before they see any. Costs one decompression of the file.
+void requireIntact(const std::filesystem::path& path);
+
 /// Fills `object` from a file that holds one object of its class.
 /// Throws std::runtime_error "path: reason" for a file that is missing, empty, truncated, damaged
 /// or holds something else.

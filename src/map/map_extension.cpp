@@ -45,6 +45,7 @@ std::vector<Feature> unionOf(const std::vector<Feature>& mapped, const std::vect
     by_type[static_cast<std::size_t>(feature.type)].push_back(feature);
   }
   std::vector<NearestFeature> nearest;
+  nearest.reserve(by_type.size());
   for (auto& features : by_type) nearest.emplace_back(std::move(features));
   const double reach = std::max(options.merge_offset, options.merge_point_distance) + 0.1;
 

@@ -229,6 +229,22 @@ TEST(RawlogReader, MarksATruncatedLog)
   EXPECT_TRUE(reader.truncated());
 }
 
+TEST(RawlogReader, RefusesDamagedCompressedLogsAndNeverCrashes)
+{
+  const TemporaryFolder folder;
+  const auto path = folder / "damaged.rawlog";
+  const std::string bytes = readBytes(kDemoLog);
+  std::mt19937 random(20120215);
+  for (int i = 0; i < 200; ++i)
+  {
+    std::string damaged = bytes;
+    damaged[10 + random() % (bytes.size() - 18)] ^= static_cast<char>(1U << random() % 8U);
+    writeText(path, damaged);
+    const std::string message = messageOf<std::runtime_error>([&] { readAll(path); });
+    EXPECT_EQ(message, path.string() + ": damaged");
+  }
+}
+
 TEST(RawlogReader, NamesFileAndReasonForUnusableFiles)
 {
   const TemporaryFolder folder;

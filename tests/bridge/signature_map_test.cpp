@@ -224,8 +224,8 @@ TEST(SignatureMap, ClearingKeepsAPreparedMapThatTakesNoInsertions)
 TEST(SignatureMap, SurvivesSerialization)
 {
   SignatureMap map = roomMap();
-  map.insertionOptions.building.merge_gap = 0.7;
-  map.likelihoodOptions.points.max_points = 17;
+  map.insertion_options.building.merge_gap = 0.7;
+  map.likelihood_options.points.max_points = 17;
   mrpt::io::CMemoryStream memory;
   auto archive = mrpt::serialization::archiveFrom(memory);
   archive << map;
@@ -234,8 +234,8 @@ TEST(SignatureMap, SurvivesSerialization)
   const auto copy = std::dynamic_pointer_cast<SignatureMap>(object);
   ASSERT_TRUE(copy) << "made through the class registry";
   expectSameMap(*copy->featureMap(), *map.featureMap());
-  EXPECT_EQ(copy->insertionOptions.building.merge_gap, 0.7);
-  EXPECT_EQ(copy->likelihoodOptions.points.max_points, 17U);
+  EXPECT_EQ(copy->insertion_options.building.merge_gap, 0.7);
+  EXPECT_EQ(copy->likelihood_options.points.max_points, 17U);
 }
 
 TEST(SignatureMap, IsMadeFromAnIniAndDeepCopiedInAMultiMap)
@@ -248,9 +248,9 @@ TEST(SignatureMap, IsMadeFromAnIniAndDeepCopiedInAMultiMap)
   ASSERT_TRUE(original);
   EXPECT_EQ(maps.maps.size(), 2U) << "one grid, one signature map";
   expectSameMap(*original->featureMap(), prepared);
-  EXPECT_EQ(original->insertionOptions.building.merge_gap, 0.7);
-  EXPECT_EQ(original->insertionOptions.extraction.min_segment_length, 0.3);
-  EXPECT_EQ(original->likelihoodOptions.points.sigma, 0.15);
+  EXPECT_EQ(original->insertion_options.building.merge_gap, 0.7);
+  EXPECT_EQ(original->insertion_options.extraction.min_segment_length, 0.3);
+  EXPECT_EQ(original->likelihood_options.points.sigma, 0.15);
 
   const mrpt::maps::CMultiMetricMap copy = maps;
   const auto copied = copy.mapByClass<SignatureMap>();

@@ -25,9 +25,10 @@ namespace sigloc
 /// `CMultiMetricMap`, for the likelihood of any particle filter, serialized and in the viewers.
 ///
 /// In an ini file: `signatureMap_count=1` and the sections
-/// `<name>_signatureMap_00_{creationOpts,insertOpts,likelihoodOpts}`, where `creationOpts` may name
-/// a prepared map, `sigmap_file`. Stock programs that read a simplemap clear all maps and insert
-/// its scans; a prepared map stays through that when its `enableObservationInsertion` is false.
+/// `<name>_signatureMap_00_{creationOpts,insertOpts,likelihoodOpts}`, where `creationOpts` may
+/// name a prepared map, `sigmap_file`. Stock programs that read a simplemap clear all maps and
+/// insert its scans; a prepared map stays through that when its `enableObservationInsertion` is
+/// false.
 ///
 /// Const member functions may be called from several threads at once.
 class SignatureMap : public mrpt::maps::CMetricMap
@@ -62,8 +63,8 @@ class SignatureMap : public mrpt::maps::CMetricMap
                           const std::string& section) const override;
   };
 
-  TInsertionOptions insertionOptions;  ///< effective for scans inserted from now on
-  TLikelihoodOptions likelihoodOptions;
+  TInsertionOptions insertion_options;  ///< effective for scans inserted from now on
+  TLikelihoodOptions likelihood_options;
 
   /// The map, with every scan inserted so far; built on demand, never null. What is inserted later
   /// makes a new one.
@@ -91,8 +92,8 @@ class SignatureMap : public mrpt::maps::CMetricMap
 
   MAP_DEFINITION_START(SignatureMap)
   std::string sigmap_file;  ///< a prepared map, or empty
-  sigloc::SignatureMap::TInsertionOptions insertionOpts;
-  sigloc::SignatureMap::TLikelihoodOptions likelihoodOpts;
+  sigloc::SignatureMap::TInsertionOptions insertion_options;
+  sigloc::SignatureMap::TLikelihoodOptions likelihood_options;
   MAP_DEFINITION_END(SignatureMap)
 
  private:
