@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -76,6 +77,7 @@ struct RawlogReader::State
   explicit State(const std::filesystem::path& path) : input(path) {}
 
   mrpt::serialization::CSerializable::Ptr readObject();
+  void skipFrameBeforeActions(const mrpt::serialization::CSerializable::Ptr& first_object);
   std::optional<RawlogStep> take(const mrpt::serialization::CSerializable::Ptr& object);
   std::optional<RawlogStep> takeObservation(const CObservation::Ptr& observation);
   void takeAction(const CActionCollection& actions);
@@ -87,7 +89,7 @@ struct RawlogReader::State
   double timeOf(const CObservation& observation);
 
   detail::GzipInput input;
-  mrpt::serialization::CSerializable::Ptr first;
+  std::deque<mrpt::serialization::CSerializable::Ptr> read_ahead;
   std::size_t objects_taken = 0;
   bool truncated = false;
   bool ended = false;
@@ -106,7 +108,12 @@ struct RawlogReader::State
 
 mrpt::serialization::CSerializable::Ptr RawlogReader::State::readObject()
 {
-  if (first) return std::move(first);
+  if (!read_ahead.empty())
+  {
+    auto object = std::move(read_ahead.front());
+    read_ahead.pop_front();
+    return object;
+  }
   if (ended) return nullptr;
   try
   {
@@ -125,6 +132,24 @@ mrpt::serialization::CSerializable::Ptr RawlogReader::State::readObject()
   }
   ended = true;
   return nullptr;
+}
+
+// MRPT counts the pairs of an action and the frame after it: a frame before the first action is no
+// step of such a log, and ground truth by rows starts after it.
+void RawlogReader::State::skipFrameBeforeActions(
+    const mrpt::serialization::CSerializable::Ptr& first_object)
+{
+  const bool frame = std::dynamic_pointer_cast<CSensoryFrame>(first_object) != nullptr;
+  const auto second = frame ? readObject() : nullptr;
+  if (std::dynamic_pointer_cast<CActionCollection>(second))
+  {
+    objects_taken = 1;
+  }
+  else
+  {
+    read_ahead.push_back(first_object);
+  }
+  if (second) read_ahead.push_back(second);
 }
 
 double RawlogReader::State::timeOf(const CObservation& observation)
@@ -268,8 +293,9 @@ RawlogReader::RawlogReader(const std::filesystem::path& path)
     fail(state_->input.damaged() ? "truncated or damaged" : "not a rawlog");
   }
   if (!isLogEntry(name)) fail("not a rawlog: it starts with a '" + name + "'");
-  state_->first = state_->readObject();
-  if (!state_->first) fail("truncated or damaged: not one entry could be read");
+  const auto first = state_->readObject();
+  if (!first) fail("truncated or damaged: not one entry could be read");
+  state_->skipFrameBeforeActions(first);
 }
 
 RawlogReader::~RawlogReader() = default;

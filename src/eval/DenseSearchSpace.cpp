@@ -104,6 +104,23 @@ DenseSearchSpace::DenseSearchSpace(const OccupancyRaster& raster, const DenseSea
   if (nowhere) throw std::invalid_argument("the map has no free place inside the region");
 }
 
+std::vector<TPose2D> freeLatticePoses(const OccupancyRaster& raster,
+                                      const DenseSearchOptions& options)
+{
+  const DenseSearchSpace space(raster, options);
+  const auto columns = static_cast<std::uint32_t>(space.columnCells().size());
+  std::vector<TPose2D> poses;
+  for (std::uint32_t place = 0; place < space.freePlaces().size(); ++place)
+  {
+    if (!space.freePlaces()[place]) continue;
+    for (const std::uint32_t heading : space.headings())
+    {
+      poses.push_back(space.poseOf({0, heading, place / columns, place % columns}));
+    }
+  }
+  return poses;
+}
+
 void DenseSearchSpace::layOutPlaces(const OccupancyRaster& raster)
 {
   const RasterFrame& frame = raster.frame;

@@ -18,16 +18,6 @@ namespace
 constexpr double kSearchResolution = 0.1;  // [m]
 constexpr std::uint32_t kSearchMinHits = 1;
 
-std::optional<OccupancyRaster> rasterOfField(const std::optional<DenseField>& field)
-{
-  if (!field) return std::nullopt;
-  OccupancyRaster raster;
-  raster.frame = field->frame;
-  raster.cells.reserve(field->cells.size());
-  for (const DenseCell& cell : field->cells) raster.cells.push_back(cell.state);
-  return raster;
-}
-
 EvaluationMap evaluationMapOf(const MapSource& source)
 {
   if (const auto* scans = std::get_if<std::vector<PosedScans>>(&source))
@@ -45,7 +35,7 @@ EvaluationMap evaluationMapOf(const MapSource& source)
   }
   const auto& features = std::get<FeatureMap>(source);
   map.features = std::make_shared<const FeatureMap>(features);
-  map.raster = rasterOfField(features.field());
+  if (features.field()) map.raster = rasterOf(*features.field());
   return map;
 }
 
@@ -117,6 +107,15 @@ void checkSources(const EvaluationSources& sources)
   }
 }
 }  // namespace
+
+OccupancyRaster rasterOf(const DenseField& field)
+{
+  OccupancyRaster raster;
+  raster.frame = field.frame;
+  raster.cells.reserve(field.cells.size());
+  for (const DenseCell& cell : field.cells) raster.cells.push_back(cell.state);
+  return raster;
+}
 
 std::vector<std::size_t> evenlySpaced(std::size_t size, std::size_t count)
 {

@@ -8,6 +8,8 @@
 #include "sigloc/eval/lattice_search.h"
 #include "sigloc/eval/RelocationMethod.h"
 #include "sigloc/features/FeatureExtractor.h"
+#include "sigloc/matching/DenseVerifier.h"
+#include "sigloc/matching/weighing.h"
 
 namespace sigloc
 {
@@ -87,6 +89,60 @@ class DenseRelocation : public RelocationMethod
   std::optional<BranchAndBoundSearch> pruned_search_;
 };
 
+/// Free poses on a coarse lattice into our own dense cascade: what is left of our method when the
+/// features are taken away.
+class LatticeRelocation : public RelocationMethod
+{
+ public:
+  LatticeRelocation(const EvaluationMap& map, const RelocationMethodOptions& options)
+      : map_(map.features), verifier_(fieldOf(*map_))
+  {
+    DenseSearchOptions lattice;
+    lattice.lattice_step = 0.4;
+    lattice.headings = 60;
+    lattice.region = options.region;
+    for (const mrpt::math::TPose2D& pose : freeLatticePoses(rasterOf(*map_->field()), lattice))
+    {
+      proposals_.push_back(
+          {static_cast<float>(pose.x), static_cast<float>(pose.y), static_cast<float>(pose.phi)});
+    }
+  }
+
+  RelocationResult localize(const std::vector<LaserScan>& scans) const override
+  {
+    const ObservedScene scene = observeScene(scans);
+    RelocationResult result;
+    if (scene.beams.empty()) return result;
+    const DenseScan scan = makeDenseScan(scene, kMaxBeams);
+    for (const RankedPose& ranked :
+         verifier_.rank(scan, proposals_, kMaxRanked, result.counters.poses_scored))
+    {
+      Candidate candidate;
+      candidate.pose.mean = ranked.pose;
+      candidate.score = ranked.evidence.score;
+      result.candidates.push_back(candidate);
+    }
+    weighCandidates(result);
+    return result;
+  }
+
+  bool claimsVerdict() const override { return true; }
+
+ private:
+  static constexpr std::size_t kMaxBeams = 400;  // as in SignatureMatcher
+  static constexpr std::size_t kMaxRanked = 10;
+
+  static const DenseField& fieldOf(const FeatureMap& map)
+  {
+    if (!map.field()) throw std::invalid_argument("the lattice needs a map with a dense field");
+    return *map.field();
+  }
+
+  std::shared_ptr<const FeatureMap> map_;
+  DenseVerifier verifier_;
+  std::vector<PoseProposal> proposals_;
+};
+
 class VotingRelocation : public RelocationMethod
 {
  public:
@@ -143,6 +199,7 @@ const std::vector<MethodEntry>& methodTable()
       entry<SignatureRelocation>("signature-bases", GenerationMode::bases),
       entry<DenseRelocation>("exhaustive", false),
       entry<DenseRelocation>("branch-and-bound", true),
+      entry<LatticeRelocation>("lattice"),
       entry<VotingRelocation>("voting"),
   };
   return table;

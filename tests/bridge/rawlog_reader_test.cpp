@@ -99,6 +99,22 @@ TEST(RawlogReader, GivesAZeroCovarianceAFloor)
   EXPECT_GT(steps[0].motion->covariance(2, 2), 0.0);
 }
 
+TEST(RawlogReader, CountsStepsAsMrptDoesWhenAFrameComesBeforeTheFirstAction)
+{
+  const TemporaryFolder folder;
+  const auto path = folder / "actions.rawlog";
+  const auto action = makeAction({0.1, 0, 0}, diagonal(0.01, 0.001));
+  writeObjects(path, {makeFrame(makeScan(9.0)), action, makeFrame(makeScan(10.0)), action,
+                      makeFrame(makeScan(11.0))});
+  const auto steps = readAll(path);
+  ASSERT_EQ(steps.size(), 2U);
+  EXPECT_NEAR(steps[0].time, 10.0, 1e-6);
+  EXPECT_EQ(steps[0].entry, 2U);
+  EXPECT_EQ(steps[1].entry, 4U);
+  writeObjects(path, {makeFrame(makeScan(9.0)), makeFrame(makeScan(10.0))});
+  EXPECT_EQ(readAll(path).size(), 2U) << "a log of frames alone keeps them all";
+}
+
 TEST(RawlogReader, AddsUpTheMotionAcrossFramesWithoutScans)
 {
   const TemporaryFolder folder;

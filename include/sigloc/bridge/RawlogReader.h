@@ -29,7 +29,8 @@ struct RawlogStep
 };
 
 /// Reads a rawlog step by step, both kinds: action/sensory-frame pairs, and observations only as
-/// rawlog-grabber writes them (odometry is then differenced between scans).
+/// rawlog-grabber writes them (odometry is then differenced between scans). Steps are those that
+/// MRPT counts: a frame before the first action of a log of pairs is not one.
 class RawlogReader
 {
  public:

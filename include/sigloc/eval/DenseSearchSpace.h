@@ -96,6 +96,10 @@ class DenseSearchSpace
   std::vector<std::uint32_t> headings_;
 };
 
+/// Returns every free pose of a raster's lattice: places `lattice_step` apart, `headings` each.
+std::vector<mrpt::math::TPose2D> freeLatticePoses(const OccupancyRaster& raster,
+                                                  const DenseSearchOptions& options);
+
 /// Returns all valid returns of the scans in the robot frame [m].
 std::vector<mrpt::math::TPoint2D> endPoints(const std::vector<LaserScan>& scans);
 

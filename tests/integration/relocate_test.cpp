@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sigloc/eval/relocate.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+namespace sigloc
+{
+namespace
+{
+const std::filesystem::path kOffice =
+    std::filesystem::path(SIGLOC_SOURCE_DIR) / "maps" / "office.simplemap";
+
+class RelocateTest : public ::testing::Test
+{
+ protected:
+  RelocateTest()
+  {
+    std::string pattern = (std::filesystem::temp_directory_path() / "relocate-XXXXXX").string();
+    folder_ = mkdtemp(pattern.data());
+  }
+  ~RelocateTest() override { std::filesystem::remove_all(folder_); }
+
+  static RelocateOptions officeOptions()
+  {
+    RelocateOptions options;
+    options.sources.map = kOffice;
+    options.sources.interleave = 4;
+    options.sources.max_queries = 12;
+    options.methods = relocationMethodNames();
+    options.command = "test";
+    return options;
+  }
+
+  // The rows without their last column, which is the time.
+  std::string resultsWithoutTimes(const RelocateReport& report, const std::string& name) const
+  {
+    writeRelocateReport(report, folder_ / name);
+    std::ifstream file(folder_ / name / "results.csv");
+    std::ostringstream out;
+    for (std::string line; std::getline(file, line);)
+      out << line.substr(0, line.rfind(',')) << '\n';
+    return out.str();
+  }
+
+  std::filesystem::path folder_;
+};
+
+TEST_F(RelocateTest, GivesTheSameResultsOnOneAndTwoThreads)
+{
+  RelocateOptions options = officeOptions();
+  const std::string one = resultsWithoutTimes(runRelocate(options), "one");
+  options.threads = 2;
+  const std::string two = resultsWithoutTimes(runRelocate(options), "two");
+  EXPECT_EQ(one, two);
+  EXPECT_GT(one.size(), 1000U);
+}
+
+TEST_F(RelocateTest, WritesTheSummaryThatOtherToolsRelyOn)
+{
+  RelocateOptions options = officeOptions();
+  options.methods = {"exhaustive", "signature"};
+  const RelocateReport report = runRelocate(options);
+  writeRelocateReport(report, folder_ / "out");
+  const auto json = nlohmann::json::parse(std::ifstream(folder_ / "out" / "summary.json"));
+  for (const char* name : {"exhaustive", "signature"})
+  {
+    const auto& method = json.at("methods").at(name);
+    EXPECT_EQ(method.at("queries"), 12);
+    for (const char* key : {"saw_nothing", "confident", "confident_right", "confidently_wrong",
+                            "inaccurate", "recall_at_1", "recall_at_1_tight", "recall_at_10",
+                            "proposed", "median_error_m", "median_error_deg", "peak_rss_mb"})
+    {
+      EXPECT_TRUE(method.contains(key)) << key;
+    }
+    EXPECT_GT(method.at("time_ms").at("median").get<double>(), 0);
+    EXPECT_GE(method.at("time_ms").at("p95"), method.at("time_ms").at("median"));
+    EXPECT_TRUE(method.at("poses_scored").contains("p95"));
+  }
+  EXPECT_GE(json.at("methods").at("exhaustive").at("recall_at_1").get<double>(), 0.9);
+  for (const char* key : {"features", "build_s", "bytes"})
+    EXPECT_TRUE(json.at("map").contains(key));
+  EXPECT_EQ(json.at("provenance").at("data").size(), 1U);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "out" / "report.md"));
+}
+
+TEST_F(RelocateTest, PrunedAndPlainSearchAnswerAlike)
+{
+  RelocateOptions options = officeOptions();
+  options.methods = {"exhaustive", "branch-and-bound"};
+  const RelocateReport report = runRelocate(options);
+  const auto& plain = report.methods[0].records;
+  const auto& pruned = report.methods[1].records;
+  ASSERT_EQ(plain.size(), pruned.size());
+  for (std::size_t i = 0; i < plain.size(); ++i)
+  {
+    ASSERT_TRUE(plain[i].first && pruned[i].first);
+    EXPECT_EQ(*plain[i].first, *pruned[i].first);
+    EXPECT_EQ(plain[i].first_score, pruned[i].first_score);
+  }
+}
+
+TEST_F(RelocateTest, NamesWhatIsWrongBeforeItRuns)
+{
+  RelocateOptions options = officeOptions();
+  options.methods = {"signature", "no-such-method"};
+  EXPECT_THROW(runRelocate(options), std::invalid_argument);
+  options = officeOptions();
+  options.sources.queries = kOffice;
+  EXPECT_THROW(runRelocate(options), std::invalid_argument) << "two kinds of queries";
+  options = officeOptions();
+  options.sources.map = folder_ / "missing.simplemap";
+  EXPECT_THROW(runRelocate(options), std::runtime_error);
+}
+}  // namespace
+}  // namespace sigloc
