@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sigloc/geometry/pose_fusion.h"
+
 namespace sigloc
 {
 namespace
@@ -20,21 +22,18 @@ constexpr double kChanceScore = 0.4;  // what chance reaches where there is no r
 constexpr double kLocalized = 0.99;
 constexpr double kNotHere = 0.98;
 constexpr double kMaxOpenSigma = 0.5;  // [m], a wider pose is a line of poses
-
-double largestSigma(const GaussianPose& pose)
-{
-  const double a = pose.covariance(0, 0);
-  const double b = pose.covariance(0, 1);
-  const double d = pose.covariance(1, 1);
-  const double middle = 0.5 * (a + d);
-  return std::sqrt(middle + std::sqrt(std::max(0.0, middle * middle - (a * d - b * b))));
-}
 }  // namespace
 
 double logLikelihoodOfScore(double score)
 {
   const double misfit = std::max(1.0 - score, 0.0) + kMisfitFloor;
   return kScoreSlope * score - kMisfitPower * std::log(misfit);
+}
+
+double hereLogOdds(double best_score, double rival_score)
+{
+  return kHereSlope * best_score + logLikelihoodOfScore(best_score) -
+         logLikelihoodOfScore(rival_score) - kHereOffset;
 }
 
 void weighCandidates(RelocationResult& result)
@@ -48,11 +47,8 @@ void weighCandidates(RelocationResult& result)
     return;
   }
   const double best = logLikelihoodOfScore(candidates.front().score);
-  const double runner_up =
-      logLikelihoodOfScore(candidates.size() > 1 ? candidates[1].score : kChanceScore);
-  const double here_log_odds =
-      kHereSlope * candidates.front().score + (best - runner_up) - kHereOffset;
-  const double here = 1.0 / (1.0 + std::exp(-here_log_odds));
+  const double runner_up = candidates.size() > 1 ? candidates[1].score : kChanceScore;
+  const double here = 1.0 / (1.0 + std::exp(-hereLogOdds(candidates.front().score, runner_up)));
 
   double sum = 0;
   for (Candidate& candidate : candidates)
@@ -64,7 +60,7 @@ void weighCandidates(RelocationResult& result)
   result.elsewhere = 1.0 - here;
 
   const Candidate& first = candidates.front();
-  if (first.probability >= kLocalized && largestSigma(first.pose) < kMaxOpenSigma)
+  if (first.probability >= kLocalized && largestPositionSigma(first.pose) < kMaxOpenSigma)
   {
     result.verdict = Verdict::localized;
     result.probability = first.probability;

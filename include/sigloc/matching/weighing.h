@@ -12,6 +12,10 @@ namespace sigloc
 /// pose once the correlation of neighbouring beams is allowed for. \cite algorithm section 7
 double logLikelihoodOfScore(double score);
 
+/// Returns the log-odds of the robot standing at the best pose known rather than somewhere else,
+/// from that pose's score and that of the best rival. \cite algorithm section 7
+double hereLogOdds(double best_score, double rival_score);
+
 /// Distributes probability over candidates (best first, scores set) and "elsewhere", and fills the
 /// verdict. A candidate convinces by its own score and by its lead over the best rival: look-alikes
 /// share the weight, and what chance reaches in this map is measured by the runner-up.
