@@ -32,6 +32,7 @@ constexpr double kNotHere = 0.98;
 constexpr double kMaxRelative = 3.0;  // log-odds one unit of travel can tell at most
 constexpr double kMaxLost = 3.0;
 constexpr double kMaxConfirmed = 6.0;  // what was confirmed long ago can still be lost
+constexpr double kFarBetter = 4.0;  // log-likelihood
 constexpr double kSure = 0.9;  // a relocation that overrules all tracks
 constexpr double kScoreMemory = 0.9;  // of the running mean of the score, per step
 constexpr double kCorrelation = 4.0;  // scans of neighbouring steps share their errors
@@ -321,14 +322,33 @@ void HypothesisTracker::State::confirm(const RelocationResult& result, double fr
   for (Track& track : tracks)
   {
     double probability = 0;
+    double rival = 0;
     for (const Candidate& candidate : result.candidates)
     {
-      if (trackAt(candidate.pose.mean) == &track) probability += candidate.probability;
+      if (trackAt(candidate.pose.mean) == &track)
+      {
+        probability += candidate.probability;
+      }
+      else
+      {
+        rival = std::max(rival, candidate.score);
+      }
     }
-    track.confirmed =
-        std::min(kMaxConfirmed, track.confirmed + fresh_share * confirmationOf(probability));
+    double evidence = confirmationOf(probability);
+    // Look-alikes that a confirmed track has long ruled out don't count against it; a pose that
+    // explains the scan far better does.
+    const bool far_better =
+        logLikelihoodOfScore(rival) - logLikelihoodOfScore(track.score) > kFarBetter;
+    if (track.confirmed >= options.confirmation && evidence < 0 && !far_better) evidence = 0;
+    track.confirmed = std::min(kMaxConfirmed, track.confirmed + fresh_share * evidence);
   }
-  const double here = std::clamp(hereLogOdds(best_tracked, best_untracked), -kMaxLost, kMaxLost);
+  double here = std::clamp(hereLogOdds(best_tracked, best_untracked), -kMaxLost, kMaxLost);
+  const bool held =
+      std::any_of(tracks.begin(), tracks.end(),
+                  [&](const Track& track) { return track.confirmed >= options.confirmation; });
+  const bool beaten =
+      logLikelihoodOfScore(best_untracked) - logLikelihoodOfScore(best_tracked) > kFarBetter;
+  if (held && !beaten) here = std::max(here, 0.0);
   elsewhere *= std::exp(-fresh_share * here);
   const bool overruled = !result.candidates.empty() &&
                          result.candidates.front().probability >= kSure &&

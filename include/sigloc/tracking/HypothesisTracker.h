@@ -17,7 +17,7 @@ struct TrackerOptions
   double localized_probability = 0.99;
   double prune_weight = 1e-4;
   double evidence_distance = 1.0;
-  double evidence_turn = 1.0;
+  double evidence_turn = 3.0;
   double lost_distance = 0.3;
   double lost_score = 0.4;
   double min_elsewhere = 0.002;
@@ -25,7 +25,7 @@ struct TrackerOptions
   double confirmation_distance = 2.0;
   double score_drop = 0.2;
   double suspicion = 0.3;
-  double confirmation = 4.0;
+  double confirmation = 4.55;
   double free_motion_sigma = 0.3;
   double free_turn_sigma = 0.2;
 
