@@ -21,7 +21,7 @@ using mrpt::math::wrapToPi;
 namespace
 {
 constexpr std::size_t kUpdateBeams = 180;  // a track is updated with
-constexpr int kUpdateSteps = 3;
+constexpr int kUpdateSteps = 6;
 constexpr double kUpdateGate = 16.27;  // chi-square, 3 degrees of freedom, 99.9 %
 constexpr double kSameDistance = 0.5;  // [m], a proposal this near to a track confirms it
 constexpr double kSameAngle = 17.0 * M_PI / 180.0;
