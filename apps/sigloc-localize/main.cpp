@@ -78,6 +78,9 @@ int main(int argc, char** argv)
                "sigloc-localize");
   Arguments arguments;
   bool print_defaults = false;
+  app.footer(
+      "Exit codes: 0 done, 1 bad input (nothing written), 2 truncated log (results cover "
+      "what was read).");
   auto* const config =
       app.add_option("CONFIG.ini", arguments.config, "configuration, as pf-localization reads it");
   app.add_option("DATASET.rawlog", arguments.rawlog, "log to use instead of rawlog_file");
