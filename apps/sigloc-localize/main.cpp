@@ -16,6 +16,12 @@ namespace fs = std::filesystem;
 constexpr int kBadInput = 1;
 constexpr int kTruncatedInput = 2;
 
+constexpr const char* kDefaultsHeader =
+    "# SPDX-FileCopyrightText: 2026 the sigloc authors\n"
+    "# SPDX-License-Identifier: BSD-3-Clause\n"
+    "#\n"
+    "# Every option of sigloc with its default, made with: sigloc-localize --print-defaults\n";
+
 struct Arguments
 {
   fs::path config;
@@ -93,7 +99,7 @@ int main(int argc, char** argv)
     app.parse(argc, argv);
     if (print_defaults)
     {
-      std::cout << sigloc::defaultOptionSections();
+      std::cout << kDefaultsHeader << sigloc::defaultOptionSections();
       return 0;
     }
     if (config->count() == 0) throw std::runtime_error("CONFIG.ini is missing; see --help");

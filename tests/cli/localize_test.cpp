@@ -1,0 +1,266 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+#include <mrpt/img/CImage.h>
+#include <mrpt/io/CFileGZInputStream.h>
+#include <mrpt/obs/CObservationRobotPose.h>
+#include <mrpt/obs/CRawlog.h>
+#include <mrpt/poses/CPosePDFSOG.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "command_line.h"
+#include "sigloc/bridge/RawlogReader.h"
+
+namespace sigloc
+{
+namespace
+{
+using namespace sigloc::test;
+using nlohmann::json;
+
+constexpr std::size_t kLabSteps = 37;
+
+void writeConfig(const TemporaryFolder& folder, const std::string& rawlog)
+{
+  writeText(folder / "run.ini",
+            "[LocalizationExperiment]\nmap_file = " + kLabMap.string() +
+                "\nrawlog_file = " + rawlog +
+                "\n[sigloc.localize]\npictures = false\nuse_final_truth = true\n"
+                "final_truth_x = 15.90\nfinal_truth_y = -10.01\nfinal_truth_phi_deg = 4.9\n");
+}
+
+CommandResult localize(const TemporaryFolder& folder)
+{
+  return run(folder, "sigloc-localize", {"run.ini", "--out", "out", "--quiet"});
+}
+
+json summaryOf(const TemporaryFolder& folder)
+{
+  return json::parse(readBytes(folder / "out/summary.json"));
+}
+
+std::size_t beliefsWithAPose(const TemporaryFolder& folder)
+{
+  std::size_t count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "out/belief"))
+  {
+    if (entry.path().extension() != ".CPosePDFSOG") continue;
+    mrpt::poses::CPosePDFSOG belief;
+    mrpt::io::CFileGZInputStream file(entry.path().string());
+    mrpt::serialization::archiveFrom(file) >> belief;
+    if (belief.size() > 0) ++count;
+  }
+  return count;
+}
+
+/// How many pixels have about this colour.
+int pixelsLike(const mrpt::img::CImage& picture, const mrpt::img::TColor& color)
+{
+  constexpr int kTolerance = 12;
+  const bool bgr = picture.getChannelsOrder() == "BGR";
+  int count = 0;
+  for (unsigned row = 0; row < picture.getHeight(); ++row)
+  {
+    for (unsigned column = 0; column < picture.getWidth(); ++column)
+    {
+      const auto* const pixel = picture.ptr<std::uint8_t>(column, row);
+      if (std::abs(pixel[bgr ? 2 : 0] - color.R) < kTolerance &&
+          std::abs(pixel[1] - color.G) < kTolerance &&
+          std::abs(pixel[bgr ? 0 : 2] - color.B) < kTolerance)
+      {
+        ++count;
+      }
+    }
+  }
+  return count;
+}
+
+TEST(Localize, writesACompleteOutputFolder)
+{
+  const TemporaryFolder folder;
+  writeConfig(folder, kLabLog.string());
+  const CommandResult result = localize(folder);
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.errors, "");
+  EXPECT_EQ(result.output.rfind("map ", 0), 0U) << result.output;  // the table, nothing before it
+
+  const json summary = summaryOf(folder);
+  EXPECT_EQ(summary["steps"], kLabSteps);
+  EXPECT_EQ(summary["truncated"], false);
+  EXPECT_EQ(summary["map_reused"], false);
+  EXPECT_GT(summary["map_features"], 10);
+
+  const std::size_t poses = beliefsWithAPose(folder);
+  EXPECT_GT(poses, 0U);
+  const std::string path = readBytes(folder / "out/path.tum");
+  EXPECT_EQ(countLines(path), static_cast<std::ptrdiff_t>(poses + 1));
+  EXPECT_EQ(countLines(readBytes(folder / "out/steps.csv")),
+            static_cast<std::ptrdiff_t>(kLabSteps + 1));
+  EXPECT_FALSE(std::filesystem::exists(folder / "out.partial"));
+}
+
+TEST(Localize, endsRightInTheLab)
+{
+  const TemporaryFolder folder;
+  writeConfig(folder, kLabLog.string());
+  ASSERT_EQ(localize(folder).exit_code, 0);
+  const json summary = summaryOf(folder);
+  EXPECT_EQ(summary["final_verdict"], "localized");
+  EXPECT_LT(summary["final_error_m"], 0.5);
+  EXPECT_LT(summary["final_error_deg"], 5);
+  EXPECT_EQ(summary["confidently_wrong_steps"], 0);
+}
+
+TEST(Localize, annotatesLogsOfActionsAndFrames)
+{
+  const TemporaryFolder folder;
+  writeConfig(folder, kLabLog.string());
+  ASSERT_EQ(localize(folder).exit_code, 0);
+  std::size_t annotations = 0;
+  mrpt::obs::CRawlog log;
+  ASSERT_TRUE(log.loadFromRawLogFile((folder / "out/annotated.rawlog").string()));
+  for (std::size_t i = 0; i < log.size(); ++i)
+  {
+    if (log.getType(i) != mrpt::obs::CRawlog::etSensoryFrame) continue;
+    const auto frame = log.getAsObservations(i);
+    const auto pose = frame->getObservationByClass<mrpt::obs::CObservationRobotPose>();
+    if (!pose) continue;
+    EXPECT_EQ(pose->sensorLabel, "sigloc");
+    ++annotations;
+  }
+  EXPECT_EQ(annotations, beliefsWithAPose(folder));
+  mrpt::obs::CRawlog original;
+  ASSERT_TRUE(original.loadFromRawLogFile(kLabLog.string()));
+  EXPECT_EQ(log.size(), original.size());
+}
+
+TEST(Localize, annotatesLogsOfObservations)
+{
+  const TemporaryFolder folder;
+  std::vector<mrpt::serialization::CSerializable::Ptr> objects;
+  RawlogReader reader(kLabLog);
+  mrpt::poses::CPose2D odometry;
+  double time = 1000;
+  while (auto step = reader.next())
+  {
+    if (step->motion) odometry = odometry + mrpt::poses::CPose2D(step->motion->mean);
+    objects.push_back(makeOdometry(time, odometry));
+    auto scan = step->frame->getObservationByClass<mrpt::obs::CObservation2DRangeScan>();
+    scan->timestamp = mrpt::Clock::fromDouble(time);
+    objects.push_back(scan);
+    time += 1;
+  }
+  writeObjects(folder / "observations.rawlog", objects);
+  writeConfig(folder, "observations.rawlog");
+  ASSERT_EQ(localize(folder).exit_code, 0);
+  EXPECT_EQ(summaryOf(folder)["steps"], kLabSteps);
+  EXPECT_EQ(summaryOf(folder)["final_verdict"], "localized");
+
+  mrpt::obs::CRawlog log;
+  ASSERT_TRUE(log.loadFromRawLogFile((folder / "out/annotated.rawlog").string()));
+  std::size_t annotations = 0;
+  for (std::size_t i = 0; i < log.size(); ++i)
+  {
+    const auto pose =
+        std::dynamic_pointer_cast<mrpt::obs::CObservationRobotPose>(log.getAsGeneric(i));
+    if (!pose) continue;
+    ++annotations;
+    ASSERT_GT(i, 0U);
+    EXPECT_EQ(pose->timestamp, log.getAsObservation(i - 1)->timestamp);
+  }
+  EXPECT_EQ(annotations, beliefsWithAPose(folder));
+}
+
+TEST(Localize, reusesTheUnchangedMapAndReplacesItsOwnFolder)
+{
+  const TemporaryFolder folder;
+  writeConfig(folder, kLabLog.string());
+  ASSERT_EQ(localize(folder).exit_code, 0);
+  const auto first = listing(folder);
+  const std::string first_path = readBytes(folder / "out/path.tum");
+  ASSERT_EQ(localize(folder).exit_code, 0);
+  EXPECT_EQ(summaryOf(folder)["map_reused"], true);
+  EXPECT_EQ(listing(folder), first);
+  EXPECT_EQ(readBytes(folder / "out/path.tum"), first_path);
+}
+
+TEST(Localize, saysThatATruncatedLogWasCovered)
+{
+  const TemporaryFolder folder;
+  makeBadFile(Damage::truncated, kLabLog, folder / "cut.rawlog");
+  writeConfig(folder, "cut.rawlog");
+  const CommandResult result = localize(folder);
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(countLines(result.errors), 1) << result.errors;
+  EXPECT_NE(result.errors.find("cut.rawlog"), std::string::npos);
+  const json summary = summaryOf(folder);
+  EXPECT_EQ(summary["truncated"], true);
+  EXPECT_GT(summary["steps"], 0);
+  EXPECT_LT(summary["steps"], kLabSteps);
+  EXPECT_TRUE(std::filesystem::exists(folder / "out/annotated.rawlog"));
+}
+
+TEST(Localize, takesAScanWithoutAnyValidBeam)
+{
+  const TemporaryFolder folder;
+  auto blind = makeScan(1);
+  for (std::size_t i = 0; i < blind->getScanSize(); ++i) blind->setScanRangeValidity(i, false);
+  writeObjects(folder / "blind.rawlog", {blind});
+  writeConfig(folder, "blind.rawlog");
+  const CommandResult result = localize(folder);
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.errors, "");
+  EXPECT_EQ(summaryOf(folder)["final_verdict"], "too little seen");
+  EXPECT_TRUE(summaryOf(folder)["final_pose"].is_null());
+}
+
+TEST(Localize, runsStockConfigurationsUnchanged)
+{
+  const TemporaryFolder folder;
+  const CommandResult result =
+      run(folder, "sigloc-localize",
+          {"/usr/share/mrpt/config_files/pf-localization/localization_demo.ini", "--quiet"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.errors, "");
+  const auto pictures = folder / "LOG_LOCALIZATION/pictures";
+  mrpt::img::CImage picture;
+  ASSERT_TRUE(picture.loadFromFile((pictures / "step_00037_end.png").string()));
+  EXPECT_GE(picture.getWidth() * picture.getHeight(), 1280U * 960U);
+  EXPECT_GT(pixelsLike(picture, mrpt::img::TColor(31, 78, 160)), 500) << "walls";
+  EXPECT_GT(pixelsLike(picture, mrpt::img::TColor(225, 30, 30)), 100) << "returns";
+  EXPECT_GT(pixelsLike(picture, mrpt::img::TColor(0, 150, 60)), 50) << "chosen pose";
+  EXPECT_GT(pixelsLike(picture, mrpt::img::TColor(255, 255, 255)), 10000) << "free space";
+}
+
+TEST(Commands, helpExitsZero)
+{
+  const TemporaryFolder folder;
+  for (const char* const program : {"sigloc-map", "sigloc-localize"})
+  {
+    const CommandResult result = run(folder, program, {"--help"});
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_NE(result.output.find("sage"), std::string::npos);
+  }
+}
+
+TEST(Commands, mapIsBuiltDescribedAndDrawn)
+{
+  const TemporaryFolder folder;
+  const CommandResult built =
+      run(folder, "sigloc-map", {"build", "-i", kLabMap.string(), "-o", "lab.sigmap"});
+  EXPECT_EQ(built.exit_code, 0) << built.errors;
+  EXPECT_EQ(built.errors, "");
+  const CommandResult info = run(folder, "sigloc-map", {"info", "lab.sigmap", "--json"});
+  ASSERT_EQ(info.exit_code, 0) << info.errors;
+  const json description = json::parse(info.output);
+  EXPECT_GT(description["segments"], 10);
+  EXPECT_EQ(description["source"], kLabMap.string());
+  const CommandResult drawn = run(folder, "sigloc-map", {"draw", "lab.sigmap", "-o", "lab.png"});
+  EXPECT_EQ(drawn.exit_code, 0) << drawn.errors;
+  EXPECT_EQ(drawn.errors, "");
+  EXPECT_EQ(readBytes(folder / "lab.png").substr(1, 3), "PNG");
+}
+}  // namespace
+}  // namespace sigloc
