@@ -218,21 +218,21 @@ TEST(MapSources, NamesFileAndReasonForUnusableFilesOfEveryKind)
                                 "clf", "carmen", "csv", "txt", "sigmap", "unknown"})
   {
     const auto path = folder / (std::string("m.") + extension);
-    const auto expectRefused = [&](const char* what)
+    const auto expect_refused = [&](const char* what)
     {
       const std::string message = errorOf(path);
       EXPECT_EQ(message.rfind(path.string() + ": ", 0), 0U) << what << ": " << message;
       EXPECT_EQ(message.find('\n'), std::string::npos) << message;
     };
-    expectRefused("missing");
+    expect_refused("missing");
     writeText(path, "");
-    expectRefused("empty");
+    expect_refused("empty");
     writeText(path, noise);
-    expectRefused("noise");
+    expect_refused("noise");
     writeText(path, gridmap.substr(0, gridmap.size() / 2));
-    expectRefused("half a gridmap");
+    expect_refused("half a gridmap");
     writeText(path, simplemap.substr(0, simplemap.size() - 3));
-    expectRefused("a simplemap that lacks its last bytes");
+    expect_refused("a simplemap that lacks its last bytes");
   }
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << "the library never prints";
 }

@@ -167,6 +167,7 @@ TEST(SignatureMap, GivesThreadsTheSameLikelihoods)
   };
   std::vector<double> sums(4);
   std::vector<std::thread> threads;
+  threads.reserve(sums.size());
   for (double& sum : sums) threads.emplace_back([&] { sum = sum_over_poses(); });
   for (auto& thread : threads) thread.join();
   for (const double sum : sums) EXPECT_EQ(sum, sums.front());

@@ -63,6 +63,7 @@ TEST(PointLikelihood, MeasuresDistanceToFeatures)
 TEST(PointLikelihood, ThinsEvenly)
 {
   std::vector<TPoint2D> points;
+  points.reserve(100);
   for (int i = 0; i < 100; ++i) points.emplace_back(i, 0);
   const auto chosen = thinned(points, 10);
   ASSERT_EQ(chosen.size(), 10U);
