@@ -3,11 +3,13 @@
 #include "sigloc/matching/AnchorGenerator.h"
 
 #include "sigloc/matching/PlainGenerator.h"
+#include "sigloc/matching/sampling.h"
 #include "sigloc/matching/SplitMix.h"
 #include "sigloc/signature/unary_constraint.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace sigloc
@@ -40,24 +42,16 @@ std::vector<std::uint32_t> drawPartners(const PreparedScene& scene, std::uint32_
 }
 }  // namespace
 
-std::uint32_t drawsNeeded(double failure, double success)
-{
-  if (success >= 1) return 1;
-  return static_cast<std::uint32_t>(std::ceil(std::log(failure) / std::log1p(-success)));
-}
-
-std::vector<FeatureHypothesis> AnchorGenerator::generate(const std::vector<Feature>& observed,
-                                                         MatchingCounters& counters) const
+void AnchorGenerator::search(const PreparedScene& scene, HypothesisSet& found,
+                             FeatureVerifier::Workspace& workspace, MatchingCounters& counters,
+                             std::uint64_t budget) const
 {
   const PreparedMap& map = verifier_->map();
   const GeneratorOptions& options = verifier_->options();
-  const PreparedScene scene(observed, map, options);
   const auto n = static_cast<std::uint32_t>(scene.size());
-  HypothesisSet found(n);
-  FeatureVerifier::Workspace workspace;
+  const std::uint64_t before = counters.hypotheses;
   std::vector<std::uint32_t> candidates;
   SplitMix random(options.seed);
-  const std::uint64_t hypotheses_before = counters.hypotheses;
 
   // 1. How many anchors: eq. (18), (19). Not shortened as support comes in: accidental support
   // would stop the search too early, and all plausible poses are wanted.
@@ -77,6 +71,7 @@ std::vector<FeatureHypothesis> AnchorGenerator::generate(const std::vector<Featu
     {
       if (!unaryCompatible(scene.views[i], map.view(k), verifier_->gates().scalar)) continue;
       ++counters.signature_pairs;
+      if (counters.hypotheses - before >= budget) return;
       for (const std::uint32_t j : partners)
       {
         // 3. Every l in L_j(i, k) makes a base, verified over all observed features.
@@ -89,6 +84,16 @@ std::vector<FeatureHypothesis> AnchorGenerator::generate(const std::vector<Featu
       }
     }
   }
-  return rankedHypotheses(scene, *verifier_, found, 2, counters.hypotheses - hypotheses_before);
+}
+
+std::vector<FeatureHypothesis> AnchorGenerator::generate(const std::vector<Feature>& observed,
+                                                         MatchingCounters& counters) const
+{
+  const PreparedScene scene(observed, verifier_->map(), verifier_->options());
+  HypothesisSet found(scene.size());
+  FeatureVerifier::Workspace workspace;
+  const std::uint64_t before = counters.hypotheses;
+  search(scene, found, workspace, counters, std::numeric_limits<std::uint64_t>::max());
+  return rankedHypotheses(scene, *verifier_, found, 2, counters.hypotheses - before);
 }
 }  // namespace sigloc

@@ -17,7 +17,7 @@ namespace
 {
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 constexpr int kTabulatedDegrees = 200;
-constexpr double kGiveUp = -4.0;  // log of Wald's lower bound: gives up 2 % of good bases at most
+constexpr double kGiveUp = -3.0;  // log of Wald's lower bound: gives up 5 % of good bases at most
 constexpr double kWorthKeeping = 0.5;  // share of the best support a rival must reach
 
 bool contains(const std::vector<FeaturePairing>& pairings, std::uint32_t mapped)
@@ -36,6 +36,13 @@ bool counts(const PreparedScene& scene, const FeaturePairing& pairing,
   return std::none_of(pairings.begin(), pairings.end(),
                       [&](const FeaturePairing& other)
                       { return other.observed == static_cast<std::uint32_t>(parent); });
+}
+
+/// Largest variance [m^2] along any direction.
+double observedSpread(const mrpt::math::CMatrixDouble22& covariance)
+{
+  return 0.5 * (covariance(0, 0) + covariance(1, 1)) +
+         std::hypot(0.5 * (covariance(0, 0) - covariance(1, 1)), covariance(0, 1));
 }
 
 std::uint32_t supportOf(const PreparedScene& scene, const std::vector<FeaturePairing>& pairings)
@@ -126,11 +133,14 @@ void FeatureVerifier::visitCandidates(const PreparedScene& scene, std::uint32_t 
   const TPoint2D arm = pose.turn(observed.position());
   const Symmetric3& p = pose.covariance;
   const auto& own = observed.feature->position_covariance;
-  // Trace of the innovation covariance of the predicted place: bounds its longest half axis.
-  const double trace = p.xx + p.yy + 2 * (arm.x * p.yt - arm.y * p.xt) + dot(arm, arm) * p.tt +
-                       own(0, 0) + own(1, 1) + map_->largestPositionVariance(type) +
-                       2 * relative_sigma * relative_sigma;
-  const double radius = std::sqrt(gates_.planar * std::max(0.0, trace)) + 1e-3;
+  // The longest half axis of the gate around the predicted place: of the pose's part exactly, of
+  // the features' parts bounded by their traces.
+  const double xx = p.xx - 2 * arm.y * p.xt + arm.y * arm.y * p.tt;
+  const double xy = p.xy + arm.x * p.xt - arm.y * p.yt - arm.x * arm.y * p.tt;
+  const double yy = p.yy + 2 * arm.x * p.yt + arm.x * arm.x * p.tt;
+  const double longest = 0.5 * (xx + yy) + std::hypot(0.5 * (xx - yy), xy) + observedSpread(own) +
+                         map_->largestPositionVariance(type) + relative_sigma * relative_sigma;
+  const double radius = std::sqrt(gates_.planar * std::max(0.0, longest)) + 1e-3;
   if (!isSegment(type))
   {
     map_->grid().visitNear({pose.x + arm.x, pose.y + arm.y}, radius, type, visit);

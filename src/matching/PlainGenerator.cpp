@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sigloc/matching/PlainGenerator.h"
 
+#include "sigloc/matching/sampling.h"
 #include "sigloc/signature/unary_constraint.h"
 
 #include <algorithm>
@@ -31,20 +32,6 @@ void gatherCandidates(const PreparedScene& scene, const FeatureVerifier& verifie
           candidates.push_back(l);
         }
       });
-}
-
-std::vector<FeatureHypothesis> rankedHypotheses(const PreparedScene& scene,
-                                                const FeatureVerifier& verifier,
-                                                const HypothesisSet& found, std::uint32_t base_size,
-                                                std::uint64_t bases)
-{
-  std::vector<FeatureHypothesis> ranked = found.ranked(verifier.options().max_hypotheses);
-  for (FeatureHypothesis& hypothesis : ranked)
-  {
-    hypothesis.chance =
-        FeatureVerifier::expectedByChance(scene, hypothesis.support, base_size, bases);
-  }
-  return ranked;
 }
 
 std::vector<FeatureHypothesis> PlainGenerator::generate(const std::vector<Feature>& observed,

@@ -58,7 +58,9 @@ PreparedMap::PreparedMap(const FeatureMap& map) : map_(&map), grid_(map.features
     views_.push_back(view);
     const std::size_t type = typeIndex(features[k].type);
     const auto& p = features[k].position_covariance;
-    position_variance_[type] = std::max(position_variance_[type], p(0, 0) + p(1, 1));
+    const double largest =
+        0.5 * (p(0, 0) + p(1, 1)) + std::hypot(0.5 * (p(0, 0) - p(1, 1)), p(0, 1));
+    position_variance_[type] = std::max(position_variance_[type], largest);
     direction_variance_[type] = std::max(direction_variance_[type], features[k].direction_variance);
     clutter_[type] += isSegment(features[k].type) ? features[k].size + kTypicalPiece : 1.0;
   }

@@ -18,7 +18,7 @@ double gateVolume(const DirectedFeature& view, const PreparedMap& map, double re
 {
   const Feature& feature = *view.feature;
   const double place =
-      0.5 * map.largestPositionVariance(feature.type) + relative_sigma * relative_sigma + 1e-12;
+      map.largestPositionVariance(feature.type) + relative_sigma * relative_sigma + 1e-12;
   const double angle =
       feature.direction_variance + map.largestDirectionVariance(feature.type) + 1e-12;
   constexpr double kPoseShare = 2;

@@ -3,6 +3,8 @@
 #include "sigloc/matching/generators.h"
 
 #include "sigloc/matching/AnchorGenerator.h"
+#include "sigloc/matching/PairIndexGenerator.h"
+#include "sigloc/matching/PatternGenerator.h"
 #include "sigloc/matching/PlainGenerator.h"
 
 #include <stdexcept>
@@ -16,17 +18,23 @@ std::unique_ptr<FeatureHypothesisGenerator> makeGenerator(GenerationMode mode,
   checkOptions(options);
   const auto prepared = std::make_shared<const PreparedMap>(map);
   const auto verifier = std::make_shared<const FeatureVerifier>(prepared, options);
-  const auto lists = [&](double cut_off)
-  { return std::make_shared<const PairLists>(*prepared, cut_off); };
+  if (mode == GenerationMode::bases)
+  {
+    throw std::invalid_argument("makeGenerator: mode bases needs a dense field");
+  }
+  const double cut_off =
+      mode == GenerationMode::plain ? PairLists::kUncut : PairLists::cutOffFor(*prepared, options);
+  const auto lists = std::make_shared<const PairLists>(*prepared, cut_off);
   switch (mode)
   {
     case GenerationMode::plain:
-      return std::make_unique<PlainGenerator>(verifier, lists(PairLists::kUncut));
+      return std::make_unique<PlainGenerator>(verifier, lists);
     case GenerationMode::anchors:
-      return std::make_unique<AnchorGenerator>(verifier,
-                                               lists(PairLists::cutOffFor(*prepared, options)));
+      return std::make_unique<AnchorGenerator>(verifier, lists);
+    case GenerationMode::pairs:
+      return std::make_unique<PairIndexGenerator>(verifier, lists);
     default:
-      throw std::invalid_argument("makeGenerator: mode bases needs a dense field");
+      return std::make_unique<PatternGenerator>(verifier, lists);
   }
 }
 }  // namespace sigloc

@@ -194,6 +194,47 @@ std::optional<PoseEstimate> poseFromBase(const DirectedPairing& first,
   return iterate(*pose, both.data(), both.data() + both.size(), relative_sigma, 1);
 }
 
+std::optional<PoseEstimate> poseFromPlaces(const TPoint2D* observed, const TPoint2D* mapped,
+                                           std::size_t count, double variance)
+{
+  const double share = 1 / static_cast<double>(count);
+  TPoint2D centre{0, 0};
+  TPoint2D target{0, 0};
+  for (std::size_t k = 0; k < count; ++k)
+  {
+    centre = centre + observed[k] * share;
+    target = target + mapped[k] * share;
+  }
+  double along = 0;
+  double across = 0;
+  double spread = 0;
+  for (std::size_t k = 0; k < count; ++k)
+  {
+    const TPoint2D seen = observed[k] - centre;
+    const TPoint2D known = mapped[k] - target;
+    along += dot(seen, known);
+    across += cross(seen, known);
+    spread += dot(seen, seen);
+  }
+  const double norm = std::hypot(along, across);
+  constexpr double kCoincident = 1e-9;  // [m^2]
+  if (!(norm > kCoincident) || !(spread > kCoincident)) return std::nullopt;
+
+  PoseEstimate pose;
+  pose.heading = std::atan2(across, along);
+  pose.c = along / norm;
+  pose.s = across / norm;
+  const TPoint2D arm = pose.turn(centre);
+  pose.x = target.x - arm.x;
+  pose.y = target.y - arm.y;
+  // The centre is known to variance / count, the heading to variance / spread; the robot hangs on
+  // the centre by the arm.
+  const double tt = variance / spread;
+  pose.covariance = {variance * share + arm.y * arm.y * tt, -arm.x * arm.y * tt, arm.y * tt,
+                     variance * share + arm.x * arm.x * tt, -arm.x * tt,         tt};
+  return pose;
+}
+
 std::optional<PoseEstimate> poseFromCorner(const DirectedPairing& pairing, double relative_sigma)
 {
   if (!hasBearing(pairing.observed.type())) return std::nullopt;

@@ -6,10 +6,11 @@ namespace sigloc
 {
 bool unaryCompatible(const DirectedFeature& observed, const DirectedFeature& mapped, double gate)
 {
+  if (observed.type() != mapped.type()) return false;
+  if (observed.label >= 0 && mapped.label >= 0 && observed.label != mapped.label) return false;
+  if (observed.type() == FeatureType::point) return true;
   const Feature& e = *observed.feature;
   const Feature& f = *mapped.feature;
-  if (e.type != f.type) return false;
-  if (e.label >= 0 && f.label >= 0 && e.label != f.label) return false;
   // A vanishing variance would make the gate an equality test on floating point numbers.
   constexpr double kRounding = 1e-12;
   const double variance = e.size_variance + f.size_variance + kRounding;

@@ -21,12 +21,13 @@ class AnchorGenerator : public FeatureHypothesisGenerator
   std::vector<FeatureHypothesis> generate(const std::vector<Feature>& observed,
                                           MatchingCounters& counters) const override;
 
+  /// The search itself, adding to `found`, within a budget of hypotheses.
+  void search(const PreparedScene& scene, HypothesisSet& found,
+              FeatureVerifier::Workspace& workspace, MatchingCounters& counters,
+              std::uint64_t budget) const;
+
  private:
   std::shared_ptr<const FeatureVerifier> verifier_;
   std::shared_ptr<const PairLists> lists_;
 };
-
-/// Number of draws t after which all fail with probability `failure` when one succeeds with
-/// probability `success`. \cite algorithm eq. (19)
-std::uint32_t drawsNeeded(double failure, double success);
 }  // namespace sigloc

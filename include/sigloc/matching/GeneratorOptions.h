@@ -21,8 +21,9 @@ struct GeneratorOptions
   double effective_range = 0;
   std::uint32_t max_neighbours = 64;
   std::uint32_t pattern_size = 0;
-  std::uint32_t max_patterns = 16;
-  double pattern_cell = 0.4;
+  std::uint32_t max_patterns = 24;
+  double pattern_cell = 0;
+  std::uint32_t fall_back_hypotheses = 100000;
   std::uint32_t seed = 1;
 
   template <class V>
@@ -54,8 +55,10 @@ struct GeneratorOptions
                       "[-] features of an indexed pattern, 3 to 5; 0: grows with log m"});
     visit(OptionField{"max_patterns", &O::max_patterns, 1U, 10000U,
                       "[-] mean number of patterns a feature is indexed with"});
-    visit(
-        OptionField{"pattern_cell", &O::pattern_cell, 0.01, 10.0, "[m] cell of the pattern hash"});
+    visit(OptionField{"pattern_cell", &O::pattern_cell, 0.0, 10.0,
+                      "[m] cell of the pattern hash; 0: twice the expected tolerance"});
+    visit(OptionField{"fall_back_hypotheses", &O::fall_back_hypotheses, 0U, 0xFFFFFFFFU,
+                      "[-] budget of pairs and of anchors each, when patterns find nothing"});
     visit(OptionField{"seed", &O::seed, 0U, 0xFFFFFFFFU, "[-] of the sampling"});
   }
 };

@@ -32,10 +32,4 @@ class PlainGenerator : public FeatureHypothesisGenerator
 void gatherCandidates(const PreparedScene& scene, const FeatureVerifier& verifier,
                       const PairLists& lists, const FeaturePairing& anchor, std::uint32_t j,
                       std::vector<std::uint32_t>& candidates);
-
-/// Returns the best hypotheses found, with what chance would have given.
-std::vector<FeatureHypothesis> rankedHypotheses(const PreparedScene& scene,
-                                                const FeatureVerifier& verifier,
-                                                const HypothesisSet& found, std::uint32_t base_size,
-                                                std::uint64_t bases);
 }  // namespace sigloc

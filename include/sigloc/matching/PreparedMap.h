@@ -27,6 +27,8 @@ class PreparedMap
   const FeatureMap& map() const { return *map_; }
   std::size_t size() const { return views_.size(); }
   const DirectedFeature& view(std::size_t k) const { return views_[k]; }
+  /// Asks for the memory of a view ahead of its use.
+  void prefetch(std::size_t k) const { __builtin_prefetch(&views_[k]); }
   const FeatureGrid& grid() const { return grid_; }
   double area() const { return area_; }  ///< [m^2], where the robot can be, at least 1
 
@@ -34,6 +36,7 @@ class PreparedMap
   /// chance, [1/m^2], for a segment [1/(rad m)], for a corner or wall end [1/(m^2 rad)].
   /// \cite algorithm eq. (25)
   double clutterDensity(FeatureType type) const { return clutter_[typeIndex(type)]; }
+  /// Largest variance [m^2] of any feature of the type along any direction.
   double largestPositionVariance(FeatureType type) const
   {
     return position_variance_[typeIndex(type)];

@@ -24,6 +24,13 @@ struct DirectedPairing
 std::optional<PoseEstimate> poseFromBase(const DirectedPairing& first,
                                          const DirectedPairing& second, double relative_sigma);
 
+/// Returns the pose that takes `count` >= 2 observed places onto mapped ones, in closed form, all
+/// with the same variance [m^2] of each coordinate. nullopt when the places coincide.
+/// \cite algorithm eq. (13)
+std::optional<PoseEstimate> poseFromPlaces(const mrpt::math::TPoint2D* observed,
+                                           const mrpt::math::TPoint2D* mapped, std::size_t count,
+                                           double variance);
+
 /// Returns the pose that one corner or wall end fixes by itself. nullopt for other types.
 std::optional<PoseEstimate> poseFromCorner(const DirectedPairing& pairing, double relative_sigma);
 

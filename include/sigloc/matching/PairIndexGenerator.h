@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "sigloc/matching/FeatureVerifier.h"
+#include "sigloc/matching/PairIndex.h"
+
+namespace sigloc
+{
+/// Mode (c): observed pairs, rare and long ones first, looked up in an index of all mapped pairs.
+/// Ends with the first significant answer, after a second look for places that look alike.
+class PairIndexGenerator : public FeatureHypothesisGenerator
+{
+ public:
+  PairIndexGenerator(std::shared_ptr<const FeatureVerifier> verifier,
+                     std::shared_ptr<const PairLists> lists);
+
+  std::vector<FeatureHypothesis> generate(const std::vector<Feature>& observed,
+                                          MatchingCounters& counters) const override;
+
+  /// The search itself, adding to `found`, within a budget of hypotheses.
+  void search(const PreparedScene& scene, HypothesisSet& found,
+              FeatureVerifier::Workspace& workspace, MatchingCounters& counters,
+              std::uint64_t budget) const;
+
+ private:
+  struct Lookup;
+  std::vector<Lookup> rankedLookups(const PreparedScene& scene,
+                                    const std::vector<std::uint32_t>& among,
+                                    std::uint32_t count) const;
+  void tryLookup(const PreparedScene& scene, const Lookup& lookup, HypothesisSet& found,
+                 FeatureVerifier::Workspace& workspace, MatchingCounters& counters,
+                 std::uint64_t budget) const;
+
+  std::shared_ptr<const FeatureVerifier> verifier_;
+  std::shared_ptr<const PairLists> lists_;
+  PairIndex index_;
+};
+}  // namespace sigloc

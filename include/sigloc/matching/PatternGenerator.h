@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "sigloc/matching/AnchorGenerator.h"
+#include "sigloc/matching/PairIndexGenerator.h"
+#include "sigloc/matching/PatternIndex.h"
+#include "sigloc/matching/SplitMix.h"
+
+namespace sigloc
+{
+/// Mode (d): observed patterns of three to five places, looked up in a hash of all mapped ones.
+/// What a look-up returns hardly grows with the map. Falls back to pairs, then to anchors, when no
+/// answer is significant.
+class PatternGenerator : public FeatureHypothesisGenerator
+{
+ public:
+  PatternGenerator(std::shared_ptr<const FeatureVerifier> verifier,
+                   std::shared_ptr<const PairLists> lists);
+
+  std::vector<FeatureHypothesis> generate(const std::vector<Feature>& observed,
+                                          MatchingCounters& counters) const override;
+
+  const PatternIndex& index() const { return index_; }
+
+ private:
+  struct Query;
+  bool drawPattern(const PreparedScene& scene, const std::vector<bool>& among, std::uint32_t root,
+                   Query& query) const;
+  void tryPattern(const PreparedScene& scene, Query& query, HypothesisSet& found,
+                  FeatureVerifier::Workspace& workspace, MatchingCounters& counters) const;
+  bool fitPattern(const PreparedScene& scene, const Query& query, const PatternMembers& observed,
+                  const std::uint32_t* mapped, PoseEstimate& pose) const;
+  bool search(const PreparedScene& scene, Query& query, HypothesisSet& found,
+              FeatureVerifier::Workspace& workspace, MatchingCounters& counters) const;
+
+  std::shared_ptr<const FeatureVerifier> verifier_;
+  PatternIndex index_;
+  PairIndexGenerator pairs_;
+  AnchorGenerator anchors_;
+};
+}  // namespace sigloc

@@ -1,0 +1,270 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sigloc/matching/PatternGenerator.h"
+
+#include "sigloc/matching/pattern_order.h"
+#include "sigloc/matching/sampling.h"
+#include "sigloc/signature/unary_constraint.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sigloc
+{
+using mrpt::math::TPoint2D;
+
+namespace
+{
+// Share of the patterns of mapped features around a robot that the index holds: not those whose
+// members are no near neighbours of each other in the map.
+constexpr double kIndexedShare = 0.5;
+// A hundred more draws cost a thousandth of a fall-back to pairs: they may fail this much less.
+constexpr double kDrawsAreCheap = 0.01;
+}  // namespace
+
+/// What one query carries along: random numbers, the pattern drawn last, buffers.
+struct PatternGenerator::Query
+{
+  explicit Query(std::uint64_t seed) : random(seed) {}
+
+  SplitMix random;
+  PatternMembers members{};
+  double variance = 0;  ///< [m^2], of a member against its mapped place, each coordinate
+  PatternIndex::Gate gate;
+  std::vector<std::uint32_t> near;
+  std::vector<PatternOrder> orders;
+  std::vector<PatternMembers> tried;
+  std::vector<const std::uint32_t*> hits;
+  std::vector<PoseEstimate> poses;
+};
+
+PatternGenerator::PatternGenerator(std::shared_ptr<const FeatureVerifier> verifier,
+                                   std::shared_ptr<const PairLists> lists)
+    : verifier_(verifier),
+      index_(verifier->map(), verifier->options()),
+      pairs_(verifier, lists),
+      anchors_(verifier, lists)
+{
+}
+
+bool PatternGenerator::drawPattern(const PreparedScene& scene, const std::vector<bool>& among,
+                                   std::uint32_t root, Query& query) const
+{
+  const std::size_t size = index_.patternSize();
+  // The neighbours that the map's patterns are made of, and a few more: spurious ones push the
+  // real ones back.
+  const std::size_t reach = index_.neighbours() + (index_.neighbours() + 2) / 3;
+  query.near.clear();
+  const std::uint32_t* order = scene.orderFrom(root);
+  for (std::size_t step = 0; step < scene.size() && query.near.size() < reach; ++step)
+  {
+    if (order[step] != root && among[order[step]]) query.near.push_back(order[step]);
+  }
+  if (query.near.size() + 1 < size) return false;
+
+  query.members = {root};
+  for (std::size_t k = 1; k < size; ++k)
+  {
+    const auto left = static_cast<std::uint32_t>(query.near.size() - (k - 1));
+    std::swap(query.near[k - 1], query.near[k - 1 + query.random.index(left)]);
+    query.members[k] = query.near[k - 1];
+  }
+  std::sort(query.members.begin(), query.members.begin() + static_cast<std::ptrdiff_t>(size));
+  if (std::find(query.tried.begin(), query.tried.end(), query.members) != query.tried.end())
+  {
+    return false;
+  }
+  query.tried.push_back(query.members);
+  return true;
+}
+
+bool PatternGenerator::fitPattern(const PreparedScene& scene, const Query& query,
+                                  const PatternMembers& observed, const std::uint32_t* mapped,
+                                  PoseEstimate& pose) const
+{
+  const std::size_t size = index_.patternSize();
+  const BinaryGates& gates = verifier_->gates();
+  std::array<TPoint2D, kLargestPattern> seen;
+  std::array<TPoint2D, kLargestPattern> known;
+  for (std::size_t k = 0; k < size; ++k)
+  {
+    const DirectedFeature& view = verifier_->map().view(mapped[k]);
+    if (!unaryCompatible(scene.views[observed[k]], view, gates.scalar)) return false;
+    seen[k] = scene.views[observed[k]].position();
+    known[k] = view.position();
+  }
+  const auto fitted = poseFromPlaces(seen.data(), known.data(), size, query.variance);
+  if (!fitted) return false;
+  pose = *fitted;
+  return true;
+}
+
+void PatternGenerator::tryPattern(const PreparedScene& scene, Query& query, HypothesisSet& found,
+                                  FeatureVerifier::Workspace& workspace,
+                                  MatchingCounters& counters) const
+{
+  const std::size_t size = index_.patternSize();
+  const PreparedMap& map = verifier_->map();
+  std::array<TPoint2D, kLargestPattern> places;
+  for (std::size_t k = 0; k < size; ++k) places[k] = scene.views[query.members[k]].position();
+  query.orders.clear();
+  possibleOrders(places.data(), size, query.gate.tolerance, query.orders);
+  for (const PatternOrder& order : query.orders)
+  {
+    std::array<TPoint2D, kLargestPattern> ordered;
+    PatternMembers observed{};
+    for (std::size_t k = 0; k < size; ++k)
+    {
+      ordered[k] = places[order[k]];
+      observed[k] = query.members[order[k]];
+    }
+    // Three passes, so that the memory of one hit is fetched while others are worked on.
+    ++counters.signature_pairs;
+    query.hits.clear();
+    index_.visit(PatternIndex::shapeOf(ordered.data(), size), query.gate,
+                 [&](const std::uint32_t* mapped)
+                 {
+                   for (std::size_t k = 0; k < size; ++k) map.prefetch(mapped[k]);
+                   query.hits.push_back(mapped);
+                 });
+    counters.hypotheses += query.hits.size();
+    query.poses.clear();
+    const TPoint2D next = scene.views[scene.orderFrom(observed[0])[1]].position();
+    std::size_t kept = 0;
+    for (const std::uint32_t* mapped : query.hits)
+    {
+      PoseEstimate pose;
+      if (!fitPattern(scene, query, observed, mapped, pose)) continue;
+      map.grid().prefetch(pose.place(next));
+      query.poses.push_back(pose);
+      query.hits[kept++] = mapped;
+    }
+    for (std::size_t h = 0; h < kept; ++h)
+    {
+      workspace.base.pose = query.poses[h];
+      workspace.base.pairings.clear();
+      for (std::size_t k = 0; k < size; ++k)
+      {
+        workspace.base.pairings.push_back({observed[k], query.hits[h][k]});
+      }
+      verifier_->verify(scene, nullptr, found, workspace, counters);
+    }
+  }
+}
+
+bool PatternGenerator::search(const PreparedScene& scene, Query& query, HypothesisSet& found,
+                              FeatureVerifier::Workspace& workspace,
+                              MatchingCounters& counters) const
+{
+  const GeneratorOptions& options = verifier_->options();
+  const auto size = static_cast<std::uint32_t>(index_.patternSize());
+  std::vector<std::uint32_t> places;
+  for (std::uint32_t i = 0; i < scene.size(); ++i)
+  {
+    if (isPointLike(scene.views[i].type())) places.push_back(i);
+  }
+  if (size == 0 || places.size() < size) return false;
+  query.random.shuffle(places);
+
+  const std::uint64_t before = counters.hypotheses;
+  const auto significant = [&]
+  {
+    const FeatureHypothesis* best = found.best();
+    return best &&
+           FeatureVerifier::expectedByChance(scene, best->support, size,
+                                             counters.hypotheses - before) < options.significance;
+  };
+  // Every draw starts at another feature. Draws that find no fresh pattern are made up for, up to
+  // a point: few features hold few patterns.
+  const auto draw =
+      [&](const std::vector<std::uint32_t>& roots, std::uint32_t wanted, bool until_significant)
+  {
+    std::vector<bool> among(scene.size(), false);
+    for (const std::uint32_t root : roots) among[root] = true;
+    constexpr std::uint32_t kPatience = 3;
+    std::uint32_t fresh = 0;
+    for (std::uint32_t d = 0; d < kPatience * wanted && fresh < wanted; ++d)
+    {
+      if (!drawPattern(scene, among, roots[d % roots.size()], query)) continue;
+      ++fresh;
+      const std::uint64_t hypotheses = counters.hypotheses;
+      tryPattern(scene, query, found, workspace, counters);
+      if (until_significant && counters.hypotheses > hypotheses && significant()) return;
+    }
+  };
+
+  // 1. Patterns of all features, until an answer is significant.
+  const double good = kIndexedShare * std::pow(options.good_share, size);
+  draw(places, drawsNeeded(kDrawsAreCheap * options.failure_probability, good), true);
+  const FeatureHypothesis* best = found.best();
+  if (!best) return false;
+  // An answer that explains its share of the features is no better found by smaller bases, even
+  // where too few features were seen to be sure of it.
+  const double chance =
+      FeatureVerifier::expectedByChance(scene, best->support, size, counters.hypotheses - before);
+  const bool explains_enough =
+      best->support >= options.good_share * static_cast<double>(scene.size());
+  if (!(chance < options.significance || (explains_enough && chance < 0.5))) return false;
+
+  // 2. Patterns of what the answer explains: places that look alike share most of it.
+  std::vector<std::uint32_t> explained;
+  for (const std::uint32_t i : observedOf(*found.best()))
+  {
+    if (isPointLike(scene.views[i].type())) explained.push_back(i);
+  }
+  if (explained.empty()) return true;
+  const double shared = kIndexedShare * std::pow(kRivalShare, size);
+  draw(explained, drawsNeeded(options.failure_probability, shared), false);
+  return true;
+}
+
+std::vector<FeatureHypothesis> PatternGenerator::generate(const std::vector<Feature>& observed,
+                                                          MatchingCounters& counters) const
+{
+  const GeneratorOptions& options = verifier_->options();
+  const PreparedScene scene(observed, verifier_->map(), options);
+  HypothesisSet found(scene.size());
+  FeatureVerifier::Workspace workspace;
+  Query query(options.seed);
+  const std::uint64_t before = counters.hypotheses;
+
+  double trace = 0;
+  for (const DirectedFeature& view : scene.views)
+  {
+    const auto& p = view.feature->position_covariance;
+    if (isPointLike(view.type())) trace = std::max(trace, p(0, 0) + p(1, 1));
+  }
+  double mapped = 0;
+  for (std::size_t t = 0; t < kFeatureTypes; ++t)
+  {
+    const auto type = static_cast<FeatureType>(t);
+    if (isPointLike(type))
+      mapped = std::max(mapped, verifier_->map().largestPositionVariance(type));
+  }
+  query.variance = 0.5 * trace + mapped + scene.relative_sigma * scene.relative_sigma + 1e-12;
+  const int residuals = std::max(1, 2 * static_cast<int>(index_.patternSize()) - 3);
+  query.gate.residual = query.variance * chiSquareGate(options.gate_probability, residuals);
+  query.gate.tolerance = std::sqrt(2 * verifier_->gates().scalar * query.variance);
+
+  const bool significant = search(scene, query, found, workspace, counters);
+  const auto base_size = static_cast<std::uint32_t>(index_.patternSize());
+  if (significant)
+  {
+    return rankedHypotheses(scene, *verifier_, found, base_size, counters.hypotheses - before);
+  }
+  // Nothing sure: smaller bases find what shares few features with the map.
+  const auto refuted = [&]
+  {
+    const FeatureHypothesis* best = found.best();
+    return !best ||
+           FeatureVerifier::expectedByChance(scene, best->support, 2,
+                                             counters.hypotheses - before) >= options.significance;
+  };
+  pairs_.search(scene, found, workspace, counters, options.fall_back_hypotheses);
+  if (refuted())
+  {
+    anchors_.search(scene, found, workspace, counters, options.fall_back_hypotheses);
+  }
+  return rankedHypotheses(scene, *verifier_, found, 2, counters.hypotheses - before);
+}
+}  // namespace sigloc

@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include "sigloc/eval/FeatureWorld.h"
+#include "sigloc/matching/FeatureVerifier.h"
+#include "sigloc/matching/PairLists.h"
+#include "sigloc/matching/pattern_order.h"
+#include "sigloc/matching/PatternIndex.h"
+#include "sigloc/matching/PlainGenerator.h"
+#include "sigloc/signature/unary_constraint.h"
+
+namespace sigloc
+{
+namespace
+{
+TEST(PatternIndex, LookUpEqualsBruteForce)
+{
+  Random random(22);
+  const FeatureWorld world = makeFeatureWorld(60, {}, random);
+  const FeatureMap feature_map(world.mapped);
+  const PreparedMap map(feature_map);
+  GeneratorOptions options;
+  for (const std::uint32_t size : {3U, 4U, 5U})
+  {
+    options.pattern_size = size;
+    const PatternIndex index(map, options);
+    ASSERT_GT(index.count(), 100U);
+    EXPECT_LT(static_cast<double>(index.bytes()) / 60, 1200.0);
+    PatternShape shape;
+    PatternIndex::Gate wide{0.3, 1e9};
+    std::size_t found = 0;
+    std::size_t expected = 0;
+    for (std::uint32_t a = 0; a + size <= 60; a += 7)
+    {
+      std::array<mrpt::math::TPoint2D, kLargestPattern> at;
+      for (std::size_t k = 0; k < size; ++k) at[k] = map.view(a + k).position();
+      const PatternOrder order = canonicalOrder(at.data(), size);
+      std::array<mrpt::math::TPoint2D, kLargestPattern> ordered;
+      for (std::size_t k = 0; k < size; ++k) ordered[k] = at[order[k]];
+      shape = PatternIndex::shapeOf(ordered.data(), size);
+      index.visit(shape, wide,
+                  [&](const std::uint32_t* members)
+                  {
+                    std::array<mrpt::math::TPoint2D, kLargestPattern> other;
+                    for (std::size_t k = 0; k < size; ++k)
+                      other[k] = map.view(members[k]).position();
+                    const PatternShape stored = PatternIndex::shapeOf(other.data(), size);
+                    for (std::size_t v = 0; v < 2 * size - 3; ++v)
+                    {
+                      EXPECT_NEAR(stored.values[v], shape.values[v], 0.31);
+                    }
+                    ++found;
+                  });
+      // A shape is always found under itself when its pattern is indexed; count by a scan.
+      index.visitAll(
+          [&](const std::uint32_t* members)
+          {
+            std::array<mrpt::math::TPoint2D, kLargestPattern> other;
+            for (std::size_t k = 0; k < size; ++k) other[k] = map.view(members[k]).position();
+            const PatternShape stored = PatternIndex::shapeOf(other.data(), size);
+            bool fits = true;
+            for (std::size_t v = 0; v < 2 * size - 3; ++v)
+            {
+              fits = fits && std::abs(stored.values[v] - shape.values[v]) < 0.299;
+            }
+            expected += fits;
+          });
+    }
+    EXPECT_GE(found, expected);
+  }
+}
+
+TEST(PairLists, BinarySearchEqualsBruteForce)
+{
+  FeatureWorldOptions options;
+  options.range = 6;
+  options.type_weights = {1, 2, 1, 1, 1};
+  Random random(19);
+  const FeatureWorld world = makeFeatureWorld(80, options, random);
+  const FeatureMap feature_map(world.mapped);
+  const auto map = std::make_shared<const PreparedMap>(feature_map);
+  const FeatureVerifier verifier(map, {});
+  const PairLists lists(*map, PairLists::kUncut);
+  const auto observed = observeFeatures(world, randomPose(world, options, random), options, random);
+  const PreparedScene scene(observed, *map, {});
+  std::vector<std::uint32_t> candidates;
+  std::size_t total = 0;
+  for (std::uint32_t i = 0; i < scene.size(); ++i)
+  {
+    for (std::uint32_t k = 0; k < map->size(); ++k)
+    {
+      if (map->view(k).type() != scene.views[i].type()) continue;
+      for (std::uint32_t j = 0; j < scene.size(); ++j)
+      {
+        if (j == i) continue;
+        gatherCandidates(scene, verifier, lists, {i, k}, j, candidates);
+        std::vector<std::uint32_t> expected;
+        for (std::uint32_t l = 0; l < map->size(); ++l)
+        {
+          const bool fits =
+              l != k && unaryCompatible(scene.views[j], map->view(l), verifier.gates().scalar) &&
+              binaryCompatible(scene.views[i], scene.views[j], map->view(k), map->view(l),
+                               feature_map.error(), verifier.gates());
+          if (fits) expected.push_back(l);
+        }
+        std::sort(candidates.begin(), candidates.end());
+        ASSERT_EQ(candidates, expected);
+        total += expected.size();
+      }
+    }
+  }
+  EXPECT_GT(total, 100U);
+}
+}  // namespace
+}  // namespace sigloc
