@@ -76,6 +76,10 @@ void info(const std::filesystem::path& path, bool as_json)
 
 void draw(const std::filesystem::path& path, const std::filesystem::path& output)
 {
+  if (output.extension() != ".png")
+  {
+    throw std::runtime_error(output.string() + ": the name of a picture ends in .png");
+  }
   const sigloc::FeatureMap map = sigloc::loadSigmap(path);
   sigloc::PictureMaker pictures(map);
   const std::string title = path.filename().string() + ": " +

@@ -198,10 +198,13 @@ std::string defaultOptionSections()
 std::string firstLine(const std::string& message)
 {
   // MRPT's exceptions wrap the reason in a header, the source position and a call stack.
-  const std::string marker = "Message:";
-  const std::size_t found = message.find(marker);
-  std::size_t begin = found == std::string::npos ? 0 : found + marker.size();
-  begin = std::min(message.find_first_not_of(" \n", begin), message.size());
+  std::size_t begin = 0;
+  for (const std::string marker : {"==== MRPT exception ====", "Message:"})
+  {
+    const std::size_t found = message.find(marker, begin);
+    if (found != std::string::npos) begin = found + marker.size();
+    begin = std::min(message.find_first_not_of(" \n", begin), message.size());
+  }
   return message.substr(begin, message.find('\n', begin) - begin);
 }
 }  // namespace sigloc

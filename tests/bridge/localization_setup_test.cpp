@@ -69,6 +69,7 @@ TEST(LocalizationSetup, messagesLoseMrptsTrimmings)
 {
   EXPECT_EQ(firstLine("==== MRPT exception ====\nMessage:  It broke\nLocation: x.cpp:1\n"),
             "It broke");
+  EXPECT_EQ(firstLine("==== MRPT exception ====\nIt broke\nCall stack:\n"), "It broke");
   EXPECT_EQ(firstLine("plain"), "plain");
   EXPECT_EQ(firstLine(""), "");
 }

@@ -157,6 +157,13 @@ TEST(BadInput, foreignOutputFolderIsLeftAlone)
   expectRefused(folder, before, localize(folder), "new/out");
 }
 
+TEST(BadInput, pictureOfAnotherKindIsRefused)
+{
+  const TemporaryFolder folder;
+  expectRefused(folder, {}, run(folder, "sigloc-map", {"draw", "a.sigmap", "-o", "a.svg"}),
+                "a.svg");
+}
+
 TEST(BadInput, unknownFlagIsRefused)
 {
   const TemporaryFolder folder;
