@@ -17,7 +17,7 @@ namespace sigloc
 /// | file                                | what |
 /// |-------------------------------------|------|
 /// | belief/step_00001.CPosePDFSOG, .txt | belief after step 1, as an MRPT object and as rows
-/// `log-weight x y phi C11 C22 C33 C12 C13 C23` |
+/// `weight x y phi C11 C22 C33 C12 C13 C23` |
 /// | 3D/step_00001.3Dscene               | map and step, for SceneViewer3D |
 /// | path.tum                            | first hypothesis of each step: `time x y z qx qy qz qw`
 /// | | steps.csv                           | one row a step | | annotated.rawlog | the log with a
