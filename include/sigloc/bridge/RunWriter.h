@@ -14,15 +14,13 @@ namespace sigloc
 /// Writes the output folder of a run, all or nothing: into `<folder>.partial` first, which takes
 /// the folder's name in finish().
 ///
-/// | file                                | what |
-/// |-------------------------------------|------|
-/// | belief/step_00001.CPosePDFSOG, .txt | belief after step 1, as an MRPT object and as rows
-/// `weight x y phi C11 C22 C33 C12 C13 C23` |
-/// | 3D/step_00001.3Dscene               | map and step, for SceneViewer3D |
-/// | path.tum                            | first hypothesis of each step: `time x y z qx qy qz qw`
-/// | | steps.csv                           | one row a step | | annotated.rawlog | the log with a
-/// CObservationRobotPose "sigloc" a step | | summary.json                        | the figures of
-/// RunSummary |
+/// * `belief/step_00001.CPosePDFSOG`: the belief after step 1 as an MRPT object; `.txt`: as rows
+///   `weight x y phi C11 C22 C33 C12 C13 C23`
+/// * `3D/step_00001.3Dscene`: map and step, for SceneViewer3D
+/// * `path.tum`: first hypothesis of each step, `time x y z qx qy qz qw`
+/// * `steps.csv`: one row a step
+/// * `annotated.rawlog`: the log with a CObservationRobotPose "sigloc" a step
+/// * `summary.json`: the figures of RunSummary
 class RunWriter
 {
  public:
