@@ -21,6 +21,7 @@ struct Command
 
 constexpr std::array kCommands = {
     Command{"relocate", "find robots from one look each, method by method", sigloc::setUpRelocate},
+    Command{"track", "wake up lost and drive on, method by method", sigloc::setUpTrack},
 };
 
 std::string commandLine(int argc, char** argv)

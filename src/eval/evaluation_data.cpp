@@ -139,6 +139,11 @@ EvaluationMap evaluationMapFromScans(const std::vector<PosedScans>& scans)
   return map;
 }
 
+EvaluationMap readEvaluationMap(const std::filesystem::path& path)
+{
+  return evaluationMapOf(readMapSource(path));
+}
+
 EvaluationData readEvaluationData(const EvaluationSources& sources)
 {
   checkSources(sources);

@@ -58,6 +58,9 @@ struct EvaluationData
 /// sense and std::runtime_error ("path: reason") for a file that cannot be used.
 EvaluationData readEvaluationData(const EvaluationSources& sources);
 
+/// Reads the map alone. Throws std::runtime_error ("path: reason").
+EvaluationMap readEvaluationMap(const std::filesystem::path& path);
+
 /// Returns the map data of posed scans, as `readEvaluationData` makes it.
 EvaluationMap evaluationMapFromScans(const std::vector<PosedScans>& scans);
 

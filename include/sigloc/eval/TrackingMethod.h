@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sigloc/bridge/RawlogReader.h"
+#include "sigloc/eval/evaluation_data.h"
+#include "sigloc/eval/RelocationMethod.h"
+
+namespace sigloc
+{
+/// What a method claims after a step.
+struct TrackClaim
+{
+  bool confident = false;
+  bool has_pose = false;
+  mrpt::math::TPose2D pose;  ///< map_from_robot, where has_pose
+};
+
+/// A way of finding and following a robot, lost at first. One object a run.
+class TrackingMethod
+{
+ public:
+  virtual ~TrackingMethod() = default;
+  virtual TrackClaim step(const RawlogStep& step) = 0;
+};
+
+/// What all runs of a method share: built once from the map, then asked for one run after another.
+class TrackingMethodFactory
+{
+ public:
+  virtual ~TrackingMethodFactory() = default;
+  /// A run lost anywhere in the map. Deterministic in the seed.
+  virtual std::unique_ptr<TrackingMethod> start(std::uint32_t seed) const = 0;
+  /// True when runs draw on a generator that the process shares, so that each needs its own.
+  virtual bool needsOwnProcess() const { return false; }
+};
+
+/// Names that `makeTrackingMethod` knows: `signature` and `mcl` in three settings.
+std::vector<std::string> trackingMethodNames();
+
+/// Throws std::invalid_argument for an unknown name or a map without what the method needs.
+std::unique_ptr<TrackingMethodFactory> makeTrackingMethod(const std::string& name,
+                                                          const EvaluationMap& map,
+                                                          const RelocationMethodOptions& options);
+
+namespace detail
+{
+/// MRPT's filter: `mcl` with the options that pf-localization ships, `mcl-fixed` with 40 000
+/// particles throughout, `mcl-tuned` with as many particles as the place needs.
+std::unique_ptr<TrackingMethodFactory> makeMonteCarlo(const std::string& name,
+                                                      const EvaluationMap& map,
+                                                      const RelocationMethodOptions& options);
+}  // namespace detail
+}  // namespace sigloc

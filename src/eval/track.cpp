@@ -1,0 +1,240 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sigloc/eval/track.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <mutex>
+#include <stdexcept>
+
+#include "own_process.h"
+#include "sigloc/bridge/GroundTruth.h"
+#include "sigloc/bridge/map_sources.h"
+#include "sigloc/eval/cpu_time.h"
+#include "sigloc/eval/run_parallel.h"
+
+namespace sigloc
+{
+namespace
+{
+using mrpt::math::TPose2D;
+
+struct LogStep
+{
+  RawlogStep step;
+  std::optional<TPose2D> truth;
+  double travelled = 0;  // [m] since the log began, along the truth
+  bool may_start = false;
+};
+
+struct Drive
+{
+  std::vector<LogStep> steps;
+  bool complete = true;
+};
+
+Drive readDrive(const TrackOptions& options)
+{
+  const auto truth = GroundTruth::read(options.ground_truth, options.map_from_truth);
+  std::optional<GroundTruth> start_frames;
+  if (!options.start_from.empty()) start_frames = GroundTruth::read(options.start_from);
+  constexpr double kSameScan = 0.5;  // [s] between the log's scan and the key frame
+  RawlogReader reader(options.rawlog);
+  Drive drive;
+  std::optional<TPose2D> last;
+  double travelled = 0;
+  for (std::size_t i = 0; auto step = reader.next(); ++i)
+  {
+    if (step->scans.empty()) continue;
+    LogStep out;
+    out.truth = truth.at(i, step->time);
+    if (out.truth && last) travelled += std::hypot(out.truth->x - last->x, out.truth->y - last->y);
+    if (out.truth) last = out.truth;
+    out.travelled = travelled;
+    out.may_start = out.truth.has_value() &&
+                    (!start_frames || start_frames->at(i, step->time, kSameScan).has_value());
+    out.step = std::move(*step);
+    drive.steps.push_back(std::move(out));
+  }
+  drive.complete = !reader.truncated();
+  return drive;
+}
+
+// Places equally spaced in the distance travelled, so that no luck is chosen.
+std::vector<std::size_t> startsOf(const Drive& drive, const TrackOptions& options)
+{
+  std::vector<std::size_t> allowed;
+  const double last = drive.steps.empty() ? 0 : drive.steps.back().travelled - options.travel;
+  for (std::size_t i = 0; i < drive.steps.size(); ++i)
+  {
+    if (drive.steps[i].may_start && drive.steps[i].travelled <= last) allowed.push_back(i);
+  }
+  if (allowed.empty())
+  {
+    throw std::runtime_error(options.rawlog.string() + ": no step with truth has " +
+                             std::to_string(options.travel) + " m of drive after it");
+  }
+  const double from = drive.steps[allowed.front()].travelled;
+  const double span = drive.steps[allowed.back()].travelled - from;
+  std::vector<std::size_t> starts;
+  for (std::uint32_t k = 0; k < options.starts; ++k)
+  {
+    const double wanted = from + span * k / std::max(1U, options.starts - 1);
+    const auto nearest = std::min_element(allowed.begin(), allowed.end(),
+                                          [&](std::size_t a, std::size_t b)
+                                          {
+                                            return std::abs(drive.steps[a].travelled - wanted) <
+                                                   std::abs(drive.steps[b].travelled - wanted);
+                                          });
+    starts.push_back(*nearest);
+  }
+  return starts;
+}
+
+struct Leg
+{
+  std::size_t first;
+  std::size_t last;  // exclusive
+};
+
+Leg legFrom(const Drive& drive, std::size_t start, double travel)
+{
+  std::size_t last = start;
+  while (last < drive.steps.size() &&
+         drive.steps[last].travelled - drive.steps[start].travelled <= travel)
+  {
+    ++last;
+  }
+  return {start, last};
+}
+
+void drivePart(TrackingMethod& method, const Drive& drive, const Leg& leg,
+               const AccuracyGates& gates, TrackRun& run)
+{
+  const double before = run.steps.empty() ? 0 : run.steps.back().travelled;
+  for (std::size_t i = leg.first; i < leg.last; ++i)
+  {
+    RawlogStep step = drive.steps[i].step;
+    // Whoever wakes up, or is carried, has not driven the way before.
+    if (i == leg.first) step.motion = MotionIncrement{};
+    const double start = threadCpuSeconds();
+    TrackStepRecord record;
+    record.claim = method.step(step);
+    record.time_ms = 1e3 * (threadCpuSeconds() - start);
+    record.step = i;
+    record.travelled = before + drive.steps[i].travelled - drive.steps[leg.first].travelled;
+    const auto& truth = drive.steps[i].truth;
+    if (truth && record.claim.has_pose)
+    {
+      record.error = poseError(record.claim.pose, *truth);
+      if (record.claim.confident) record.judged = judgeClaim(record.error, gates);
+    }
+    run.steps.push_back(record);
+  }
+}
+
+TrackRun runOnce(const TrackingMethodFactory& factory, const Drive& drive,
+                 const std::vector<std::size_t>& starts, std::size_t which,
+                 const TrackOptions& options)
+{
+  const auto drive_all = [&]
+  {
+    TrackRun run;
+    run.start = starts[which];
+    // Building the filter is part of what waking up costs.
+    const double before = threadCpuSeconds();
+    const auto method =
+        factory.start(options.method.seed * 1000003U + static_cast<std::uint32_t>(run.start));
+    const double set_up_ms = 1e3 * (threadCpuSeconds() - before);
+    drivePart(*method, drive, legFrom(drive, run.start, options.travel), options.gates, run);
+    run.steps.front().time_ms += set_up_ms;
+    if (options.kidnap)
+    {
+      run.kidnapped_at = run.steps.size();
+      const std::size_t elsewhere = starts[(which + starts.size() / 2) % starts.size()];
+      drivePart(*method, drive, legFrom(drive, elsewhere, options.travel), options.gates, run);
+    }
+    return run;
+  };
+  TrackRun run = factory.needsOwnProcess() ? detail::runInOwnProcess(drive_all) : drive_all();
+  judgeRun(run);
+  return run;
+}
+}  // namespace
+
+void judgeRun(TrackRun& run)
+{
+  const auto& steps = run.steps;
+  std::size_t settled = steps.size();
+  while (settled > 0 && steps[settled - 1].claim.confident) --settled;
+  if (settled < steps.size())
+  {
+    run.settled_after =
+        steps[settled].travelled - (run.kidnapped_at > 0 && settled >= run.kidnapped_at
+                                        ? steps[run.kidnapped_at].travelled
+                                        : 0);
+  }
+  run.cpu_to_settled = 0;
+  for (std::size_t i = 0; i < steps.size(); ++i)
+  {
+    if (i <= settled) run.cpu_to_settled += 1e-3 * steps[i].time_ms;
+    if (steps[i].judged != Claim::wrong) continue;
+    ++run.wrong_steps;
+    if (i == 0 || steps[i - 1].judged != Claim::wrong) ++run.wrong_episodes;
+  }
+  const auto last_with_truth =
+      std::find_if(steps.rbegin(), steps.rend(),
+                   [](const TrackStepRecord& s) { return !std::isnan(s.error.distance); });
+  run.right_at_end = last_with_truth != steps.rend() && last_with_truth->judged == Claim::right;
+  if (run.kidnapped_at == 0) return;
+  for (std::size_t i = run.kidnapped_at; i < steps.size() && !run.noticed_after; ++i)
+  {
+    if (steps[i].claim.confident && steps[i].judged != Claim::right) continue;
+    run.noticed_after = steps[i].travelled - steps[run.kidnapped_at].travelled;
+  }
+}
+
+TrackReport runTrack(const TrackOptions& options)
+{
+  if (options.starts == 0) throw std::invalid_argument("--starts must be at least 1");
+  const std::vector<std::string> known = trackingMethodNames();
+  for (const std::string& name : options.methods)
+  {
+    if (std::find(known.begin(), known.end(), name) == known.end())
+    {
+      throw std::invalid_argument("unknown method '" + name + "'");
+    }
+  }
+  const EvaluationMap map = readEvaluationMap(options.map);
+  const Drive drive = readDrive(options);
+  const std::vector<std::size_t> starts = startsOf(drive, options);
+  TrackReport report;
+  report.map_features = map.features->features().size();
+  report.map_build_seconds = map.build_seconds;
+  report.complete = drive.complete;
+  report.provenance = {
+      options.command, options.method.seed, {options.map, options.rawlog, options.ground_truth}};
+  if (!options.start_from.empty()) report.provenance.data_files.push_back(options.start_from);
+  for (const std::string& name : options.methods)
+  {
+    resetPeakMemory();
+    const auto factory = makeTrackingMethod(name, map, options.method);
+    TrackMethodReport method{name, std::vector<TrackRun>(starts.size()), 0};
+    std::atomic<std::size_t> done{0};
+    std::mutex mutex;
+    runParallel(starts.size(), options.threads,
+                [&](std::size_t i)
+                {
+                  method.runs[i] = runOnce(*factory, drive, starts, i, options);
+                  const double share =
+                      static_cast<double>(++done) / static_cast<double>(starts.size());
+                  const std::lock_guard<std::mutex> lock(mutex);
+                  if (options.progress) options.progress(name, share);
+                });
+    method.peak_rss_mb = peakMemoryMb();
+    report.methods.push_back(std::move(method));
+  }
+  return report;
+}
+}  // namespace sigloc

@@ -1,0 +1,207 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "sigloc/eval/plot.h"
+#include "sigloc/eval/report_files.h"
+#include "sigloc/eval/track.h"
+
+namespace sigloc
+{
+namespace
+{
+constexpr const char* kDefinitions = R"(
+## What the columns mean
+
+* A run wakes up lost at one place and drives on. **right at end**: confident and within 0.5 m and
+  10 degrees of the truth at the last step with truth. **settled**: confident from some step to the
+  end; the distance to it is over the runs that settle, the CPU time (building the filter included)
+  over all: a run that never settles costs its whole time.
+* **wrong**: runs with a step that is confident and more than 1 m or 20 degrees off; steps and
+  unbroken episodes of it counted as well.
+* **noticed**: after a kidnapping, runs in which the method stopped being sure of a wrong place.
+* Confident: for `signature` the verdict `localized`; for MRPT's filter a position sd below 0.5 m
+  and a heading sd below 10 degrees over 5 steps.
+* `mcl`: pf-localization's shipped options (KLD, 40 000 particles at first). `mcl-fixed`: 40 000
+  throughout. `mcl-tuned`: 200 particles per free square metre, between 40 000 and 500 000, KLD
+  down to 1 000, motion noise halved. One thread each.
+)";
+
+struct TrackSummary
+{
+  std::size_t runs = 0;
+  std::size_t wrong_runs = 0;
+  std::size_t wrong_steps = 0;
+  std::size_t wrong_episodes = 0;
+  std::size_t steps = 0;
+  Proportion right_at_end;
+  Proportion settled;
+  Proportion noticed;
+  Quantiles distance_to_settled;
+  Quantiles noticed_after;
+  Quantiles cpu_to_settled;
+  Quantiles step_ms;
+};
+
+TrackSummary summarizeRuns(const TrackMethodReport& method)
+{
+  TrackSummary s;
+  std::vector<double> distances;
+  std::vector<double> noticed;
+  std::vector<double> cpu;
+  std::vector<double> times;
+  for (const TrackRun& run : method.runs)
+  {
+    ++s.runs;
+    ++s.right_at_end.cases;
+    ++s.settled.cases;
+    s.steps += run.steps.size();
+    s.wrong_steps += run.wrong_steps;
+    s.wrong_episodes += run.wrong_episodes;
+    if (run.wrong_steps > 0) ++s.wrong_runs;
+    if (run.right_at_end) ++s.right_at_end.count;
+    if (run.settled_after)
+    {
+      ++s.settled.count;
+      distances.push_back(*run.settled_after);
+    }
+    if (run.kidnapped_at > 0)
+    {
+      ++s.noticed.cases;
+      if (run.noticed_after)
+      {
+        ++s.noticed.count;
+        noticed.push_back(*run.noticed_after);
+      }
+    }
+    cpu.push_back(run.cpu_to_settled);
+    for (const TrackStepRecord& step : run.steps) times.push_back(step.time_ms);
+  }
+  s.distance_to_settled = quantilesOf(distances);
+  s.noticed_after = quantilesOf(noticed);
+  s.cpu_to_settled = quantilesOf(cpu);
+  s.step_ms = quantilesOf(times);
+  return s;
+}
+
+nlohmann::ordered_json methodJson(const TrackMethodReport& method)
+{
+  const TrackSummary s = summarizeRuns(method);
+  nlohmann::ordered_json json;
+  json["queries"] = s.runs;
+  json["steps"] = s.steps;
+  json["confidently_wrong"] = s.wrong_runs;
+  json["confidently_wrong_steps"] = s.wrong_steps;
+  json["confidently_wrong_episodes"] = s.wrong_episodes;
+  addProportion(json, "right_at_end", s.right_at_end);
+  addProportion(json, "settled", s.settled);
+  json["distance_to_settled_m"] = toJson(s.distance_to_settled);
+  json["cpu_s_to_settled"] = toJson(s.cpu_to_settled);
+  json["step_ms"] = toJson(s.step_ms);
+  addProportion(json, "noticed", s.noticed);
+  json["noticed_after_m"] = toJson(s.noticed_after);
+  json["peak_rss_mb"] = method.peak_rss_mb;
+  return json;
+}
+
+std::string resultsCsv(const TrackReport& report)
+{
+  std::ostringstream csv;
+  csv << "method,start,step,travelled_m,kidnapped,confident,x,y,phi,error_m,error_deg,claim,"
+         "time_ms\n";
+  for (const TrackMethodReport& method : report.methods)
+  {
+    for (const TrackRun& run : method.runs)
+    {
+      for (std::size_t i = 0; i < run.steps.size(); ++i)
+      {
+        const TrackStepRecord& r = run.steps[i];
+        const bool kidnapped = run.kidnapped_at > 0 && i >= run.kidnapped_at;
+        csv << method.name << "," << run.start << "," << r.step << ","
+            << fixedNumber(r.travelled, 3) << "," << kidnapped << "," << r.claim.confident << ",";
+        if (r.claim.has_pose)
+        {
+          csv << fixedNumber(r.claim.pose.x, 4) << "," << fixedNumber(r.claim.pose.y, 4) << ","
+              << fixedNumber(r.claim.pose.phi, 5);
+        }
+        else
+        {
+          csv << ",,";
+        }
+        csv << "," << fixedNumber(r.error.distance, 4) << "," << fixedNumber(r.error.angle_deg, 3)
+            << "," << toString(r.judged) << "," << fixedNumber(r.time_ms, 3) << "\n";
+      }
+    }
+  }
+  return csv.str();
+}
+
+std::vector<std::string> drawPlots(const TrackReport& report, const std::filesystem::path& folder)
+{
+  Plot settled{"Distance driven until settled", "distance [m]", "share of runs", false, false, {}};
+  Plot cpu{"CPU time until settled", "time [s]", "share of runs", true, false, {}};
+  for (const TrackMethodReport& method : report.methods)
+  {
+    std::vector<double> distances;
+    std::vector<double> seconds;
+    for (const TrackRun& run : method.runs)
+    {
+      if (!run.settled_after) continue;
+      distances.push_back(*run.settled_after);
+      seconds.push_back(run.cpu_to_settled);
+    }
+    settled.series.push_back(cumulativeShare(method.name, distances, method.runs.size()));
+    cpu.series.push_back(cumulativeShare(method.name, seconds, method.runs.size()));
+  }
+  std::vector<std::string> drawn;
+  if (drawPlot(settled, folder / "settled.png")) drawn.emplace_back("settled.png");
+  if (drawPlot(cpu, folder / "cpu.png")) drawn.emplace_back("cpu.png");
+  return drawn;
+}
+}  // namespace
+
+std::string trackTable(const TrackReport& report)
+{
+  std::vector<std::vector<std::string>> rows = {
+      {"method", "runs", "right at end", "settled", "wrong runs", "wrong steps", "episodes",
+       "m to settle", "p95", "CPU s to settle", "p95", "step ms", "p95", "noticed"}};
+  for (const TrackMethodReport& method : report.methods)
+  {
+    const TrackSummary s = summarizeRuns(method);
+    rows.push_back(
+        {method.name, std::to_string(s.runs), withInterval(s.right_at_end), withInterval(s.settled),
+         std::to_string(s.wrong_runs), std::to_string(s.wrong_steps),
+         std::to_string(s.wrong_episodes), fixedNumber(s.distance_to_settled.median, 2),
+         fixedNumber(s.distance_to_settled.p95, 2), fixedNumber(s.cpu_to_settled.median, 3),
+         fixedNumber(s.cpu_to_settled.p95, 3), fixedNumber(s.step_ms.median, 2),
+         fixedNumber(s.step_ms.p95, 2), withInterval(s.noticed)});
+  }
+  return markdownTable(rows);
+}
+
+void writeTrackReport(const TrackReport& report, const std::filesystem::path& folder)
+{
+  nlohmann::ordered_json json;
+  for (const TrackMethodReport& method : report.methods)
+  {
+    json["methods"][method.name] = methodJson(method);
+  }
+  json["map"] = {{"features", report.map_features}, {"build_s", report.map_build_seconds}};
+  json["complete"] = report.complete;
+  json["provenance"] = toJson(report.provenance);
+  makeFolder(folder);
+  writeTextFile(folder / "results.csv", resultsCsv(report));
+  writeTextFile(folder / "summary.json", json.dump(2) + "\n");
+  std::ostringstream markdown;
+  markdown << "# Wake-ups\n\n" << trackTable(report);
+  for (const std::string& plot : drawPlots(report, folder))
+  {
+    markdown << "\n![" << plot << "](" << plot << ")\n";
+  }
+  markdown << kDefinitions << "\n## Provenance\n\n" << provenanceSection(json["provenance"]);
+  writeTextFile(folder / "report.md", markdown.str());
+}
+}  // namespace sigloc

@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sigloc/eval/track.h"
+
+#include <gtest/gtest.h>
+
+namespace sigloc
+{
+namespace
+{
+TrackStepRecord stepOf(double travelled, Claim judged, bool truth = true)
+{
+  TrackStepRecord step;
+  step.travelled = travelled;
+  step.judged = judged;
+  step.claim.confident = judged != Claim::none;
+  step.claim.has_pose = true;
+  step.time_ms = 100;
+  if (truth) step.error = {judged == Claim::right ? 0.1 : 5.0, 0};
+  return step;
+}
+
+TEST(TrackScoring, SettlesWhereItStaysConfidentToTheEnd)
+{
+  TrackRun run;
+  run.steps = {stepOf(0, Claim::none), stepOf(1, Claim::wrong), stepOf(2, Claim::wrong),
+               stepOf(3, Claim::none), stepOf(4, Claim::wrong), stepOf(5, Claim::right),
+               stepOf(6, Claim::right)};
+  judgeRun(run);
+  EXPECT_TRUE(run.right_at_end);
+  EXPECT_EQ(run.settled_after, 4.0);
+  EXPECT_NEAR(run.cpu_to_settled, 0.5, 1e-12);
+  EXPECT_EQ(run.wrong_steps, 3U);
+  EXPECT_EQ(run.wrong_episodes, 2U);
+}
+
+TEST(TrackScoring, ARunThatNeverSettlesCostsItsWholeTime)
+{
+  TrackRun run;
+  run.steps = {stepOf(0, Claim::right), stepOf(1, Claim::none)};
+  judgeRun(run);
+  EXPECT_FALSE(run.settled_after.has_value());
+  EXPECT_FALSE(run.right_at_end);
+  EXPECT_NEAR(run.cpu_to_settled, 0.2, 1e-12);
+}
+
+TEST(TrackScoring, TellsWhenAKidnappingIsNoticed)
+{
+  TrackRun run;
+  run.steps = {stepOf(0, Claim::right), stepOf(1, Claim::right), stepOf(1, Claim::wrong),
+               stepOf(2, Claim::wrong), stepOf(3, Claim::none),  stepOf(5, Claim::right)};
+  run.kidnapped_at = 2;
+  judgeRun(run);
+  EXPECT_EQ(run.noticed_after, 2.0);
+  EXPECT_EQ(run.settled_after, 4.0) << "counted from the kidnapping";
+}
+
+TrackOptions officeOptions()
+{
+  const std::filesystem::path source = SIGLOC_SOURCE_DIR;
+  TrackOptions options;
+  options.map = source / "maps" / "office.simplemap";
+  options.rawlog = source / "rawlogs" / "office.rawlog";
+  options.ground_truth = source / "rawlogs" / "office-truth.txt";
+  options.starts = 3;
+  options.travel = 2;
+  options.methods = {"signature", "mcl"};
+  return options;
+}
+
+TEST(Track, GivesTheSameStepsOnOneAndTwoThreads)
+{
+  TrackOptions options = officeOptions();
+  const TrackReport one = runTrack(options);
+  options.threads = 2;
+  const TrackReport two = runTrack(options);
+  ASSERT_EQ(one.methods.size(), 2U);
+  for (std::size_t m = 0; m < one.methods.size(); ++m)
+  {
+    for (std::size_t r = 0; r < one.methods[m].runs.size(); ++r)
+    {
+      const auto& a = one.methods[m].runs[r].steps;
+      const auto& b = two.methods[m].runs[r].steps;
+      ASSERT_EQ(a.size(), b.size());
+      ASSERT_FALSE(a.empty());
+      for (std::size_t i = 0; i < a.size(); ++i)
+      {
+        EXPECT_EQ(a[i].claim.pose, b[i].claim.pose);
+        EXPECT_EQ(a[i].claim.confident, b[i].claim.confident);
+      }
+    }
+  }
+}
+
+TEST(Track, FindsTheRobotOfTheOffice)
+{
+  TrackOptions options = officeOptions();
+  options.methods = {"signature"};
+  options.kidnap = true;
+  options.travel = 5;
+  const TrackReport report = runTrack(options);
+  for (const TrackRun& run : report.methods.front().runs)
+  {
+    EXPECT_TRUE(run.right_at_end) << "woken up at step " << run.start;
+    EXPECT_TRUE(run.noticed_after.has_value());
+  }
+}
+
+TEST(Track, RefusesALogThatIsTooShort)
+{
+  TrackOptions options = officeOptions();
+  options.travel = 1e6;
+  EXPECT_THROW(runTrack(options), std::runtime_error);
+  options.starts = 0;
+  EXPECT_THROW(runTrack(options), std::invalid_argument);
+}
+}  // namespace
+}  // namespace sigloc
