@@ -22,9 +22,11 @@ using mrpt::maps::COccupancyGridMap2D;
 namespace
 {
 // A cell of MRPT's grid holds the probability of being free; never seen is 0.5. One look of a
-// default sensor model moves it to 0.65 or 0.35.
+// default sensor model moves it to 0.65 or 0.35: a single hit already is structure, but only a cell
+// hit again and again stops a beam.
 constexpr float kFreeFrom = 0.6F;
-constexpr float kWallBelow = 0.36F;
+constexpr float kWallBelow = 0.45F;
+constexpr float kSolidWallBelow = 0.3F;
 
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& reason)
 {
@@ -33,7 +35,8 @@ constexpr float kWallBelow = 0.36F;
 
 CellState stateOf(float free_probability)
 {
-  if (free_probability < kWallBelow) return CellState::solid_wall;
+  if (free_probability < kSolidWallBelow) return CellState::solid_wall;
+  if (free_probability < kWallBelow) return CellState::wall;
   return free_probability >= kFreeFrom ? CellState::free : CellState::unknown;
 }
 

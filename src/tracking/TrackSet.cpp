@@ -1,0 +1,197 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TrackSet.h"
+
+#include <mrpt/math/wrap2pi.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sigloc/geometry/pose_fusion.h"
+#include "sigloc/matching/weighing.h"
+
+namespace sigloc
+{
+using mrpt::math::TPose2D;
+using mrpt::math::wrapToPi;
+
+namespace
+{
+constexpr int kUpdateSteps = 6;
+constexpr double kUpdateGate = 16.27;  // chi-square, 3 degrees of freedom, 99.9 %
+constexpr double kSameDistance = 0.5;  // [m], a proposal this near to a track confirms it
+constexpr double kSameAngle = 17.0 * M_PI / 180.0;
+constexpr double kMergeDistance = 0.3;  // [m]
+constexpr double kMergeAngle = 10.0 * M_PI / 180.0;
+constexpr double kMaxRelative = 3.0;  // log-odds one unit of travel can tell at most
+constexpr double kMaxLost = 3.0;
+constexpr double kScoreMemory = 0.9;  // of the running mean of the score, per step
+constexpr double kCorrelation = 4.0;  // scans of neighbouring steps share their errors
+constexpr double kMinSigma = 0.005;  // [m], floor of a step's motion
+constexpr double kMinTurnSigma = 0.002;  // [rad]
+
+bool coincide(const TPose2D& a, const TPose2D& b, double distance, double angle)
+{
+  return std::hypot(a.x - b.x, a.y - b.y) <= distance && std::abs(wrapToPi(a.phi - b.phi)) <= angle;
+}
+
+bool heavier(const Track& a, const Track& b)
+{
+  if (a.hypothesis.weight != b.hypothesis.weight) return a.hypothesis.weight > b.hypothesis.weight;
+  return a.hypothesis.id < b.hypothesis.id;
+}
+}  // namespace
+
+double TrackSet::predict(const std::optional<MotionIncrement>& motion)
+{
+  MotionIncrement increment;
+  if (motion)
+  {
+    increment = *motion;
+    increment.covariance(0, 0) += kMinSigma * kMinSigma;
+    increment.covariance(1, 1) += kMinSigma * kMinSigma;
+    increment.covariance(2, 2) += kMinTurnSigma * kMinTurnSigma;
+  }
+  else
+  {
+    increment.covariance(0, 0) = options_.free_motion_sigma * options_.free_motion_sigma;
+    increment.covariance(1, 1) = increment.covariance(0, 0);
+    increment.covariance(2, 2) = options_.free_turn_sigma * options_.free_turn_sigma;
+  }
+  const double turn_as_travel =
+      std::abs(increment.mean.phi) * options_.evidence_distance / options_.evidence_turn;
+  const double travel = motion ? std::hypot(increment.mean.x, increment.mean.y) + turn_as_travel
+                               : options_.lost_distance;
+  for (Track& track : tracks)
+  {
+    track.hypothesis.pose = composeWithMotion(track.hypothesis.pose, increment);
+    ++track.hypothesis.age;
+  }
+  return travel;
+}
+
+void TrackSet::update(const DenseScan& scan, const DenseVerifier& verifier)
+{
+  for (Track& track : tracks) updatePose(track, scan, verifier);
+}
+
+/// The returns' own estimate near the predicted pose, fused with the prediction. A refinement that
+/// the prediction excludes is taken only when it explains the scan clearly better: odometry slips.
+void TrackSet::updatePose(Track& track, const DenseScan& scan, const DenseVerifier& verifier) const
+{
+  constexpr double kClearlyBetter = 0.15;  // of the score
+  GaussianPose& pose = track.hypothesis.pose;
+  const double predicted_score = verifier.evaluate(scan, pose.mean).score;
+  GaussianPose measured;
+  measured.mean = verifier.refine(scan, pose.mean, kUpdateSteps, scan.size());
+  measured.covariance = verifier.covarianceAt(scan, measured.mean, 0.0);
+  for (int r = 0; r < 3; ++r)
+  {
+    for (int c = 0; c < 3; ++c) measured.covariance(r, c) *= kCorrelation;
+  }
+  const double measured_score = verifier.evaluate(scan, measured.mean).score;
+  if (squaredMahalanobisDistance(pose, measured) < kUpdateGate)
+  {
+    pose = fusePoses(pose, measured);
+    track.score = std::max(predicted_score, measured_score);
+  }
+  else if (measured_score > predicted_score + kClearlyBetter)
+  {
+    pose = measured;
+    track.score = measured_score;
+  }
+  else
+  {
+    track.score = predicted_score;
+  }
+}
+
+/// Rivals are weighed against each other by how well each explains the scan, per distance driven:
+/// the errors of map and scan stay the same for a stretch. Against "somewhere else" the best of
+/// them is weighed by its score alone, and sooner.
+void TrackSet::weigh(double travel)
+{
+  if (tracks.empty()) return;
+  const double best_score =
+      std::max_element(tracks.begin(), tracks.end(),
+                       [](const Track& a, const Track& b) { return a.score < b.score; })
+          ->score;
+  const double best = logLikelihoodOfScore(best_score);
+  const double between = std::min(1.0, travel / options_.evidence_distance);
+  for (Track& track : tracks)
+  {
+    const double behind = std::max(logLikelihoodOfScore(track.score) - best, -kMaxRelative);
+    track.hypothesis.weight *= std::exp(between * behind);
+  }
+  const double lost = std::min(1.0, travel / options_.lost_distance);
+  const double for_lost =
+      std::clamp(logLikelihoodOfScore(options_.lost_score) - best, -kMaxLost, kMaxLost);
+  elsewhere *= std::exp(lost * for_lost);
+  normalise();
+}
+
+void TrackSet::normalise()
+{
+  double sum = elsewhere;
+  for (const Track& track : tracks) sum += track.hypothesis.weight;
+  for (Track& track : tracks) track.hypothesis.weight /= sum;
+  elsewhere /= sum;
+}
+
+Track* TrackSet::trackAt(const TPose2D& pose)
+{
+  for (Track& track : tracks)
+  {
+    if (coincide(track.hypothesis.pose.mean, pose, kSameDistance, kSameAngle)) return &track;
+  }
+  return nullptr;
+}
+
+void TrackSet::mergeAndPrune()
+{
+  std::sort(tracks.begin(), tracks.end(), heavier);
+  std::vector<Track> kept;
+  for (const Track& track : tracks)
+  {
+    const auto same =
+        std::find_if(kept.begin(), kept.end(),
+                     [&](const Track& other)
+                     {
+                       return coincide(other.hypothesis.pose.mean, track.hypothesis.pose.mean,
+                                       kMergeDistance, kMergeAngle);
+                     });
+    if (same != kept.end())
+    {
+      TrackedHypothesis& into = same->hypothesis;
+      into.pose =
+          mergeByMoments(into.pose, into.weight, track.hypothesis.pose, track.hypothesis.weight);
+      into.weight += track.hypothesis.weight;
+      into.id = std::min(into.id, track.hypothesis.id);
+      same->confirmed = std::max(same->confirmed, track.confirmed);
+      into.age = std::max(into.age, track.hypothesis.age);
+    }
+    else if (kept.size() < options_.max_hypotheses &&
+             track.hypothesis.weight >= options_.prune_weight)
+    {
+      kept.push_back(track);
+    }
+  }
+  tracks = std::move(kept);
+  std::sort(tracks.begin(), tracks.end(), heavier);
+  double here = 0;
+  for (Track& track : tracks)
+  {
+    here += track.hypothesis.weight;
+    track.mean_score = kScoreMemory * track.mean_score + (1 - kScoreMemory) * track.score;
+  }
+  // What was given up went elsewhere, and elsewhere keeps its floor.
+  const double keep = std::min(here, 1.0 - options_.min_elsewhere);
+  for (Track& track : tracks) track.hypothesis.weight *= here > 0 ? keep / here : 0;
+  elsewhere = 1.0 - (here > 0 ? keep : 0);
+}
+
+const Track& TrackSet::heaviest() const
+{
+  return *std::min_element(tracks.begin(), tracks.end(), heavier);
+}
+}  // namespace sigloc

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "sigloc/geometry/GaussianPose.h"
+#include "sigloc/matching/DenseVerifier.h"
+#include "sigloc/tracking/Belief.h"
+#include "sigloc/tracking/HypothesisTracker.h"
+
+namespace sigloc
+{
+/// A hypothesis with what the tracker remembers of it.
+struct Track
+{
+  TrackedHypothesis hypothesis;
+  double score = 0;  // of the last scan
+  double mean_score = 0;  // running mean
+  double confirmed = 0;  // log-odds that relocations, each blind to the track, have given it
+};
+
+/// The hypotheses that are followed and the weight of "somewhere else"; all weights sum to one.
+/// Each method is one step of \cite algorithm section 8.
+class TrackSet
+{
+ public:
+  explicit TrackSet(const TrackerOptions& options) : options_(options) {}
+
+  /// Moves every track by the odometry; returns the travel [m], turns included.
+  double predict(const std::optional<MotionIncrement>& motion);
+
+  /// Refines every track by the returns and scores it.
+  void update(const DenseScan& scan, const DenseVerifier& verifier);
+
+  /// Weighs rivals against each other and the best of them against "somewhere else".
+  void weigh(double travel);
+
+  /// Scales all weights so that they sum to one.
+  void normalise();
+
+  /// Joins tracks that have met, gives up the light ones, sorts by weight.
+  void mergeAndPrune();
+
+  /// The track that holds a pose, or null.
+  Track* trackAt(const mrpt::math::TPose2D& pose);
+
+  /// The heaviest track. Must not be called on an empty set.
+  const Track& heaviest() const;
+
+  std::vector<Track> tracks;
+  double elsewhere = 1;
+
+ private:
+  void updatePose(Track& track, const DenseScan& scan, const DenseVerifier& verifier) const;
+
+  TrackerOptions options_;
+};
+}  // namespace sigloc
