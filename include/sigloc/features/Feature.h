@@ -31,16 +31,16 @@ enum class WallSide : std::uint8_t
 /// One geometric feature, observed (robot frame) or mapped (map frame).
 ///
 /// All types share one layout, an oriented place with covariance, so that constraints between any
-/// two of them read the same way:
+/// two of them read the same way.
 ///
-/// | type     | position [m]     | direction [rad]                  | size                     |
-/// |----------|------------------|----------------------------------|--------------------------|
-/// | point    | the point        | unused (0)                       | unused (0)               |
-/// | segment  | mid-point        | normal, into the free space      | length [m]               |
-/// | circle   | centre           | towards the middle of the arc    | radius [m]               |
-/// | corner   | vertex           | bisector, into the free space    | opening of free space [rad]
-/// in (0, 2 pi) | | wall end | the end          | from the end along the wall      | length of the
-/// wall [m]   |
+/// What position [m], direction [rad] and size mean for each type:
+///
+/// * point: the point; direction and size are unused (0)
+/// * segment: its mid-point; the normal, into the free space; the length [m]
+/// * circle: the centre; from there towards the middle of the seen arc; the radius [m]
+/// * corner: the vertex; the bisector, into the free space; the opening of the free space [rad],
+///   in (0, 2 pi)
+/// * wall end: the end; from the end along the wall; the length of the wall [m]
 ///
 /// A segment runs along its tangent = normal - pi/2 from `start` to `end`: the free space lies on
 /// its left, and a scanner in that free space with counter-clockwise beams sees `start` first.
