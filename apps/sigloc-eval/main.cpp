@@ -21,6 +21,10 @@ struct Command
 
 constexpr std::array kCommands = {
     Command{"relocate", "find robots from one look each, method by method", sigloc::setUpRelocate},
+    Command{"scale", "cost of the feature modes against the size of map and scene",
+            sigloc::setUpScale},
+    Command{"landmarks", "relocation from landmarks alone, with local maps",
+            sigloc::setUpLandmarks},
     Command{"track", "wake up lost and drive on, method by method", sigloc::setUpTrack},
 };
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sigloc/matching/FeatureVerifier.h"
 
+#include "sigloc/matching/missed_features.h"
 #include "sigloc/signature/location_constraint.h"
 #include "sigloc/signature/unary_constraint.h"
 
@@ -310,6 +311,8 @@ double FeatureVerifier::logOdds(const PreparedScene& scene, const PoseEstimate& 
            density(placeMeasurement(pose, observed, mapped, scene.relative_sigma));
     if (hasBearing(observed.type())) sum += density(directionMeasurement(pose, observed, mapped));
   }
+  sum += static_cast<double>(countMissed(scene, *map_, pose, workspace.pairings)) *
+         std::log1p(-options_.detection_probability);
   return sum;
 }
 

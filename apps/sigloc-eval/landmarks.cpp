@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sigloc/eval/landmarks.h"
+
+#include <iostream>
+
+#include "commands.h"
+
+namespace sigloc
+{
+namespace
+{
+struct LandmarksFlags
+{
+  CommonOptions common;
+  LandmarksOptions options;
+  std::string map_part = "first-half";
+
+  int run(const std::string& command_line)
+  {
+    if (!common.methods.empty()) options.methods = common.methods;
+    options.first_half_map = map_part == "first-half";
+    options.max_queries = common.max_queries;
+    options.seed = common.seed;
+    options.command = command_line;
+    if (!common.quiet)
+    {
+      options.progress = [](const std::string& line) { std::cerr << line << "\n"; };
+    }
+    const LandmarksReport report = runLandmarks(options);
+    writeLandmarksReport(report, common.out);
+    if (!common.quiet) std::cout << landmarksTable(report);
+    return 0;
+  }
+};
+}  // namespace
+
+std::function<int()> setUpLandmarks(CLI::App& command, const std::string& command_line)
+{
+  const auto flags = std::make_shared<LandmarksFlags>();
+  LandmarksOptions& options = flags->options;
+  command.add_option("--dataset", options.dataset, "which data set PATH holds")
+      ->check(CLI::IsMember({"dlr", "victoria-park"}))
+      ->required();
+  command.add_option("PATH", options.path, "folder of the data set")->required();
+  command
+      .add_option("--local-map-steps", options.local_map_steps,
+                  "dlr: steps a local map holds, one row each")
+      ->delimiter(',');
+  command.add_option("--map-part", flags->map_part, "dlr: map of the first half, or as given")
+      ->check(CLI::IsMember({"first-half", "given"}));
+  command.add_option("--max-travel", options.max_travel, "m, longest local map")
+      ->check(CLI::PositiveNumber);
+  command.add_option("--stride", options.query_stride, "every so many steps is a query")
+      ->check(CLI::PositiveNumber);
+  flags->common.declare(command);
+  return [flags, command_line] { return flags->run(command_line); };
+}
+}  // namespace sigloc

@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sigloc/eval/scale.h"
+
+#include <iostream>
+
+#include "commands.h"
+
+namespace sigloc
+{
+namespace
+{
+struct ScaleFlags
+{
+  CommonOptions common;
+  ScaleOptions options;
+
+  int run(const std::string& command_line)
+  {
+    if (!common.methods.empty()) options.methods = common.methods;
+    options.seed = common.seed;
+    options.generator.seed = common.seed;
+    options.command = command_line;
+    if (!common.quiet)
+    {
+      options.progress = [](const std::string& line) { std::cerr << line << "\n"; };
+    }
+    const ScaleReport report = runScale(options);
+    writeScaleReport(report, common.out);
+    if (!common.quiet) std::cout << scaleTable(report);
+    return 0;
+  }
+};
+}  // namespace
+
+std::function<int()> setUpScale(CLI::App& command, const std::string& command_line)
+{
+  const auto flags = std::make_shared<ScaleFlags>();
+  ScaleOptions& options = flags->options;
+  command.add_option("--map-features", options.map_features, "map sizes")->delimiter(',');
+  command
+      .add_option("--observed", options.observed,
+                  "counts that the observed features are thinned to, in the first map")
+      ->delimiter(',');
+  command.add_option("--density", options.world.density, "features per m^2")
+      ->check(CLI::PositiveNumber);
+  command.add_option("--range", options.world.range, "m, within which features are seen")
+      ->check(CLI::PositiveNumber);
+  command.add_option("--noise", options.world.observation_sigma, "m, of the observations")
+      ->check(CLI::NonNegativeNumber);
+  command.add_option("--spurious", options.world.spurious, "share of the observed features")
+      ->check(CLI::Range(0.0, 0.95));
+  command.add_option("--poses", options.poses, "poses a row")->check(CLI::PositiveNumber);
+  command
+      .add_option("--slow-poses", options.slow_poses, "poses a row of methods linear in the map")
+      ->check(CLI::PositiveNumber);
+  command.add_option("--slow-limit", options.slow_limit, "largest map for those");
+  flags->common.declare(command);
+  return [flags, command_line] { return flags->run(command_line); };
+}
+}  // namespace sigloc

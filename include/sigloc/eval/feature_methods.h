@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "sigloc/map/FeatureMap.h"
+#include "sigloc/matching/FeatureHypothesis.h"
+#include "sigloc/matching/GeneratorOptions.h"
+
+namespace sigloc
+{
+/// Returns the feature-only method of a name: "signature" (the default mode), "signature-plain",
+/// "-anchors", "-pairs", "-patterns", or "jcbb". The map must outlive it.
+/// Throws std::invalid_argument for another name.
+std::unique_ptr<FeatureHypothesisGenerator> makeFeatureMethod(const std::string& name,
+                                                              const FeatureMap& map,
+                                                              const GeneratorOptions& options);
+
+/// True for methods whose cost is linear in the map by a large constant.
+bool isLinearMethod(const std::string& name);
+}  // namespace sigloc

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mrpt/math/TPose2D.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "sigloc/features/Feature.h"
+#include "sigloc/geometry/GaussianPose.h"
+#include "sigloc/signature/MapErrorModel.h"
+
+namespace sigloc
+{
+/// One step of a landmark log: the motion since the step before, what was seen after it, and, for
+/// scoring and map making only, the true pose and identities.
+struct LandmarkStep
+{
+  MotionIncrement motion;
+  std::vector<Feature> observed;  ///< robot frame
+  std::vector<int> identities;  ///< of `observed`, -1 for none; empty where the log has none
+  mrpt::math::TPose2D truth;  ///< map_from_robot
+};
+
+struct LandmarkData
+{
+  std::vector<LandmarkStep> steps;
+  std::vector<Feature> map;  ///< the given map
+  MapErrorModel map_error;
+  std::vector<std::filesystem::path> files;
+};
+
+/// The DLR building (discs seen by a camera) from its folder.
+/// Throws std::runtime_error ("path: reason").
+LandmarkData readDlr(const std::filesystem::path& folder);
+
+/// Victoria Park (trees as circles, taken from the raw scans) from its folder.
+/// Throws std::runtime_error ("path: reason").
+LandmarkData readVictoriaPark(const std::filesystem::path& folder);
+
+/// The map of what steps [0, count) saw, by true poses and identities: features seen twice or more.
+std::vector<Feature> mapFromSteps(const LandmarkData& data, std::size_t count);
+}  // namespace sigloc

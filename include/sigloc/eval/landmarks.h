@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "sigloc/eval/landmark_data.h"
+#include "sigloc/eval/provenance.h"
+#include "sigloc/eval/relocation_scoring.h"
+#include "sigloc/matching/GeneratorOptions.h"
+
+namespace sigloc
+{
+/// Protocol "landmarks": relocation from landmarks alone, with local maps gathered over odometry.
+struct LandmarksOptions
+{
+  std::string dataset = "dlr";  ///< or "victoria-park"
+  std::filesystem::path path;
+  /// DLR: how many steps a local map holds, one table row each. Victoria Park: ignored, a local map
+  /// grows until the answer is firm or `max_travel` is reached.
+  std::vector<std::size_t> local_map_steps{1, 10, 20};
+  bool first_half_map = true;  ///< DLR: map of the first half of the path, else the given map
+  double max_travel = 20;  ///< [m]
+  /// DLR: a query is a later visit when more than this share of the discs around was mapped.
+  double visited_share = 0.5;
+  std::size_t query_stride = 10;  ///< every so many steps is a query
+  std::size_t max_queries = 0;  ///< 0: all
+  std::vector<std::string> methods{"signature"};
+  GeneratorOptions generator;
+  std::uint64_t seed = 1;
+  std::string command;
+  std::function<void(const std::string&)> progress;  ///< called with one line a row
+};
+
+struct LandmarkRecord
+{
+  std::string method;
+  std::size_t local_map_steps = 0;  ///< asked for; 0: as many as needed
+  std::size_t step = 0;
+  std::size_t features = 0;
+  double travelled = 0;  ///< [m], of the local map
+  bool answered = false;
+  bool firm = false;  ///< significant, and far ahead of the second
+  PoseError error;
+  bool right = false;
+  double time_ms = 0;
+};
+
+struct LandmarksRow
+{
+  std::string method;
+  std::size_t local_map_steps = 0;
+  double features = 0;  ///< mean number in a query
+  Proportion right;
+  Proportion firm;
+  Proportion firm_and_wrong;
+  Quantiles travelled;
+  Quantiles time_ms;
+};
+
+struct LandmarksReport
+{
+  std::string dataset;
+  std::size_t map_features = 0;
+  std::vector<LandmarkRecord> records;
+  std::vector<LandmarksRow> rows;
+  Provenance provenance;
+};
+
+/// Throws std::invalid_argument for an unknown data set or method, std::runtime_error
+/// ("path: reason") for its files.
+LandmarksReport runLandmarks(const LandmarksOptions& options);
+
+std::string landmarksTable(const LandmarksReport& report);
+
+/// Writes summary.json, results.csv and report.md.
+void writeLandmarksReport(const LandmarksReport& report, const std::filesystem::path& folder);
+}  // namespace sigloc

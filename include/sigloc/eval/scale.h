@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "sigloc/eval/FeatureWorld.h"
+#include "sigloc/eval/provenance.h"
+#include "sigloc/eval/relocation_scoring.h"
+#include "sigloc/matching/GeneratorOptions.h"
+
+namespace sigloc
+{
+/// Protocol "growth": cost of the feature modes against the size of the map and of the scene, in
+/// simulated worlds of bare features.
+struct ScaleOptions
+{
+  std::vector<std::size_t> map_features{1000, 4000, 16000};
+  std::vector<std::size_t> observed;  ///< thinned to these counts, in the first map
+  std::vector<std::string> methods{"signature-patterns", "signature-anchors"};
+  FeatureWorldOptions world;
+  GeneratorOptions generator;
+  std::size_t poses = 200;
+  std::size_t slow_poses = 20;  ///< for methods that are linear in the map
+  std::size_t slow_limit = 16000;  ///< largest map that those are run in
+  std::uint64_t seed = 1;
+  double right_distance = 0.3;  ///< [m]
+  double right_angle = 0.06;  ///< [rad]
+  std::string command;
+  std::function<void(const std::string&)> progress;  ///< called with one line a row
+};
+
+/// One method in one map, over all poses.
+struct ScaleRow
+{
+  std::string method;
+  std::size_t map_features = 0;
+  std::size_t wanted = 0;  ///< observed features asked for; 0: all that are visible
+  double observed = 0;  ///< mean number of observed features
+  Proportion success;
+  Quantiles time_ms;
+  double signature_pairs = 0;  ///< means over the poses
+  double hypotheses = 0;
+  double checks = 0;
+  double build_seconds = 0;
+  double bytes_per_feature = 0;  ///< growth of the process while map and index were built
+
+  double operations() const { return signature_pairs + hypotheses + checks; }
+};
+
+/// Slope of log y over log x with its 95 % interval (normal errors).
+struct FittedExponent
+{
+  double slope = 0;
+  double low = 0;
+  double high = 0;
+};
+FittedExponent fitExponent(const std::vector<std::pair<double, double>>& points);
+
+struct ScaleReport
+{
+  std::vector<ScaleRow> rows;
+  Provenance provenance;
+};
+
+/// Throws std::invalid_argument for an unknown method or empty lists.
+ScaleReport runScale(const ScaleOptions& options);
+
+/// The rows and the fitted exponents as Markdown tables.
+std::string scaleTable(const ScaleReport& report);
+
+/// Writes summary.json, results.csv, report.md and the plots.
+void writeScaleReport(const ScaleReport& report, const std::filesystem::path& folder);
+}  // namespace sigloc

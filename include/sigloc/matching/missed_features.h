@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "sigloc/geometry/PoseEstimate.h"
+#include "sigloc/matching/FeatureHypothesis.h"
+#include "sigloc/matching/PreparedScene.h"
+
+namespace sigloc
+{
+/// Negative information without beams: returns how many mapped places lie well inside the convex
+/// hull of the paired places, as seen from the pose, and are of a type that was seen, but are not
+/// paired themselves. What lies between things that were seen should have been seen.
+/// \cite algorithm eq. (27)
+std::size_t countMissed(const PreparedScene& scene, const PreparedMap& map,
+                        const PoseEstimate& pose, const std::vector<FeaturePairing>& pairings);
+}  // namespace sigloc

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sigloc/eval/feature_methods.h"
+
+#include <stdexcept>
+
+#include "sigloc/eval/JcbbRelocation.h"
+#include "sigloc/matching/generators.h"
+
+namespace sigloc
+{
+std::unique_ptr<FeatureHypothesisGenerator> makeFeatureMethod(const std::string& name,
+                                                              const FeatureMap& map,
+                                                              const GeneratorOptions& options)
+{
+  if (name == "signature") return makeGenerator(GenerationMode::automatic, map, options);
+  if (name == "signature-plain") return makeGenerator(GenerationMode::plain, map, options);
+  if (name == "signature-anchors") return makeGenerator(GenerationMode::anchors, map, options);
+  if (name == "signature-pairs") return makeGenerator(GenerationMode::pairs, map, options);
+  if (name == "signature-patterns") return makeGenerator(GenerationMode::patterns, map, options);
+  if (name == "jcbb") return std::make_unique<JcbbRelocation>(map, options);
+  throw std::invalid_argument("unknown method '" + name +
+                              "': signature, signature-plain, signature-anchors, signature-pairs, "
+                              "signature-patterns, jcbb");
+}
+
+bool isLinearMethod(const std::string& name)
+{
+  return name != "signature" && name != "signature-patterns";
+}
+}  // namespace sigloc

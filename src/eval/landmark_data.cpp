@@ -1,0 +1,256 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sigloc/eval/landmark_data.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+
+#include "sigloc/features/FeatureExtractor.h"
+#include "sigloc/geometry/symmetric_matrix.h"
+
+namespace sigloc
+{
+namespace
+{
+using Row = std::vector<double>;
+
+std::ifstream opened(const std::filesystem::path& path)
+{
+  std::ifstream in(path);
+  if (!in) throw std::runtime_error(path.string() + ": cannot be opened");
+  return in;
+}
+
+/// Rows of comma-separated numbers; lines that start with '#' are skipped.
+std::vector<Row> readCsv(const std::filesystem::path& path, std::size_t columns)
+{
+  std::ifstream in = opened(path);
+  std::vector<Row> rows;
+  std::string line;
+  while (std::getline(in, line))
+  {
+    if (line.empty() || line[0] == '#') continue;
+    Row row;
+    std::stringstream cells(line);
+    std::string cell;
+    try
+    {
+      while (std::getline(cells, cell, ',')) row.push_back(std::stod(cell));
+    }
+    catch (const std::exception&)
+    {
+      throw std::runtime_error(path.string() + ": bad number '" + cell + "'");
+    }
+    if (row.size() < columns) throw std::runtime_error(path.string() + ": too few columns");
+    rows.push_back(std::move(row));
+  }
+  if (rows.empty()) throw std::runtime_error(path.string() + ": holds no rows");
+  return rows;
+}
+
+Feature placeAt(FeatureType type, double x, double y, double xx, double xy, double yy)
+{
+  Feature feature;
+  feature.type = type;
+  feature.position = {x, y};
+  feature.position_covariance(0, 0) = xx;
+  feature.position_covariance(0, 1) = feature.position_covariance(1, 0) = xy;
+  feature.position_covariance(1, 1) = yy;
+  return feature;
+}
+
+/// x, y, phi, Pxx, Pxy, Pxphi, Pyy, Pyphi, Pphiphi.
+MotionIncrement motionOf(const Row& row)
+{
+  return {{row[0], row[1], row[2]}, toMatrix({row[3], row[4], row[5], row[6], row[7], row[8]})};
+}
+
+/// The relative part of a map's full covariance: standard deviation of the distance between two
+/// features against that distance, a straight line through near and far pairs.
+MapErrorModel relativeError(const std::vector<Feature>& map, const std::vector<Row>& covariance)
+{
+  constexpr double kNear = 40;  // [m], pairs that are seen together
+  double n = 0;
+  double sx = 0;
+  double sy = 0;
+  double sxx = 0;
+  double sxy = 0;
+  for (std::size_t k = 0; k < map.size(); ++k)
+  {
+    for (std::size_t l = 0; l < k; ++l)
+    {
+      const auto between = map[l].position - map[k].position;
+      const double distance = between.norm();
+      if (distance > kNear || distance < 1e-6) continue;
+      const double unit[2] = {between.x / distance, between.y / distance};
+      double variance = 0;
+      for (std::size_t a = 0; a < 2; ++a)
+      {
+        for (std::size_t b = 0; b < 2; ++b)
+        {
+          const double relative =
+              covariance[2 * k + a][2 * k + b] + covariance[2 * l + a][2 * l + b] -
+              covariance[2 * k + a][2 * l + b] - covariance[2 * l + a][2 * k + b];
+          variance += unit[a] * unit[b] * relative;
+        }
+      }
+      const double sigma = std::sqrt(std::max(0.0, variance));
+      n += 1;
+      sx += distance;
+      sy += sigma;
+      sxx += distance * distance;
+      sxy += distance * sigma;
+    }
+  }
+  MapErrorModel error;
+  if (n < 2) return error;
+  error.relative_slope = std::max(0.0, (n * sxy - sx * sy) / (n * sxx - sx * sx));
+  error.relative_constant = std::max(0.01, (sy - error.relative_slope * sx) / n);
+  return error;
+}
+}  // namespace
+
+LandmarkData readDlr(const std::filesystem::path& folder)
+{
+  LandmarkData data;
+  data.files = {folder / "map.circles", folder / "dlr_ls_poses.csv",
+                folder / "dlr_ls_landmarks.csv"};
+  std::ifstream in = opened(data.files[0]);
+  std::string line;
+  while (std::getline(in, line))
+  {
+    std::stringstream cells(line);
+    std::string key;
+    cells >> key;
+    if (key == "STEP")
+    {
+      std::string image;
+      double x, y, phi, xx, xy, yy, xt, yt, tt;
+      if (!(cells >> image >> x >> y >> phi >> xx >> xy >> yy >> xt >> yt >> tt))
+      {
+        throw std::runtime_error(data.files[0].string() + ": bad line '" + line + "'");
+      }
+      LandmarkStep step;
+      step.motion = {{x, y, phi}, toMatrix({xx, xy, xt, yy, yt, tt})};
+      data.steps.push_back(std::move(step));
+    }
+    else if (key == "LANDMARK_C" && !data.steps.empty())
+    {
+      double x, y, quality, xx, xy, yy;
+      int identity = -1;
+      if (!(cells >> x >> y >> quality >> xx >> xy >> yy))
+      {
+        throw std::runtime_error(data.files[0].string() + ": bad line '" + line + "'");
+      }
+      cells >> identity;
+      data.steps.back().observed.push_back(placeAt(FeatureType::point, x, y, xx, xy, yy));
+      data.steps.back().identities.push_back(identity);
+    }
+  }
+  const std::vector<Row> poses = readCsv(data.files[1], 4);
+  // Pose k + 1 is the one after step k.
+  data.steps.resize(std::min(data.steps.size(), poses.size()));
+  for (std::size_t k = 0; k < data.steps.size(); ++k)
+  {
+    data.steps[k].truth = {poses[k][1], poses[k][2], poses[k][3]};
+  }
+  constexpr double kFit = 0.069;  // [m], RMS of the map against the observations
+  for (const Row& row : readCsv(data.files[2], 3))
+  {
+    data.map.push_back(
+        placeAt(FeatureType::point, row[1], row[2], 0.25 * kFit * kFit, 0, 0.25 * kFit * kFit));
+  }
+  return data;
+}
+
+LandmarkData readVictoriaPark(const std::filesystem::path& folder)
+{
+  LandmarkData data;
+  data.files = {folder / "map_trees.csv", folder / "map_P_290x290.csv", folder / "scans_361_cm.csv",
+                folder / "vehicle_ground.csv", folder / "vehicle_motion.csv"};
+  constexpr double kSurvey = 0.03;  // [m], of a tree beside its neighbours
+  for (const Row& row : readCsv(data.files[0], 5))
+  {
+    Feature tree =
+        placeAt(FeatureType::circle, row[1], row[2], kSurvey * kSurvey, 0, kSurvey * kSurvey);
+    tree.size = row[3];
+    tree.size_variance = row[4];
+    data.map.push_back(tree);
+  }
+  data.map_error = relativeError(data.map, readCsv(data.files[1], 2 * data.map.size()));
+
+  constexpr std::size_t kBeams = 361;
+  const std::vector<Row> scans = readCsv(data.files[2], kBeams);
+  const std::vector<Row> truth = readCsv(data.files[3], 3);
+  const std::vector<Row> motion = readCsv(data.files[4], 9);
+  const std::size_t count = std::min({scans.size(), truth.size(), motion.size()});
+  for (std::size_t k = 0; k < count; ++k)
+  {
+    LaserScan scan;
+    scan.first_angle = -0.5 * M_PI;
+    scan.angle_step = M_PI / 360;
+    scan.range_sigma = 0.02;
+    scan.max_range = 100;
+    for (std::size_t beam = 0; beam < kBeams; ++beam)
+    {
+      // The log writes 8187 and 8191 for no return. In the open that means free sight, and a trunk
+      // is told from what stands in front of something by having farther returns on both sides.
+      constexpr double kFreeSight = 80;  // [m]
+      const double range = std::min(0.01 * scans[k][beam], kFreeSight);
+      scan.ranges.push_back(static_cast<float>(range));
+      scan.valid.push_back(range > 0 ? 1 : 0);
+    }
+    LandmarkStep step;
+    step.motion = motionOf(motion[k]);
+    step.truth = {truth[k][0], truth[k][1], truth[k][2]};
+    for (const Feature& feature : observeScene({scan}).features)
+    {
+      if (feature.type == FeatureType::circle) step.observed.push_back(feature);
+    }
+    data.steps.push_back(std::move(step));
+  }
+  return data;
+}
+
+std::vector<Feature> mapFromSteps(const LandmarkData& data, std::size_t count)
+{
+  struct Sum
+  {
+    mrpt::math::TPoint2D position{0, 0};
+    Symmetric2 covariance;
+    std::uint32_t sightings = 0;
+  };
+  std::map<int, Sum> sums;
+  for (std::size_t k = 0; k < std::min(count, data.steps.size()); ++k)
+  {
+    const LandmarkStep& step = data.steps[k];
+    for (std::size_t o = 0; o < step.identities.size(); ++o)
+    {
+      if (step.identities[o] < 0) continue;
+      const Feature seen = transformed(step.truth, step.observed[o]);
+      Sum& sum = sums[step.identities[o]];
+      sum.position = sum.position + seen.position;
+      sum.covariance.xx += seen.position_covariance(0, 0);
+      sum.covariance.xy += seen.position_covariance(0, 1);
+      sum.covariance.yy += seen.position_covariance(1, 1);
+      ++sum.sightings;
+    }
+  }
+  std::vector<Feature> map;
+  for (const auto& [identity, sum] : sums)
+  {
+    if (sum.sightings < 2) continue;
+    const double share = 1.0 / sum.sightings;
+    Feature feature = placeAt(FeatureType::point, sum.position.x * share, sum.position.y * share,
+                              sum.covariance.xx * share * share, sum.covariance.xy * share * share,
+                              sum.covariance.yy * share * share);
+    feature.sightings = sum.sightings;
+    map.push_back(feature);
+  }
+  return map;
+}
+}  // namespace sigloc

@@ -1,0 +1,290 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sigloc/eval/landmarks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+
+#include "sigloc/eval/cpu_time.h"
+#include "sigloc/eval/feature_methods.h"
+#include "sigloc/eval/report_files.h"
+#include "sigloc/features/LocalMap.h"
+
+namespace sigloc
+{
+namespace
+{
+/// What counts as right, by data set: the truth of the park is itself off by up to 0.3 m.
+AccuracyGates gatesOf(const std::string& dataset)
+{
+  AccuracyGates gates;
+  if (dataset == "victoria-park")
+  {
+    gates.right_distance = 1.0;
+    gates.right_angle_deg = 3.0;
+  }
+  return gates;
+}
+
+/// Significant, and so far ahead of the second that it holds 99 % between the two.
+bool isFirm(const std::vector<FeatureHypothesis>& found, const GeneratorOptions& options)
+{
+  const double ahead = std::log(99.0);
+  return !found.empty() && found[0].chance < options.significance &&
+         (found.size() < 2 || found[0].log_odds - found[1].log_odds > ahead);
+}
+
+struct Asked
+{
+  LandmarkRecord record;
+  std::vector<FeatureHypothesis> found;
+};
+
+Asked ask(const FeatureHypothesisGenerator& method, const LocalMap& local, std::size_t step,
+          const LandmarkData& data, const LandmarksOptions& options)
+{
+  const std::vector<Feature> features = local.features();
+  MatchingCounters counters;
+  const double before = threadCpuSeconds();
+  Asked asked;
+  asked.found = method.generate(features, counters);
+  LandmarkRecord& record = asked.record;
+  record.time_ms = 1e3 * (threadCpuSeconds() - before);
+  record.step = step;
+  record.features = features.size();
+  record.travelled = local.travelled();
+  record.answered = !asked.found.empty();
+  record.firm = isFirm(asked.found, options.generator);
+  if (record.answered)
+  {
+    record.error = poseError(asked.found.front().pose.mean, data.steps[step].truth);
+    record.right = isRight(record.error, gatesOf(options.dataset));
+  }
+  return asked;
+}
+
+/// The last `count` steps up to `step`.
+LocalMap gather(const LandmarkData& data, std::size_t step, std::size_t count)
+{
+  LocalMap local;
+  for (std::size_t k = step + 1 - std::min(count, step + 1); k <= step; ++k)
+  {
+    local.add(data.steps[k].motion, data.steps[k].observed);
+  }
+  return local;
+}
+
+/// DLR: steps of the second half of the path at places that the first half has been to: most discs
+/// that the longest local map holds, by their true identities, were seen then.
+std::vector<std::size_t> laterVisits(const LandmarkData& data, const LandmarksOptions& options)
+{
+  const std::size_t half = data.steps.size() / 2;
+  const std::size_t longest =
+      *std::max_element(options.local_map_steps.begin(), options.local_map_steps.end());
+  std::set<int> mapped;
+  for (std::size_t k = 0; k < half; ++k)
+  {
+    mapped.insert(data.steps[k].identities.begin(), data.steps[k].identities.end());
+  }
+  std::vector<std::size_t> queries;
+  for (std::size_t step = half + longest; step < data.steps.size(); step += options.query_stride)
+  {
+    std::set<int> seen;
+    for (std::size_t k = step + 1 - longest; k <= step; ++k)
+    {
+      seen.insert(data.steps[k].identities.begin(), data.steps[k].identities.end());
+    }
+    seen.erase(-1);
+    const auto known = std::count_if(seen.begin(), seen.end(),
+                                     [&](int identity) { return mapped.count(identity) > 0; });
+    const bool visited =
+        static_cast<double>(known) > options.visited_share * static_cast<double>(seen.size());
+    if (!options.first_half_map || visited) queries.push_back(step);
+  }
+  return queries;
+}
+
+template <class Container>
+void limit(Container& container, std::size_t most)
+{
+  if (most > 0 && container.size() > most) container.resize(most);
+}
+
+void runFixedLocalMaps(const FeatureHypothesisGenerator& method, const std::string& name,
+                       const LandmarkData& data, const LandmarksOptions& options,
+                       LandmarksReport& report)
+{
+  std::vector<std::size_t> queries = laterVisits(data, options);
+  limit(queries, options.max_queries);
+  for (const std::size_t count : options.local_map_steps)
+  {
+    for (const std::size_t step : queries)
+    {
+      LandmarkRecord record = ask(method, gather(data, step, count), step, data, options).record;
+      record.method = name;
+      record.local_map_steps = count;
+      report.records.push_back(record);
+    }
+  }
+}
+
+/// Victoria Park: from each start the local map grows until the answer is firm or it is too long.
+void runGrowingLocalMaps(const FeatureHypothesisGenerator& method, const std::string& name,
+                         const LandmarkData& data, const LandmarksOptions& options,
+                         LandmarksReport& report)
+{
+  std::vector<std::size_t> starts;
+  for (std::size_t k = 0; k + 1 < data.steps.size(); k += options.query_stride)
+  {
+    starts.push_back(k);
+  }
+  limit(starts, options.max_queries);
+  for (const std::size_t start : starts)
+  {
+    LocalMap local;
+    LandmarkRecord record;
+    double time = 0;
+    for (std::size_t k = start; k < data.steps.size(); ++k)
+    {
+      const double before_travel = local.travelled();
+      const std::size_t before_features = local.features().size();
+      local.add(data.steps[k].motion, data.steps[k].observed);
+      // Standing still shows nothing new.
+      const bool news = k == start || local.features().size() != before_features ||
+                        local.travelled() > before_travel + 0.1;
+      if (!news) continue;
+      record = ask(method, local, k, data, options).record;
+      time += record.time_ms;
+      if (record.firm || local.travelled() > options.max_travel) break;
+    }
+    record.method = name;
+    record.time_ms = time;
+    report.records.push_back(record);
+  }
+}
+
+std::vector<LandmarksRow> summarizeRows(const std::vector<LandmarkRecord>& records)
+{
+  std::vector<LandmarksRow> rows;
+  std::vector<std::vector<double>> travelled;
+  std::vector<std::vector<double>> times;
+  for (const LandmarkRecord& record : records)
+  {
+    if (rows.empty() || rows.back().method != record.method ||
+        rows.back().local_map_steps != record.local_map_steps)
+    {
+      rows.emplace_back();
+      rows.back().method = record.method;
+      rows.back().local_map_steps = record.local_map_steps;
+      travelled.emplace_back();
+      times.emplace_back();
+    }
+    LandmarksRow& row = rows.back();
+    row.features += static_cast<double>(record.features);
+    for (Proportion* share : {&row.right, &row.firm, &row.firm_and_wrong}) ++share->cases;
+    row.right.count += record.right;
+    row.firm.count += record.firm;
+    row.firm_and_wrong.count += record.firm && !record.right;
+    travelled.back().push_back(record.travelled);
+    times.back().push_back(record.time_ms);
+  }
+  for (std::size_t k = 0; k < rows.size(); ++k)
+  {
+    rows[k].features /= static_cast<double>(rows[k].right.cases);
+    rows[k].travelled = quantilesOf(travelled[k]);
+    rows[k].time_ms = quantilesOf(times[k]);
+  }
+  return rows;
+}
+}  // namespace
+
+LandmarksReport runLandmarks(const LandmarksOptions& options)
+{
+  const bool dlr = options.dataset == "dlr";
+  if (!dlr && options.dataset != "victoria-park")
+  {
+    throw std::invalid_argument("unknown data set '" + options.dataset + "': dlr or victoria-park");
+  }
+  if (options.local_map_steps.empty() || options.query_stride == 0)
+  {
+    throw std::invalid_argument("landmarks: needs local map steps and a query stride above 0");
+  }
+  const LandmarkData data = dlr ? readDlr(options.path) : readVictoriaPark(options.path);
+  const FeatureMap map(
+      dlr && options.first_half_map ? mapFromSteps(data, data.steps.size() / 2) : data.map,
+      std::nullopt, data.map_error);
+  LandmarksReport report;
+  report.dataset = options.dataset;
+  report.map_features = map.features().size();
+  report.provenance.command = options.command;
+  report.provenance.seed = options.seed;
+  report.provenance.data_files = data.files;
+  GeneratorOptions generator = options.generator;
+  generator.seed = static_cast<std::uint32_t>(options.seed);
+  for (const std::string& name : options.methods)
+  {
+    const auto method = makeFeatureMethod(name, map, generator);
+    dlr ? runFixedLocalMaps(*method, name, data, options, report)
+        : runGrowingLocalMaps(*method, name, data, options, report);
+    if (options.progress) options.progress(name + ": done");
+  }
+  report.rows = summarizeRows(report.records);
+  return report;
+}
+
+std::string landmarksTable(const LandmarksReport& report)
+{
+  std::vector<std::vector<std::string>> rows{{"method", "local map steps", "features", "right",
+                                              "firm", "firm and wrong", "travel m median", "p95",
+                                              "ms median", "p95"}};
+  for (const LandmarksRow& row : report.rows)
+  {
+    rows.push_back({row.method,
+                    row.local_map_steps > 0 ? std::to_string(row.local_map_steps) : "as needed",
+                    fixedNumber(row.features, 1), withInterval(row.right), withInterval(row.firm),
+                    withInterval(row.firm_and_wrong), fixedNumber(row.travelled.median, 2),
+                    fixedNumber(row.travelled.p95, 2), fixedNumber(row.time_ms.median, 3),
+                    fixedNumber(row.time_ms.p95, 3)});
+  }
+  return markdownTable(rows);
+}
+
+void writeLandmarksReport(const LandmarksReport& report, const std::filesystem::path& folder)
+{
+  makeFolder(folder);
+  std::ostringstream csv;
+  csv << "method,local_map_steps,step,features,travelled_m,answered,firm,right,error_m,error_deg,"
+         "time_ms\n";
+  for (const LandmarkRecord& r : report.records)
+  {
+    csv << r.method << ',' << r.local_map_steps << ',' << r.step << ',' << r.features << ','
+        << fixedNumber(r.travelled, 3) << ',' << r.answered << ',' << r.firm << ',' << r.right
+        << ',' << fixedNumber(r.error.distance, 3) << ',' << fixedNumber(r.error.angle_deg, 3)
+        << ',' << fixedNumber(r.time_ms, 4) << '\n';
+  }
+  nlohmann::ordered_json json;
+  for (const LandmarksRow& row : report.rows)
+  {
+    nlohmann::ordered_json entry;
+    entry["local_map_steps"] = row.local_map_steps;
+    entry["queries"] = row.right.cases;
+    addProportion(entry, "recall_at_1", row.right);
+    addProportion(entry, "firm", row.firm);
+    addProportion(entry, "firm_and_wrong", row.firm_and_wrong);
+    entry["travelled_m"] = toJson(row.travelled);
+    entry["time_ms"] = toJson(row.time_ms);
+    json["methods"][row.method]["rows"].push_back(entry);
+  }
+  json["map"] = {{"features", report.map_features}};
+  json["provenance"] = toJson(report.provenance);
+  writeTextFile(folder / "results.csv", csv.str());
+  writeTextFile(folder / "summary.json", json.dump(2) + "\n");
+  writeTextFile(folder / "report.md", "# Landmarks: " + report.dataset + "\n\n" +
+                                          landmarksTable(report) + "\n## Provenance\n\n" +
+                                          provenanceSection(json["provenance"]));
+}
+}  // namespace sigloc

@@ -1,0 +1,167 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sigloc/eval/landmarks.h"
+
+#include <gtest/gtest.h>
+#include <mrpt/math/wrap2pi.h>
+
+#include <algorithm>
+
+#include "sigloc/eval/feature_methods.h"
+#include "sigloc/eval/FeatureWorld.h"
+#include "sigloc/eval/scale.h"
+#include "sigloc/features/LocalMap.h"
+#include "sigloc/geometry/symmetric_matrix.h"
+
+namespace sigloc
+{
+namespace
+{
+using mrpt::math::TPose2D;
+
+/// Drives a straight line through a world of points with noisy odometry.
+struct Drive
+{
+  FeatureWorldOptions options;
+  FeatureWorld world;
+  LocalMap local;
+  TPose2D truth;
+
+  explicit Drive(std::uint64_t seed, double spurious)
+  {
+    Random random(seed);
+    options.range = 5;
+    options.spurious = spurious;
+    world = makeFeatureWorld(200, options, random);
+    truth = TPose2D(10, 20, 0.3);
+    MotionIncrement motion;
+    motion.covariance = toMatrix({1e-4, 0, 0, 1e-4, 0, 4e-4});
+    for (int step = 0; step < 15; ++step)
+    {
+      if (step > 0)
+      {
+        const TPose2D increment(0.3, 0, 0.02);
+        truth = truth + increment;
+        motion.mean = increment + TPose2D(0.01 * random.normal(), 0.01 * random.normal(),
+                                          0.02 * random.normal());
+      }
+      local.add(motion, observeFeatures(world, truth, options, random));
+    }
+  }
+};
+
+TEST(LocalMap, GathersEachPlaceOnceAndSharply)
+{
+  const Drive drive(31, 0.0);
+  EXPECT_EQ(drive.local.steps(), 15U);
+  EXPECT_NEAR(drive.local.travelled(), 14 * 0.3, 0.2);
+  const std::vector<Feature> gathered = drive.local.features();
+  std::vector<std::size_t> owners;
+  double squares = 0;
+  for (const Feature& feature : gathered)
+  {
+    const Feature placed = transformed(drive.truth, feature);
+    std::size_t nearest = 0;
+    for (std::size_t k = 0; k < drive.world.truth.size(); ++k)
+    {
+      const auto distance = [&](std::size_t i)
+      { return (drive.world.truth[i].position - placed.position).norm(); };
+      if (distance(k) < distance(nearest)) nearest = k;
+    }
+    EXPECT_LT((drive.world.truth[nearest].position - placed.position).norm(), 0.35);
+    owners.push_back(nearest);
+    const auto off = drive.world.truth[nearest].position - placed.position;
+    const auto& p = placed.position_covariance;
+    squares += squaredNorm(off.x, off.y, {p(0, 0), p(0, 1), p(1, 1)}) /
+               static_cast<double>(gathered.size());
+  }
+  EXPECT_GT(gathered.size(), 5U);
+  std::sort(owners.begin(), owners.end());
+  EXPECT_EQ(std::adjacent_find(owners.begin(), owners.end()), owners.end()) << "seen twice";
+  EXPECT_LT(squares, 4.0) << "covariances claim too much";
+}
+
+TEST(LocalMap, ForgetsWhatIsSeenOnlyOnceAndClears)
+{
+  Drive drive(32, 0.3);
+  const auto once = drive.local.features(1).size();
+  const auto twice = drive.local.features(2).size();
+  // Spurious features of the last steps are still there, older ones are not.
+  EXPECT_LT(once - twice, 6U * 4U);
+  drive.local.clear();
+  EXPECT_TRUE(drive.local.features().empty());
+  EXPECT_EQ(drive.local.steps(), 0U);
+}
+
+TEST(FeatureMethods, EveryMethodFindsARobotInThePointWorld)
+{
+  FeatureWorldOptions options;
+  Random random(33);
+  const FeatureWorld world = makeFeatureWorld(300, options, random);
+  const FeatureMap map(world.mapped);
+  for (const char* name :
+       {"signature", "signature-anchors", "signature-pairs", "signature-patterns", "jcbb"})
+  {
+    const auto method = makeFeatureMethod(name, map, {});
+    int right = 0;
+    for (int k = 0; k < 5; ++k)
+    {
+      const TPose2D truth = randomPose(world, options, random);
+      MatchingCounters counters;
+      const auto found = method->generate(observeFeatures(world, truth, options, random), counters);
+      right += !found.empty() &&
+               std::hypot(found[0].pose.mean.x - truth.x, found[0].pose.mean.y - truth.y) < 0.3;
+      EXPECT_GT(counters.hypotheses, 0U);
+    }
+    EXPECT_GE(right, 4) << name;
+  }
+  EXPECT_THROW(makeFeatureMethod("nonsense", map, {}), std::invalid_argument);
+}
+
+TEST(Scale, OperationsOfAnchorsAreLinearInTheMap)
+{
+  ScaleOptions options;
+  options.map_features = {500, 1000, 2000};
+  options.methods = {"signature-anchors", "signature-patterns"};
+  options.poses = 20;
+  options.slow_poses = 3;
+  const ScaleReport report = runScale(options);
+  ASSERT_EQ(report.rows.size(), 6U);
+  std::vector<std::pair<double, double>> operations;
+  for (const ScaleRow& row : report.rows)
+  {
+    EXPECT_GE(row.success.value(), 0.95) << row.method;
+    if (row.method != "signature-anchors") continue;
+    operations.emplace_back(static_cast<double>(row.map_features), row.operations());
+  }
+  EXPECT_LT(fitExponent(operations).slope, 1.15);
+  EXPECT_NE(scaleTable(report).find("signature-patterns"), std::string::npos);
+  options.methods = {"nonsense"};
+  EXPECT_THROW(runScale(options), std::invalid_argument);
+}
+
+TEST(Scale, ExponentOfAPowerLaw)
+{
+  const FittedExponent fit = fitExponent({{1, 3}, {2, 12}, {4, 48}, {8, 192}});
+  EXPECT_NEAR(fit.slope, 2, 1e-9);
+  EXPECT_NEAR(fit.low, fit.high, 1e-6);
+}
+
+TEST(Landmarks, MissingFilesAndUnknownSetsAreNamed)
+{
+  LandmarksOptions options;
+  options.path = "/nonexistent";
+  try
+  {
+    runLandmarks(options);
+    FAIL() << "no error";
+  }
+  catch (const std::runtime_error& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("/nonexistent"), std::string::npos);
+  }
+  options.dataset = "nonsense";
+  EXPECT_THROW(runLandmarks(options), std::invalid_argument);
+}
+}  // namespace
+}  // namespace sigloc
