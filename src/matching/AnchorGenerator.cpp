@@ -53,7 +53,7 @@ void AnchorGenerator::search(const PreparedScene& scene, HypothesisSet& found,
   std::vector<std::uint32_t> candidates;
   SplitMix random(options.seed);
 
-  // 1. How many anchors: eq. (18), (19). Not shortened as support comes in: accidental support
+  // 1. How many anchors: eq. (4.2), (4.3). Not shortened as support comes in: accidental support
   // would stop the search too early, and all plausible poses are wanted.
   const double w = options.good_share;
   const double works = w * (1 - std::pow(1 - w, options.partners));

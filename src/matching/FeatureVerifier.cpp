@@ -326,14 +326,14 @@ void FeatureVerifier::verify(const PreparedScene& scene, const CandidateLists* l
   const auto rival = static_cast<std::uint32_t>(kWorthKeeping * found.bestSupport());
   const std::uint32_t needed = lists ? wanted : std::max(wanted, rival);
 
-  // 1. Grow the base feature by feature, each gate sharper than the last: eq. (18) to (20).
+  // 1. Grow the base feature by feature, each gate sharper than the last: eq. (5.5) to (5.7).
   Filter filter;
   filter.pose = base.pose;
   filter.base_place = scene.views[base.pairings.front().observed].position();
   if (!associate(scene, lists, needed, workspace, filter, counters)) return;
 
   // 2. Refit on all pairings and recount with the tight gates of the refitted pose, twice, so that
-  // what the base's error excluded comes in and what it let in goes out: eq. (21) to (23).
+  // what the base's error excluded comes in and what it let in goes out: eq. (5.8).
   PoseEstimate pose = filter.pose;
   constexpr int kRecounts = 2;
   for (int round = 0; round < kRecounts; ++round)
@@ -347,7 +347,7 @@ void FeatureVerifier::verify(const PreparedScene& scene, const CandidateLists* l
   const auto refitted = fit(scene, pose, workspace);
   if (!refitted) return;
 
-  // 3. Weigh it against "all clutter": eq. (26).
+  // 3. Weigh it against "all clutter": eq. (5.10).
   FeatureHypothesis hypothesis;
   hypothesis.pose = toGaussian(*refitted);
   hypothesis.pairings = workspace.pairings;

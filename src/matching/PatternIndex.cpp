@@ -183,7 +183,7 @@ void PatternIndex::chooseSize(const PreparedMap& map, const GeneratorOptions& op
   size_ = options.pattern_size;
   if (size_ >= 3) return;
 
-  // Eq. (21): each further member divides the accidental matches by the chance p that a map
+  // Eq. (4.6): each further member divides the accidental matches by the chance p that a map
   // feature lies in its gate; as many members as leave few of them.
   const double area = 2 * M_PI * chiSquareGate(options.gate_probability, 2) * spread;
   const double p = std::clamp(places / map.area() * area, 1e-3, 0.3);

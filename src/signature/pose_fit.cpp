@@ -98,7 +98,7 @@ std::optional<PoseEstimate> fromTwoPlaces(const DirectedPairing& first,
 {
   const TPoint2D seen = second.observed.position() - first.observed.position();
   const TPoint2D known = second.mapped.position() - first.mapped.position();
-  // Eq. (13): the turn that takes one connecting vector into the other.
+  // Eq. (5.1): the turn that takes one connecting vector into the other.
   const double along = dot(seen, known);
   const double across = cross(seen, known);
   constexpr double kCoincident = 1e-9;  // [m^2]
@@ -129,7 +129,7 @@ std::optional<PoseEstimate> fromTwoPlaces(const DirectedPairing& first,
 std::optional<PoseEstimate> fromTwoWalls(const DirectedPairing& first,
                                          const DirectedPairing& second)
 {
-  // Eq. (14): the heading from both angles, each by its own certainty.
+  // Eq. (5.2): the heading from both angles, each by its own certainty.
   const auto certainty = [](const DirectedPairing& pairing)
   {
     return 1 / (pairing.observed.feature->direction_variance +
@@ -140,7 +140,7 @@ std::optional<PoseEstimate> fromTwoWalls(const DirectedPairing& first,
   PoseEstimate pose;
   pose.setHeading(headingOf(first) + share * difference);
 
-  // Eq. (15): both offsets, a 2x2 system over the position.
+  // Eq. (5.3): both offsets, a 2x2 system over the position.
   const TPoint2D& n = first.mapped.normal;
   const TPoint2D& q = second.mapped.normal;
   const double sine = cross(n, q);
@@ -163,7 +163,7 @@ std::optional<PoseEstimate> fromTwoWalls(const DirectedPairing& first,
 std::optional<PoseEstimate> fromPlaceAndWall(const DirectedPairing& place,
                                              const DirectedPairing& wall)
 {
-  // Eq. (16): the wall gives the heading, the place the position.
+  // Eq. (5.4): the wall gives the heading, the place the position.
   PoseEstimate pose;
   pose.setHeading(headingOf(wall));
   putOnto(pose, place);

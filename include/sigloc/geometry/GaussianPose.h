@@ -24,7 +24,7 @@ struct MotionIncrement
 };
 
 /// Returns `map_from_previous (+) increment` with first-order propagation of both covariances,
-/// heading wrapped. \cite algorithm eq. (24)
+/// heading wrapped. \cite algorithm eq. (8.1)
 GaussianPose composeWithMotion(const GaussianPose& map_from_previous,
                                const MotionIncrement& increment);
 

@@ -75,11 +75,11 @@ inline double squaredInnovation(const PlanarMeasurement& m, const Symmetric2& in
   return squaredNorm(m.residual[0], m.residual[1], innovation);
 }
 
-/// Kalman update of the estimate by a measurement. \cite algorithm eq. (20)
+/// Kalman update of the estimate by a measurement. \cite algorithm eq. (5.5)
 void update(PoseEstimate& estimate, const PlanarMeasurement& m);
 
 /// Adds H' R^-1 H to the information matrix and H' R^-1 r to the vector: one term of the normal
-/// equations. \cite algorithm eq. (22)
+/// equations. \cite algorithm eq. (5.8)
 void addInformation(const PlanarMeasurement& m, Symmetric3& information,
                     std::array<double, 3>& vector);
 }  // namespace sigloc

@@ -59,7 +59,7 @@ class FeatureVerifier
               Workspace& workspace, MatchingCounters& counters) const;
 
   /// Expected number of hypotheses of this support among `bases` retrieved by chance, each base
-  /// of `base_size` features. \cite algorithm eq. (28)
+  /// of `base_size` features. \cite algorithm eq. (5.12)
   static double expectedByChance(const PreparedScene& scene, std::uint32_t support,
                                  std::uint32_t base_size, std::uint64_t bases);
 

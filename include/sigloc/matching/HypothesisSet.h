@@ -15,7 +15,7 @@ constexpr double kMergeDistance = 0.5;  // [m]
 constexpr double kMergeAngle = 0.2967;  // [rad], 17 degrees
 
 /// Verified hypotheses gathered during one query, equal poses merged through a hash grid of poses:
-/// of several at one place the best stays. \cite algorithm eq. (27)
+/// of several at one place the best stays. \cite algorithm eq. (5.13)
 class HypothesisSet
 {
  public:

@@ -16,7 +16,7 @@ constexpr std::size_t kLargestPattern = 5;
 
 /// The shape of a pattern of point-like features: its longest side, and the other members in the
 /// frame of that side, (along, across) each. Invariant under rigid motion, not under reflection.
-/// \cite algorithm eq. (20)
+/// \cite algorithm eq. (4.5)
 struct PatternShape
 {
   std::array<double, 2 * kLargestPattern - 3> values{};  ///< [m]
@@ -78,7 +78,7 @@ class PatternIndex
     return hash ^ (hash >> 29);
   }
   std::size_t slotOf(std::uint64_t hash) const { return (hash >> 7) & slot_mask_; }
-  /// Lays observed shapes onto stored ones; \cite algorithm eq. (22).
+  /// Lays observed shapes onto stored ones; \cite algorithm eq. (4.7).
   struct Alignment
   {
     std::array<double, kLargestPattern> x{};  ///< [m], members from their centroid

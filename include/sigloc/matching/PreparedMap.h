@@ -34,7 +34,7 @@ class PreparedMap
 
   /// lambda: how many features of the type fall into a unit of their own measurement space by
   /// chance, [1/m^2], for a segment [1/(rad m)], for a corner or wall end [1/(m^2 rad)].
-  /// \cite algorithm eq. (25)
+  /// \cite algorithm eq. (5.9)
   double clutterDensity(FeatureType type) const { return clutter_[typeIndex(type)]; }
   /// Largest variance [m^2] of any feature of the type along any direction.
   double largestPositionVariance(FeatureType type) const
@@ -47,7 +47,7 @@ class PreparedMap
   }
 
   /// Share of a stretch, in metres along feature k's tangent from its position, that lies on the
-  /// mapped pieces of k's wall, each widened by `tolerance`. \cite algorithm eq. (11)
+  /// mapped pieces of k's wall, each widened by `tolerance`. \cite algorithm eq. (3.12)
   double coveredShare(std::size_t k, double low, double high, double tolerance) const;
 
   std::size_t bytes() const { return views_.size() * sizeof(DirectedFeature) + grid_.bytes(); }

@@ -14,7 +14,7 @@ namespace sigloc
 /// Negative information without beams: returns how many mapped places lie well inside the convex
 /// hull of the paired places, as seen from the pose, and are of a type that was seen, but are not
 /// paired themselves. What lies between things that were seen should have been seen.
-/// \cite algorithm eq. (27)
+/// \cite algorithm eq. (5.11)
 std::size_t countMissed(const PreparedScene& scene, const PreparedMap& map,
                         const PoseEstimate& pose, const std::vector<FeaturePairing>& pairings);
 }  // namespace sigloc

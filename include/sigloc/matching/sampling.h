@@ -15,7 +15,7 @@ namespace sigloc
 constexpr double kRivalShare = 0.9;
 
 /// Number of draws t after which all fail with probability `failure` when one succeeds with
-/// probability `success`. \cite algorithm eq. (19)
+/// probability `success`. \cite algorithm eq. (4.3)
 std::uint32_t drawsNeeded(double failure, double success);
 
 /// Returns the observed features of a hypothesis' pairings, ascending.

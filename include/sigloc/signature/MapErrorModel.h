@@ -12,7 +12,7 @@ struct MapErrorModel
   double relative_slope = 0.002;  ///< [-], b
   double common_sigma = 0.10;  ///< [m], moves a neighbourhood together
 
-  /// sigma_rel(d) [m], \cite algorithm eq. (4)
+  /// sigma_rel(d) [m], \cite algorithm eq. (3.2)
   double relativeSigma(double distance) const
   {
     return relative_constant + relative_slope * distance;

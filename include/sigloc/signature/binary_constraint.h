@@ -9,7 +9,7 @@ namespace sigloc
 {
 /// The one scalar by which pairs of features are sorted and looked up, invariant under rigid
 /// motion: the distance of two places, the signed distance of a place to a line, the angle from
-/// the first line to the second. \cite algorithm eq. (5)
+/// the first line to the second. \cite algorithm eq. (3.3)
 struct BinaryKey
 {
   double value = 0;  ///< [m] or [rad]
@@ -27,20 +27,20 @@ struct BinaryGates
 };
 
 /// Half width [m or rad] of the range of mapped keys that fit an observed one, given the largest
-/// key variance of any mapped feature. \cite algorithm eq. (6)
+/// key variance of any mapped feature. \cite algorithm eq. (3.4)
 double keyTolerance(const BinaryKey& observed, double mapped_variance, const MapErrorModel& error,
                     double gate);
 
 /// The full binary test b_ij ~ b_kl: the key, and what the types allow besides: bearings seen from
 /// corners, the position along a wall, offset and overlap of parallel walls, extension of others.
-/// \cite algorithm eq. (5) to (9)
+/// \cite algorithm eq. (3.3) to (3.8)
 bool binaryCompatible(const DirectedFeature& observed_first, const DirectedFeature& observed_second,
                       const DirectedFeature& mapped_first, const DirectedFeature& mapped_second,
                       const MapErrorModel& error, const BinaryGates& gates);
 
 /// On which side of the directed line from `a` to `b` does `c` lie: +1 left, -1 right, 0 when it
 /// is nearer to the line than the gate tells apart. Distances cannot tell mirror images; this can.
-/// \cite algorithm eq. (9)
+/// \cite algorithm eq. (3.8)
 int sideOf(const Feature& a, const Feature& b, const Feature& c, double gate);
 
 /// |sin| of the angle between two lines below which they count as parallel.

@@ -10,11 +10,11 @@ namespace sigloc
 /// The location-dependent constraint r_j(x): how far a mapped feature is from where the pose
 /// predicts an observed one. Point-like features give their two coordinates, segments the angle
 /// and the offset at the middle of the observed piece. `relative_sigma` [m] is the map's own error
-/// over the distance in question. \cite algorithm eq. (10), (11)
+/// over the distance in question. \cite algorithm eq. (3.9), (3.10)
 PlanarMeasurement placeMeasurement(const PoseEstimate& pose, const DirectedFeature& observed,
                                    const DirectedFeature& mapped, double relative_sigma);
 
-/// The direction of a corner or wall end, as a single scalar. \cite algorithm eq. (12)
+/// The direction of a corner or wall end, as a single scalar. \cite algorithm eq. (3.11)
 PlanarMeasurement directionMeasurement(const PoseEstimate& pose, const DirectedFeature& observed,
                                        const DirectedFeature& mapped);
 

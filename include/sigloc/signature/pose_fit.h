@@ -20,13 +20,13 @@ struct DirectedPairing
 /// Returns the pose that two pairings fix, with covariance: two places, two walls, or a place and
 /// a wall in closed form, then one step of least squares over all they measure. Parallel walls
 /// leave a direction open and give it a large variance. nullopt when not even that is possible:
-/// two coincident places. \cite algorithm eq. (13) to (17)
+/// two coincident places. \cite algorithm eq. (5.1) to (5.4)
 std::optional<PoseEstimate> poseFromBase(const DirectedPairing& first,
                                          const DirectedPairing& second, double relative_sigma);
 
 /// Returns the pose that takes `count` >= 2 observed places onto mapped ones, in closed form, all
 /// with the same variance [m^2] of each coordinate. nullopt when the places coincide.
-/// \cite algorithm eq. (13)
+/// \cite algorithm eq. (5.1)
 std::optional<PoseEstimate> poseFromPlaces(const mrpt::math::TPoint2D* observed,
                                            const mrpt::math::TPoint2D* mapped, std::size_t count,
                                            double variance);
@@ -36,7 +36,7 @@ std::optional<PoseEstimate> poseFromCorner(const DirectedPairing& pairing, doubl
 
 /// Returns the least-squares pose over the pairings, by Gauss-Newton from `start`, with its
 /// covariance; a direction that no pairing fixes is held by the extent of the walls. nullopt when
-/// the pairings do not fix a pose. \cite algorithm eq. (21) to (23)
+/// the pairings do not fix a pose. \cite algorithm eq. (5.8)
 std::optional<PoseEstimate> refinePose(const PoseEstimate& start,
                                        const std::vector<DirectedPairing>& pairings,
                                        double relative_sigma, int iterations = 3);
