@@ -55,12 +55,14 @@ SPDX_SUFFIXES = {".h", ".cpp", ".py", ".sh", ".cmake", ".cmake.in", ".gp", ".ini
 
 
 def place(path):
-    """Returns (kind, name) of a source file: a library part, an app or a kind of test."""
+    """Returns (kind, name) of a source file: a library part, an app, an example, a kind of test."""
     parts = path.parts
     if parts[0] == "include" and len(parts) > 3:
         return "part", parts[2]
     if parts[0] == "src" and len(parts) > 2:
         return "part", parts[1]
+    if parts[0] == "examples":
+        return "examples", path.stem
     if parts[0] in ("apps", "tests") and len(parts) > 2:
         if parts[0] == "apps" and parts[1] == "render":
             return "part", "render"
@@ -71,7 +73,7 @@ def place(path):
 def allowed_parts(kind, name):
     if kind == "part":
         return set(PARTS[name])
-    if kind == "apps" and name in PRODUCT_APPS:
+    if kind == "examples" or (kind == "apps" and name in PRODUCT_APPS):
         return set(PARTS["render"])
     if kind == "tests" and name in CORE_TESTS:
         return set(CORE)
