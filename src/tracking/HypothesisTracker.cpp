@@ -25,7 +25,7 @@ constexpr double kMaxConfirmed = 6.0;  // what was confirmed long ago can still 
 constexpr double kFarBetter = 4.0;  // log-likelihood
 constexpr double kSure = 0.9;  // a relocation that overrules all tracks
 
-/// What one relocation says of a pose it gives probability p, as clipped log-odds.
+/// What one relocation says of a pose it gives probability p, as clipped log-odds. Eq. (8.7)
 double confirmationOf(double p)
 {
   constexpr double kAgainst = -2.0;
@@ -129,7 +129,7 @@ bool HypothesisTracker::State::wantsRelocation() const
 
 /// A relocation knows nothing of the tracks. Where it finds poses that no track holds, as good
 /// as theirs, "somewhere else" gains; the lost share of the belief is then dealt out as the
-/// relocation says: to tracks that it confirms, to new ones, and back to "somewhere else".
+/// relocation says: to tracks that it confirms, to new ones, and back to it. Eq. (8.8), (8.9)
 void HypothesisTracker::State::relocate(const ObservedScene& scene)
 {
   const double fresh_share =

@@ -28,19 +28,19 @@ class TrackSet
  public:
   explicit TrackSet(const TrackerOptions& options) : options_(options) {}
 
-  /// Moves every track by the odometry; returns the travel [m], turns included.
+  /// Moves every track by the odometry; returns the travel [m], turns included. Eq. (8.1), (8.2)
   double predict(const std::optional<MotionIncrement>& motion);
 
-  /// Refines every track by the returns and scores it.
+  /// Refines every track by the returns and scores it. Eq. (8.3), (8.4)
   void update(const DenseScan& scan, const DenseVerifier& verifier);
 
-  /// Weighs rivals against each other and the best of them against "somewhere else".
+  /// Weighs rivals against each other, the best against "somewhere else". Eq. (8.5), (8.6)
   void weigh(double travel);
 
   /// Scales all weights so that they sum to one.
   void normalise();
 
-  /// Joins tracks that have met, gives up the light ones, sorts by weight.
+  /// Joins tracks that have met, gives up the light ones, sorts by weight. Eq. (8.10)
   void mergeAndPrune();
 
   /// The track that holds a pose, or null.

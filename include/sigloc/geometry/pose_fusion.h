@@ -8,11 +8,11 @@ namespace sigloc
 {
 /// Returns the product of two independent estimates of one pose (Kalman update with identity
 /// measurement), heading wrapped. Throws std::invalid_argument when the covariances' sum is not
-/// positive definite.
+/// positive definite. \cite algorithm eq. (8.4)
 GaussianPose fusePoses(const GaussianPose& prior, const GaussianPose& measured);
 
 /// Returns the Gaussian with the mean and covariance of the two-mode mixture, the headings averaged
-/// across +-pi as they should be. Weights need not be normalised; their sum must be positive.
+/// across +-pi. Weights need not be normalised; their sum is positive. \cite algorithm eq. (8.10)
 GaussianPose mergeByMoments(const GaussianPose& a, double weight_a, const GaussianPose& b,
                             double weight_b);
 

@@ -53,7 +53,7 @@ struct DenseCell
 };
 
 /// Distance to, and direction of, the nearest wall everywhere on the map: what dense verification
-/// looks up. Plain data; see `buildDenseField`.
+/// looks up. Plain data; see `buildDenseField`. \cite algorithm eq. (6.3)
 struct DenseField
 {
   static constexpr double kDistanceUnit = 0.005;  ///< [m] per unit of DenseCell::distance

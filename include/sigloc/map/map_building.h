@@ -75,7 +75,7 @@ FeatureMap buildMapFromRaster(const OccupancyRaster& raster, const MapBuildingOp
                               const MapProvenance& provenance = {});
 
 /// Returns the raster of posed scans: a cell is wall when at least min_hits scans end in it, free
-/// when beams pass and it is not wall.
+/// when beams pass and it is not wall. \cite algorithm eq. (6.1), (6.2)
 OccupancyRaster rasterFromScans(const std::vector<PosedScans>& scans,
                                 const MapBuildingOptions& options = {});
 }  // namespace sigloc

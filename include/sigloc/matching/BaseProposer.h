@@ -48,7 +48,7 @@ struct BaseProposerOptions
 
 /// Mode (e): poses from bases so small that their evidence alone would mean little, to be judged
 /// densely: one wall end, one wall slid along the mapped ones, or a rare pair of circles.
-/// Const and thread-safe. \cite algorithm section 4
+/// Const and thread-safe. \cite algorithm eq. (4.8), (4.9)
 class BaseProposer
 {
  public:

@@ -45,7 +45,7 @@ struct DenseEvidence
   double through_wall = 0;  ///< share of beams that pass a mapped wall before their end
   double in_free = 0;  ///< share that ends in known free space, away from any wall
   double unknown = 0;  ///< share that ends where the map knows nothing
-  double score = 0;  ///< the one figure to rank by, \cite algorithm section 6
+  double score = 0;  ///< the one figure to rank by, \cite algorithm eq. (6.8)
 };
 
 /// A proposal that survived the cascade.
@@ -70,15 +70,15 @@ class DenseVerifier
                                std::size_t max_ranked, std::uint64_t& poses_scored) const;
 
   /// Returns the pose moved to fit the returns, within 0.5 m and 10 degrees of the start, by
-  /// `steps` of iterated closest points on the first `beams` returns.
+  /// `steps` of iterated closest points on the first `beams` returns. \cite algorithm eq. (6.7)
   mrpt::math::TPose2D refine(const DenseScan& scan, const mrpt::math::TPose2D& start, int steps,
                              std::size_t beams) const;
 
-  /// Returns the full evidence for a pose.
+  /// Returns the full evidence for a pose. \cite algorithm eq. (6.8)
   DenseEvidence evaluate(const DenseScan& scan, const mrpt::math::TPose2D& pose) const;
 
   /// Returns the 3x3 covariance of a refined pose [m^2, m rad, rad^2]: the returns' information
-  /// with `range_sigma` [m] a beam, tempered for correlated neighbours, plus `common_sigma` [m].
+  /// of 0.05 m each, tempered, plus `common_sigma` [m]. \cite algorithm eq. (6.9), (6.10)
   mrpt::math::CMatrixDouble33 covarianceAt(const DenseScan& scan, const mrpt::math::TPose2D& pose,
                                            double common_sigma) const;
 

@@ -9,15 +9,15 @@
 namespace sigloc
 {
 /// Returns the tempered log-likelihood of a dense score in about [-1, 1]: what a score says about a
-/// pose once the correlation of neighbouring beams is allowed for. \cite algorithm section 7
+/// pose once the correlation of neighbouring beams is allowed for. \cite algorithm eq. (7.1)
 double logLikelihoodOfScore(double score);
 
 /// Returns the log-odds of the robot standing at the best pose known rather than somewhere else,
-/// from that pose's score and that of the best rival. \cite algorithm section 7
+/// from that pose's score and that of the best rival. \cite algorithm eq. (7.2)
 double hereLogOdds(double best_score, double rival_score);
 
 /// Distributes probability over candidates (best first, scores set) and "elsewhere", and fills the
 /// verdict. A candidate convinces by its own score and by its lead over the best rival: look-alikes
-/// share the weight, and what chance reaches in this map is measured by the runner-up.
+/// share the weight, and the runner-up measures what chance reaches. \cite algorithm eq. (7.3)
 void weighCandidates(RelocationResult& result);
 }  // namespace sigloc
