@@ -5,6 +5,7 @@
 
 * Each folder includes only the parts of the project below it and the MRPT modules it may use.
 * Files are no longer than MAX_LINES and carry the two SPDX lines.
+* Every equation that a source file cites is in docs/algorithm.md.
 * With --binaries DIR: no executable or library built there links what it must not.
 
 Prints one line a violation, `path:line: reason`, and exits 1 when there is one.
@@ -50,6 +51,8 @@ RESTRICTED = [
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
 PRINTS = re.compile(r"\bstd::(cout|cerr|clog)\b|(?<![a-zA-Z_])(f?printf|puts)\(")
+EQUATION = re.compile(r"\((\d+\.\d+)\)")
+CITES_EQUATION = re.compile(r"\b[Ee]q\.")
 SPDX = ["SPDX-FileCopyrightText: 2026 the sigloc authors", "SPDX-License-Identifier: BSD-3-Clause"]
 SPDX_SUFFIXES = {".h", ".cpp", ".py", ".sh", ".cmake", ".cmake.in", ".gp", ".ini"}
 
@@ -115,12 +118,21 @@ def source_violations(path, lines):
             yield number, reason
 
 
+def citation_violations(lines, equations):
+    """Finds cited equations that are not there; a citation is on the line that says "eq."."""
+    for number, line in enumerate(lines, 1):
+        if CITES_EQUATION.search(line):
+            for equation in EQUATION.findall(line):
+                if equation not in equations:
+                    yield number, f"equation ({equation}) is not in docs/algorithm.md"
+
+
 def needs_spdx(path, lines):
     is_script = bool(lines) and lines[0].startswith("#!")
     return is_script or path.name == "CMakeLists.txt" or bool(set(path.suffixes) & SPDX_SUFFIXES)
 
 
-def file_violations(path, text):
+def file_violations(path, text, equations):
     lines = text.splitlines()
     is_code = path.suffix in (".h", ".cpp")
     if needs_spdx(path, lines):
@@ -131,6 +143,7 @@ def file_violations(path, text):
             yield 1, "the two SPDX lines are missing"
     if is_code:
         yield from source_violations(path, lines)
+        yield from citation_violations(lines, equations)
 
 
 def own_files(root):
@@ -169,6 +182,9 @@ def main():
     parser.add_argument("--binaries", type=pathlib.Path, help="build folder to check as well")
     arguments = parser.parse_args()
     root = pathlib.Path(__file__).resolve().parent.parent
+    # An equation's number ends its line.
+    method = (root / "docs" / "algorithm.md").read_text(encoding="utf-8")
+    known = set(re.findall(r"\((\d+\.\d+)\)$", method, re.MULTILINE))
     violations = []
     count = 0
     for path in own_files(root):
@@ -177,7 +193,7 @@ def main():
         except UnicodeDecodeError:
             continue  # data, not source
         count += 1
-        violations += [f"{path}:{line}: {why}" for line, why in file_violations(path, text)]
+        violations += [f"{path}:{line}: {why}" for line, why in file_violations(path, text, known)]
     if arguments.binaries:
         violations += binary_violations(arguments.binaries)
     for violation in violations:

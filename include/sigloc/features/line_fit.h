@@ -23,7 +23,7 @@ struct LineFit
 /// Returns the weighted total least squares line through points[first..last] as seen from
 /// `viewpoint`. A range error of sd `range_sigma` [m] moves a point off the line by its share along
 /// the normal, so grazing beams weigh more; `surface_sigma` [m] is the roughness that no beam
-/// undercuts. Throws std::invalid_argument for fewer than two points. \cite algorithm section 2
+/// undercuts. Throws std::invalid_argument for fewer than two points. \cite algorithm eq. (2.4)
 LineFit fitLine(const std::vector<mrpt::math::TPoint2D>& points, std::size_t first,
                 std::size_t last, const mrpt::math::TPoint2D& viewpoint, double range_sigma,
                 double surface_sigma);

@@ -81,7 +81,7 @@ class DenseVerifier;
 ///     if (result.verdict == Verdict::localized) drive(result.candidates.front().pose);
 ///
 /// Construction builds the indices; `localize` is const and thread-safe, and its result depends on
-/// the scene, the options and the seed only.
+/// the scene, the options and the seed only. \cite algorithm sections 4 to 7
 class SignatureMatcher
 {
  public:
