@@ -10,6 +10,8 @@
 
 #include "sigloc/matching/BaseProposer.h"
 #include "sigloc/matching/DenseVerifier.h"
+#include "sigloc/matching/GeneratorOptions.h"
+#include "sigloc/matching/generators.h"
 #include "sigloc/matching/weighing.h"
 
 namespace sigloc
@@ -18,7 +20,21 @@ using mrpt::math::TPose2D;
 
 namespace
 {
+constexpr std::size_t kMinLandmarks = 2;  // without a laser
 constexpr std::size_t kMaxBeams = 400;  // used of a scene; more are thinned evenly
+
+std::vector<PoseProposal> proposalsOf(const std::vector<FeatureHypothesis>& hypotheses)
+{
+  std::vector<PoseProposal> proposals;
+  proposals.reserve(hypotheses.size());
+  for (const FeatureHypothesis& hypothesis : hypotheses)
+  {
+    const TPose2D& pose = hypothesis.pose.mean;
+    proposals.push_back(
+        {static_cast<float>(pose.x), static_cast<float>(pose.y), static_cast<float>(pose.phi)});
+  }
+  return proposals;
+}
 }  // namespace
 
 bool PoseRegion::contains(const TPose2D& pose) const
@@ -36,7 +52,20 @@ SignatureMatcher::SignatureMatcher(std::shared_ptr<const FeatureMap> map,
   if (map_->field() && options.use_dense_field)
   {
     verifier_ = std::make_unique<DenseVerifier>(*map_->field());
+  }
+  const auto mode = static_cast<GenerationMode>(options.mode);
+  const bool from_bases =
+      mode == GenerationMode::bases || (mode == GenerationMode::automatic && verifier_);
+  if (from_bases)
+  {
+    if (!verifier_) throw std::invalid_argument("SignatureMatcher: bases need a dense field");
     proposer_ = std::make_unique<BaseProposer>(*map_);
+  }
+  else
+  {
+    GeneratorOptions generation;
+    generation.seed = options.seed;
+    generator_ = makeGenerator(mode, *map_, generation);
   }
 }
 
@@ -46,32 +75,60 @@ RelocationResult SignatureMatcher::localize(const ObservedScene& scene,
                                             const std::optional<PoseRegion>& region) const
 {
   RelocationResult result;
-  if (scene.beams.size() < options_.min_beams)
+  const bool enough = scene.beams.size() >= options_.min_beams ||
+                      (scene.beams.empty() && scene.features.size() >= kMinLandmarks);
+  if (!enough)
   {
     result.verdict = Verdict::too_little_seen;
     result.probability = 1;
     return result;
   }
-  if (verifier_) verifyDensely(scene, region, result);
-  weighCandidates(result);
+  // 1. Propose: small bases, or hypotheses that features alone support.
+  std::vector<FeatureHypothesis> hypotheses;
+  if (generator_) hypotheses = generator_->generate(scene.features, result.counters);
+
+  // 2. Verify: by the dense field where the map has one and there are returns to look up.
+  if (verifier_ && !scene.beams.empty())
+  {
+    std::vector<PoseProposal> proposals =
+        generator_ ? proposalsOf(hypotheses) : proposer_->propose(scene.features);
+    if (!generator_) result.counters.hypotheses += proposals.size();
+    verifyDensely(scene, std::move(proposals), region, result);
+    // 3. Weigh the rivals and "somewhere else"; decide.
+    weighCandidates(result);
+    return result;
+  }
+  for (FeatureHypothesis& hypothesis : hypotheses)
+  {
+    if (result.candidates.size() == options_.max_candidates) break;
+    if (region && !region->contains(hypothesis.pose.mean)) continue;
+    Candidate candidate;
+    candidate.pose = hypothesis.pose;
+    candidate.score = hypothesis.log_odds;
+    candidate.pairings = std::move(hypothesis.pairings);
+    result.candidates.push_back(std::move(candidate));
+  }
+  weighByLogOdds(result);
   return result;
 }
 
 std::vector<TPose2D> SignatureMatcher::propose(const ObservedScene& scene) const
 {
+  MatchingCounters counters;
+  const std::vector<PoseProposal> proposals =
+      generator_ ? proposalsOf(generator_->generate(scene.features, counters))
+                 : proposer_->propose(scene.features);
   std::vector<TPose2D> poses;
-  if (!proposer_) return poses;
-  for (const PoseProposal& p : proposer_->propose(scene.features))
-    poses.emplace_back(p.x, p.y, p.phi);
+  poses.reserve(proposals.size());
+  for (const PoseProposal& p : proposals) poses.emplace_back(p.x, p.y, p.phi);
   return poses;
 }
 
 void SignatureMatcher::verifyDensely(const ObservedScene& scene,
+                                     std::vector<PoseProposal> proposals,
                                      const std::optional<PoseRegion>& region,
                                      RelocationResult& result) const
 {
-  std::vector<PoseProposal> proposals = proposer_->propose(scene.features);
-  result.counters.hypotheses += proposals.size();
   if (region)
   {
     const auto outside = [&](const PoseProposal& p) {

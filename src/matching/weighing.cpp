@@ -19,9 +19,39 @@ constexpr double kSharpening = 1.3;  // of rivals against each other
 constexpr double kHereSlope = 12.0;  // of the log-odds of being in the map, per unit of score
 constexpr double kHereOffset = 10.4;
 constexpr double kChanceScore = 0.4;  // what chance reaches where there is no runner-up
+constexpr double kPriorElsewhere =
+    0.002;  // of standing off the map, and of a generator that failed
 constexpr double kLocalized = 0.99;
 constexpr double kNotHere = 0.98;
 constexpr double kMaxOpenSigma = 0.5;  // [m], a wider pose is a line of poses
+
+/// The verdict that the weights allow.
+void decide(RelocationResult& result)
+{
+  if (result.candidates.empty())
+  {
+    result.elsewhere = 1;
+    result.verdict = Verdict::not_here;
+    result.probability = 1;
+    return;
+  }
+  const Candidate& first = result.candidates.front();
+  if (first.probability >= kLocalized && largestPositionSigma(first.pose) < kMaxOpenSigma)
+  {
+    result.verdict = Verdict::localized;
+    result.probability = first.probability;
+  }
+  else if (result.elsewhere >= kNotHere)
+  {
+    result.verdict = Verdict::not_here;
+    result.probability = result.elsewhere;
+  }
+  else
+  {
+    result.verdict = Verdict::ambiguous;
+    result.probability = 1.0 - first.probability;
+  }
+}
 }  // namespace
 
 double logLikelihoodOfScore(double score)
@@ -39,13 +69,7 @@ double hereLogOdds(double best_score, double rival_score)
 void weighCandidates(RelocationResult& result)
 {
   std::vector<Candidate>& candidates = result.candidates;
-  if (candidates.empty())
-  {
-    result.elsewhere = 1;
-    result.verdict = Verdict::not_here;
-    result.probability = 1;
-    return;
-  }
+  if (candidates.empty()) return decide(result);
   const double best = logLikelihoodOfScore(candidates.front().score);
   const double runner_up = candidates.size() > 1 ? candidates[1].score : kChanceScore;
   const double here = 1.0 / (1.0 + std::exp(-hereLogOdds(candidates.front().score, runner_up)));
@@ -59,21 +83,25 @@ void weighCandidates(RelocationResult& result)
   for (Candidate& candidate : candidates) candidate.probability *= here / sum;
   result.elsewhere = 1.0 - here;
 
-  const Candidate& first = candidates.front();
-  if (first.probability >= kLocalized && largestPositionSigma(first.pose) < kMaxOpenSigma)
+  decide(result);
+}
+
+void weighByLogOdds(RelocationResult& result)
+{
+  std::vector<Candidate>& candidates = result.candidates;
+  double largest = 0;  // the clutter hypothesis itself has log-odds 0
+  for (const Candidate& candidate : candidates) largest = std::max(largest, candidate.score);
+  double sum = std::exp(-largest);
+  for (Candidate& candidate : candidates)
   {
-    result.verdict = Verdict::localized;
-    result.probability = first.probability;
+    candidate.probability = std::exp(candidate.score - largest);
+    sum += candidate.probability;
   }
-  else if (result.elsewhere >= kNotHere)
+  for (Candidate& candidate : candidates)
   {
-    result.verdict = Verdict::not_here;
-    result.probability = result.elsewhere;
+    candidate.probability *= (1.0 - kPriorElsewhere) / sum;
   }
-  else
-  {
-    result.verdict = Verdict::ambiguous;
-    result.probability = 1.0 - first.probability;
-  }
+  result.elsewhere = kPriorElsewhere + (1.0 - kPriorElsewhere) * std::exp(-largest) / sum;
+  decide(result);
 }
 }  // namespace sigloc

@@ -73,6 +73,7 @@ struct MatcherOptions
 
 class BaseProposer;
 class DenseVerifier;
+struct PoseProposal;
 
 /// Relocation by matching signatures: says where in a known map the observed scene was seen.
 ///
@@ -106,12 +107,13 @@ class SignatureMatcher
   const DenseVerifier* verifier() const { return verifier_.get(); }
 
  private:
-  void verifyDensely(const ObservedScene& scene, const std::optional<PoseRegion>& region,
-                     RelocationResult& result) const;
+  void verifyDensely(const ObservedScene& scene, std::vector<PoseProposal> proposals,
+                     const std::optional<PoseRegion>& region, RelocationResult& result) const;
 
   std::shared_ptr<const FeatureMap> map_;
   MatcherOptions options_;
   std::unique_ptr<const DenseVerifier> verifier_;
-  std::unique_ptr<const BaseProposer> proposer_;
+  std::unique_ptr<const BaseProposer> proposer_;  // mode (e)
+  std::unique_ptr<const FeatureHypothesisGenerator> generator_;  // modes (a) to (d)
 };
 }  // namespace sigloc

@@ -20,4 +20,8 @@ double hereLogOdds(double best_score, double rival_score);
 /// verdict. A candidate convinces by its own score and by its lead over the best rival: look-alikes
 /// share the weight, and the runner-up measures what chance reaches. \cite algorithm eq. (7.3)
 void weighCandidates(RelocationResult& result);
+
+/// The same for candidates whose scores are log-odds against "all clutter" (maps without a dense
+/// field): the clutter hypothesis itself is what "elsewhere" competes with.
+void weighByLogOdds(RelocationResult& result);
 }  // namespace sigloc
