@@ -85,12 +85,15 @@ BaseProposer::BaseProposer(const FeatureMap& map, const BaseProposerOptions& opt
             });
 }
 
-std::vector<PoseProposal> BaseProposer::propose(const std::vector<Feature>& observed) const
+std::vector<PoseProposal> BaseProposer::propose(const std::vector<Feature>& observed,
+                                                Effort effort) const
 {
+  const bool thorough = effort == Effort::thorough;
   std::vector<PoseProposal> proposals;
   proposeWallEnds(observed, proposals);
-  proposeCirclePairs(observed, proposals);
-  proposeSlidWalls(observed, proposals);
+  proposeCirclePairs(observed, thorough ? options_.thorough_pairs : options_.max_pairs, proposals);
+  proposeSlidWalls(observed, thorough ? options_.thorough_slid_walls : options_.slid_walls,
+                   proposals);
   if (proposals.size() > options_.budget) proposals.resize(options_.budget);
   return proposals;
 }
@@ -111,7 +114,7 @@ void BaseProposer::proposeWallEnds(const std::vector<Feature>& observed,
   }
 }
 
-void BaseProposer::proposeSlidWalls(const std::vector<Feature>& observed,
+void BaseProposer::proposeSlidWalls(const std::vector<Feature>& observed, std::size_t count,
                                     std::vector<PoseProposal>& out) const
 {
   std::vector<const Feature*> walls;
@@ -124,15 +127,17 @@ void BaseProposer::proposeSlidWalls(const std::vector<Feature>& observed,
   std::vector<const Feature*> slid;
   for (const Feature* wall : walls)
   {
-    if (slid.size() == options_.slid_walls) break;
+    if (slid.size() == std::max<std::size_t>(count, options_.thorough_slid_walls)) break;
     const bool fresh =
         std::all_of(slid.begin(), slid.end(),
                     [&](const Feature* other)
                     { return std::abs(wrapToPi(wall->direction - other->direction)) > kParallel; });
     if (fresh) slid.push_back(wall);
   }
-  for (const Feature* wall : slid)
+  for (std::size_t i = 0; i < slid.size(); ++i)
   {
+    if (i >= count && out.size() >= options_.enough) break;
+    const Feature* wall = slid[i];
     const double inside = wall->size * (0.5 - options_.overhang);
     for (const MappedWall& mapped : walls_)
     {
@@ -151,7 +156,7 @@ void BaseProposer::proposeSlidWalls(const std::vector<Feature>& observed,
   }
 }
 
-void BaseProposer::proposeCirclePairs(const std::vector<Feature>& observed,
+void BaseProposer::proposeCirclePairs(const std::vector<Feature>& observed, std::size_t count,
                                       std::vector<PoseProposal>& out) const
 {
   struct Choice
@@ -181,7 +186,7 @@ void BaseProposer::proposeCirclePairs(const std::vector<Feature>& observed,
   }
   std::stable_sort(choices.begin(), choices.end(),
                    [](const Choice& a, const Choice& b) { return a.count < b.count; });
-  if (choices.size() > options_.max_pairs) choices.resize(options_.max_pairs);
+  if (choices.size() > count) choices.resize(count);
   for (const Choice& choice : choices)
   {
     const TPoint2D seen = choice.b->position - choice.a->position;

@@ -20,6 +20,7 @@ class CellView
         x0_(static_cast<float>(field.frame.origin.x)),
         y0_(static_cast<float>(field.frame.origin.y)),
         scale_(static_cast<float>(1.0 / field.frame.resolution)),
+        resolution_(static_cast<float>(field.frame.resolution)),
         width_(field.frame.width),
         height_(field.frame.height)
   {
@@ -37,18 +38,29 @@ class CellView
     return cells_[static_cast<std::size_t>(fy) * width_ + static_cast<std::size_t>(fx)];
   }
 
-  /// The middle of the wall cell nearest to the cell that holds (x, y).
-  mrpt::math::TPoint2D nearestWall(float x, float y, const DenseCell& cell) const
+  /// The vector from the middle of the nearest wall cell to (x, y) [m]; false when there is none
+  /// within the field's reach.
+  bool offsetToWall(float x, float y, float& ex, float& ey) const
   {
-    const double resolution = 1.0 / static_cast<double>(scale_);
-    const double ix = std::floor(static_cast<double>((x - x0_) * scale_)) + cell.dx + 0.5;
-    const double iy = std::floor(static_cast<double>((y - y0_) * scale_)) + cell.dy + 0.5;
-    return {static_cast<double>(x0_) + ix * resolution, static_cast<double>(y0_) + iy * resolution};
+    const float fx = (x - x0_) * scale_;
+    const float fy = (y - y0_) * scale_;
+    if (!(fx >= 0 && fy >= 0 && fx < static_cast<float>(width_) &&
+          fy < static_cast<float>(height_)))
+    {
+      return false;
+    }
+    const auto ix = static_cast<std::int32_t>(fx);
+    const auto iy = static_cast<std::int32_t>(fy);
+    const DenseCell& cell =
+        cells_[static_cast<std::size_t>(iy) * width_ + static_cast<std::size_t>(ix)];
+    ex = (fx - static_cast<float>(ix + cell.dx) - 0.5F) * resolution_;
+    ey = (fy - static_cast<float>(iy + cell.dy) - 0.5F) * resolution_;
+    return cell.distance != 255;
   }
 
  private:
   const DenseCell* cells_;
-  float x0_, y0_, scale_;
+  float x0_, y0_, scale_, resolution_;
   std::size_t width_, height_;
   DenseCell outside_;
 };

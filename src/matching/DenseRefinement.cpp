@@ -3,6 +3,7 @@
 #include <mrpt/math/wrap2pi.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <Eigen/Dense>
 
@@ -12,7 +13,6 @@
 
 namespace sigloc
 {
-using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
 using mrpt::math::wrapToPi;
 
@@ -20,60 +20,112 @@ namespace
 {
 constexpr double kMaxShift = 0.5;  // [m] a refinement may move a pose
 constexpr double kMaxTurn = 10.0 * M_PI / 180.0;  // [rad]
+constexpr float kFirstRobustSigma = 0.25F;  // [m], scale of the Cauchy weight of the first step
+constexpr float kRobustSigma = 0.12F;  // [m], and of the later ones
+constexpr double kHold = 0.05;  // keeps what the returns leave open
+constexpr double kConverged = 1e-3;  // [m], [rad], a step this small is the last
+
+/// Symmetric 3x3 system H delta = -g of one refinement step, in the order (x, y, phi).
+struct NormalEquations
+{
+  double xx = kHold, xy = 0, xt = 0, yy = kHold, yt = 0, tt = kHold;
+  double gx = 0, gy = 0, gt = 0;
+
+  /// By Cholesky; kHold keeps the system positive definite.
+  std::array<double, 3> solve() const
+  {
+    const double l00 = std::sqrt(xx);
+    const double l10 = xy / l00;
+    const double l20 = xt / l00;
+    const double l11 = std::sqrt(yy - l10 * l10);
+    const double l21 = (yt - l20 * l10) / l11;
+    const double l22 = std::sqrt(tt - l20 * l20 - l21 * l21);
+    const double a = -gx / l00;
+    const double b = (-gy - l10 * a) / l11;
+    const double c = (-gt - l20 * a - l21 * b) / l22;
+    const double t = c / l22;
+    const double y = (b - l21 * t) / l11;
+    const double x = (a - l10 * y - l20 * t) / l00;
+    return {x, y, t};
+  }
+};
+
+/// Returns on a wall pull along the wall's normal only, others towards the nearest wall cell.
+NormalEquations normalEquations(const DenseField& field, const DenseScan& scan, std::size_t count,
+                                const TPose2D& pose, float robust_sigma)
+{
+  const Placement place(pose);
+  const CellView cells(field);
+  const float inverse_square = 1.0F / (robust_sigma * robust_sigma);
+  float xx = 0, xy = 0, xt = 0, yy = 0, yt = 0, tt = 0, gx = 0, gy = 0, gt = 0;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const float rx = place.c * scan.x[i] - place.s * scan.y[i];
+    const float ry = place.s * scan.x[i] + place.c * scan.y[i];
+    float ex = 0;
+    float ey = 0;
+    if (!cells.offsetToWall(place.x + rx, place.y + ry, ex, ey)) continue;
+    const float weight = 1.0F / (1.0F + (ex * ex + ey * ey) * inverse_square);
+    if (scan.nx[i] != 0 || scan.ny[i] != 0)
+    {
+      const float nx = place.c * scan.nx[i] - place.s * scan.ny[i];
+      const float ny = place.s * scan.nx[i] + place.c * scan.ny[i];
+      const float nt = ny * rx - nx * ry;
+      const float error = weight * (nx * ex + ny * ey);
+      xx += weight * nx * nx;
+      xy += weight * nx * ny;
+      xt += weight * nx * nt;
+      yy += weight * ny * ny;
+      yt += weight * ny * nt;
+      tt += weight * nt * nt;
+      gx += error * nx;
+      gy += error * ny;
+      gt += error * nt;
+    }
+    else
+    {
+      const float half = 0.5F * weight;
+      xx += half;
+      yy += half;
+      xt -= half * ry;
+      yt += half * rx;
+      tt += half * (rx * rx + ry * ry);
+      gx += half * ex;
+      gy += half * ey;
+      gt += half * (rx * ey - ry * ex);
+    }
+  }
+  NormalEquations equations;
+  equations.xx += static_cast<double>(xx);
+  equations.xy += static_cast<double>(xy);
+  equations.xt += static_cast<double>(xt);
+  equations.yy += static_cast<double>(yy);
+  equations.yt += static_cast<double>(yt);
+  equations.tt += static_cast<double>(tt);
+  equations.gx = static_cast<double>(gx);
+  equations.gy = static_cast<double>(gy);
+  equations.gt = static_cast<double>(gt);
+  return equations;
+}
 }  // namespace
 
 TPose2D DenseVerifier::refine(const DenseScan& scan, const TPose2D& start, int steps,
                               std::size_t beams) const
 {
   const std::size_t count = std::min(beams, scan.size());
-  const CellView cells(field_);
   TPose2D pose = start;
   for (int step = 0; step < steps; ++step)
   {
-    // Returns on a wall pull along the wall's normal only, others towards the nearest wall cell.
-    Eigen::Matrix3f hessian = Eigen::Matrix3f::Zero();
-    Eigen::Vector3f gradient = Eigen::Vector3f::Zero();
-    const Placement place(pose);
-    const float robust = step == 0 ? 0.25F : 0.12F;  // [m], scale of the Cauchy weight
-    for (std::size_t i = 0; i < count; ++i)
+    const float robust_sigma = step == 0 ? kFirstRobustSigma : kRobustSigma;
+    const NormalEquations equations = normalEquations(field_, scan, count, pose, robust_sigma);
+    const std::array<double, 3> delta = equations.solve();
+    pose.x += delta[0];
+    pose.y += delta[1];
+    pose.phi += delta[2];
+    if (std::abs(delta[0]) + std::abs(delta[1]) < kConverged && std::abs(delta[2]) < kConverged)
     {
-      const float rx = place.c * scan.x[i] - place.s * scan.y[i];
-      const float ry = place.s * scan.x[i] + place.c * scan.y[i];
-      const float px = place.x + rx;
-      const float py = place.y + ry;
-      const DenseCell& cell = cells.at(px, py);
-      if (cell.distance == 255) continue;
-      const TPoint2D wall = cells.nearestWall(px, py, cell);
-      const float ex = px - static_cast<float>(wall.x);
-      const float ey = py - static_cast<float>(wall.y);
-      const float squared = ex * ex + ey * ey;
-      const float weight = 1.0F / (1.0F + squared / (robust * robust));
-      const float nx = place.c * scan.nx[i] - place.s * scan.ny[i];
-      const float ny = place.s * scan.nx[i] + place.c * scan.ny[i];
-      const auto add = [&](float ax, float ay, float w)
-      {
-        const Eigen::Vector3f j(ax, ay, ay * rx - ax * ry);
-        hessian.noalias() += w * j * j.transpose();
-        gradient.noalias() += w * (ax * ex + ay * ey) * j;
-      };
-      if (nx != 0 || ny != 0)
-      {
-        add(nx, ny, weight);
-      }
-      else
-      {
-        add(1, 0, 0.5F * weight);
-        add(0, 1, 0.5F * weight);
-      }
+      break;
     }
-    // What the returns leave open stays where the proposal put it.
-    hessian(0, 0) += 0.05F;
-    hessian(1, 1) += 0.05F;
-    hessian(2, 2) += 0.05F;
-    const Eigen::Vector3f delta = hessian.ldlt().solve(-gradient);
-    pose.x += static_cast<double>(delta[0]);
-    pose.y += static_cast<double>(delta[1]);
-    pose.phi += static_cast<double>(delta[2]);
   }
   pose.phi = wrapToPi(pose.phi);
   const bool inside = std::hypot(pose.x - start.x, pose.y - start.y) <= kMaxShift &&

@@ -20,6 +20,7 @@ using mrpt::math::TPose2D;
 
 namespace
 {
+constexpr double kPoorScore = 0.5;  // an answer below this calls for more proposals
 constexpr std::size_t kMinLandmarks = 2;  // without a laser
 constexpr std::size_t kMaxBeams = 400;  // used of a scene; more are thinned evenly
 
@@ -90,10 +91,14 @@ RelocationResult SignatureMatcher::localize(const ObservedScene& scene,
   // 2. Verify: by the dense field where the map has one and there are returns to look up.
   if (verifier_ && !scene.beams.empty())
   {
-    std::vector<PoseProposal> proposals =
-        generator_ ? proposalsOf(hypotheses) : proposer_->propose(scene.features);
-    if (!generator_) result.counters.hypotheses += proposals.size();
-    verifyDensely(scene, std::move(proposals), region, result);
+    if (generator_)
+    {
+      verifyDensely(scene, proposalsOf(hypotheses), region, result);
+    }
+    else
+    {
+      verifyBases(scene, region, result);
+    }
     // 3. Weigh the rivals and "somewhere else"; decide.
     weighCandidates(result);
     return result;
@@ -117,11 +122,26 @@ std::vector<TPose2D> SignatureMatcher::propose(const ObservedScene& scene) const
   MatchingCounters counters;
   const std::vector<PoseProposal> proposals =
       generator_ ? proposalsOf(generator_->generate(scene.features, counters))
-                 : proposer_->propose(scene.features);
+                 : proposer_->propose(scene.features, BaseProposer::Effort::thorough);
   std::vector<TPose2D> poses;
   poses.reserve(proposals.size());
   for (const PoseProposal& p : proposals) poses.emplace_back(p.x, p.y, p.phi);
   return poses;
+}
+
+/// The usual proposals explain nearly every scene; more are judged only where they don't.
+void SignatureMatcher::verifyBases(const ObservedScene& scene,
+                                   const std::optional<PoseRegion>& region,
+                                   RelocationResult& result) const
+{
+  for (const auto effort : {BaseProposer::Effort::usual, BaseProposer::Effort::thorough})
+  {
+    std::vector<PoseProposal> proposals = proposer_->propose(scene.features, effort);
+    result.counters.hypotheses += proposals.size();
+    result.candidates.clear();
+    verifyDensely(scene, std::move(proposals), region, result);
+    if (!result.candidates.empty() && result.candidates.front().score >= kPoorScore) return;
+  }
 }
 
 void SignatureMatcher::verifyDensely(const ObservedScene& scene,

@@ -17,13 +17,16 @@ namespace sigloc
 struct BaseProposerOptions
 {
   std::uint32_t budget = 20000;
-  std::uint32_t slid_walls = 2;
-  double slide_step = 0.3;
+  std::uint32_t slid_walls = 1;
+  std::uint32_t enough = 2000;
+  std::uint32_t thorough_slid_walls = 3;
+  double slide_step = 0.4;
   double overhang = 0.3;
   double length_tolerance = 0.3;
   double pair_tolerance = 0.15;
   double pair_range = 15.0;
-  std::uint32_t max_pairs = 6;
+  std::uint32_t max_pairs = 3;
+  std::uint32_t thorough_pairs = 12;
 
   template <class V>
   static void visitFields(V&& visit)
@@ -31,7 +34,11 @@ struct BaseProposerOptions
     using O = BaseProposerOptions;
     visit(OptionField{"budget", &O::budget, 1U, 100000000U, "[-] most proposals of one scene"});
     visit(OptionField{"slid_walls", &O::slid_walls, 0U, 100U,
-                      "[-] observed walls that are slid along the mapped ones"});
+                      "[-] observed walls that are slid along the mapped ones at least"});
+    visit(OptionField{"enough", &O::enough, 0U, 100000000U,
+                      "[-] with fewer proposals another observed wall is slid"});
+    visit(OptionField{"thorough_slid_walls", &O::thorough_slid_walls, 0U, 100U,
+                      "[-] the same when the first proposals explain the scene poorly"});
     visit(OptionField{"slide_step", &O::slide_step, 0.05, 5.0, "[m] step of a slid wall"});
     visit(OptionField{"overhang", &O::overhang, 0.0, 1.0,
                       "[-] share of an observed wall that may lie beyond the mapped one"});
@@ -43,6 +50,8 @@ struct BaseProposerOptions
                       "[m] largest distance of a pair of circles"});
     visit(OptionField{"max_pairs", &O::max_pairs, 0U, 1000U,
                       "[-] observed pairs of circles tried, rarest distance first"});
+    visit(OptionField{"thorough_pairs", &O::thorough_pairs, 0U, 1000U,
+                      "[-] the same when the first proposals explain the scene poorly"});
   }
 };
 
@@ -55,9 +64,17 @@ class BaseProposer
   /// Keeps a reference to the map, which must outlive the proposer.
   explicit BaseProposer(const FeatureMap& map, const BaseProposerOptions& options = {});
 
+  /// How many bases are used: enough for nearly every scene, or more when those explain it poorly.
+  enum class Effort
+  {
+    usual,
+    thorough
+  };
+
   /// Returns the poses proposed for observed features, the most telling bases first, at most
   /// `budget` of them.
-  std::vector<PoseProposal> propose(const std::vector<Feature>& observed) const;
+  std::vector<PoseProposal> propose(const std::vector<Feature>& observed,
+                                    Effort effort = Effort::usual) const;
 
  private:
   struct MappedWall
@@ -73,8 +90,9 @@ class BaseProposer
   };
 
   void proposeWallEnds(const std::vector<Feature>& observed, std::vector<PoseProposal>& out) const;
-  void proposeSlidWalls(const std::vector<Feature>& observed, std::vector<PoseProposal>& out) const;
-  void proposeCirclePairs(const std::vector<Feature>& observed,
+  void proposeSlidWalls(const std::vector<Feature>& observed, std::size_t count,
+                        std::vector<PoseProposal>& out) const;
+  void proposeCirclePairs(const std::vector<Feature>& observed, std::size_t count,
                           std::vector<PoseProposal>& out) const;
 
   const FeatureMap& map_;

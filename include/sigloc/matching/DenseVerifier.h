@@ -85,11 +85,26 @@ class DenseVerifier
   const DenseField& field() const { return field_; }
 
  private:
-  float quickScore(const float* x, const float* y, std::size_t count, const PoseProposal& p) const;
+  struct Scored
+  {
+    float score;
+    std::uint32_t index;
+  };
+  std::vector<Scored> firstLook(const DenseScan& scan,
+                                const std::vector<PoseProposal>& proposals) const;
+  std::vector<RankedPose> refineBest(const DenseScan& scan,
+                                     const std::vector<PoseProposal>& proposals,
+                                     const std::vector<Scored>& scored) const;
+  void markStanding(std::uint32_t x, std::uint32_t y);
+  bool canStand(float x, float y) const;
+  double likelihood(const DenseScan& scan, const mrpt::math::TPose2D& pose,
+                    std::size_t beams) const;
   double throughWallShare(const DenseScan& scan, const mrpt::math::TPose2D& pose) const;
 
   const DenseField& field_;
   RasterFrame quick_frame_;  ///< coarser raster of likelihoods for the first look
-  std::vector<std::uint8_t> quick_;  ///< with a border that is never left
+  std::vector<std::uint8_t> quick_;  ///< likelihoods; element 0 stands for everything outside
+  RasterFrame standing_frame_;  ///< coarse raster of where a robot can be
+  std::vector<std::uint8_t> standing_;  ///< 1: free space in or beside the cell
 };
 }  // namespace sigloc

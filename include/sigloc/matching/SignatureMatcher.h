@@ -107,6 +107,8 @@ class SignatureMatcher
   const DenseVerifier* verifier() const { return verifier_.get(); }
 
  private:
+  void verifyBases(const ObservedScene& scene, const std::optional<PoseRegion>& region,
+                   RelocationResult& result) const;
   void verifyDensely(const ObservedScene& scene, std::vector<PoseProposal> proposals,
                      const std::optional<PoseRegion>& region, RelocationResult& result) const;
 
