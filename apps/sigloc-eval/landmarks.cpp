@@ -49,6 +49,10 @@ std::function<int()> setUpLandmarks(CLI::App& command, const std::string& comman
       ->delimiter(',');
   command.add_option("--map-part", flags->map_part, "dlr: map of the first half, or as given")
       ->check(CLI::IsMember({"first-half", "given"}));
+  command
+      .add_option("--visited-share", options.visited_share,
+                  "dlr: a query is a later visit when more than this share of its discs is mapped")
+      ->check(CLI::Range(0.0, 1.0));
   command.add_option("--max-travel", options.max_travel, "m, longest local map")
       ->check(CLI::PositiveNumber);
   command.add_option("--stride", options.query_stride, "every so many steps is a query")

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
@@ -27,6 +28,17 @@ bool isRightPose(const FeatureHypothesis& hypothesis, const mrpt::math::TPose2D&
          std::abs(mrpt::math::wrapToPi(mean.phi - truth.phi)) <= options.right_angle;
 }
 
+/// Memory of this process that is in use now [bytes], 0 where the system does not tell.
+double residentBytes()
+{
+  std::ifstream statm("/proc/self/statm");
+  double total = 0;
+  double resident = 0;
+  statm >> total >> resident;
+  constexpr double kPage = 4096;
+  return kPage * resident;
+}
+
 ScaleRow runRow(const std::string& method, const FeatureWorld& world, const FeatureMap& map,
                 std::size_t wanted, const ScaleOptions& options)
 {
@@ -34,15 +46,12 @@ ScaleRow runRow(const std::string& method, const FeatureWorld& world, const Feat
   row.method = method;
   row.map_features = map.features().size();
   row.wanted = wanted;
-  resetPeakMemory();
-  const double memory_before = peakMemoryMb();
+  const double memory_before = residentBytes();
   const double start = threadCpuSeconds();
   const auto generator = makeFeatureMethod(method, map, options.generator);
   row.build_seconds = threadCpuSeconds() - start;
-  constexpr double kMegabyte = 1e6;
   row.bytes_per_feature =
-      kMegabyte * (peakMemoryMb() - memory_before) / static_cast<double>(row.map_features) +
-      sizeof(Feature);
+      (residentBytes() - memory_before) / static_cast<double>(row.map_features) + sizeof(Feature);
 
   Random random(options.seed, 1000 + wanted);
   const std::size_t poses = isLinearMethod(method) ? options.slow_poses : options.poses;

@@ -20,6 +20,9 @@ namespace
 constexpr double kIndexedShare = 0.5;
 // A hundred more draws cost a thousandth of a fall-back to pairs: they may fail this much less.
 constexpr double kDrawsAreCheap = 0.01;
+// Share of the gate within which an order is taken to be undecided: every further order is a
+// further look-up, and an order missed costs one draw of many.
+constexpr double kOrderShare = 0.5;
 }  // namespace
 
 /// What one query carries along: random numbers, the pattern drawn last, buffers.
@@ -108,7 +111,7 @@ void PatternGenerator::tryPattern(const PreparedScene& scene, Query& query, Hypo
   std::array<TPoint2D, kLargestPattern> places;
   for (std::size_t k = 0; k < size; ++k) places[k] = scene.views[query.members[k]].position();
   query.orders.clear();
-  possibleOrders(places.data(), size, query.gate.tolerance, query.orders);
+  possibleOrders(places.data(), size, kOrderShare * query.gate.tolerance, query.orders);
   for (const PatternOrder& order : query.orders)
   {
     std::array<TPoint2D, kLargestPattern> ordered;

@@ -47,7 +47,7 @@ struct ScaleRow
   double hypotheses = 0;
   double checks = 0;
   double build_seconds = 0;
-  double bytes_per_feature = 0;  ///< growth of the process while map and index were built
+  double bytes_per_feature = 0;  ///< of the map and its index, by the process' resident memory
 
   double operations() const { return signature_pairs + hypotheses + checks; }
 };

@@ -19,11 +19,11 @@ struct GeneratorOptions
   double significance = 0.001;
   std::uint32_t max_hypotheses = 50;
   double effective_range = 0;
-  std::uint32_t max_neighbours = 64;
+  std::uint32_t max_neighbours = 48;
   std::uint32_t pattern_size = 0;
   std::uint32_t max_patterns = 24;
   double pattern_cell = 0;
-  std::uint32_t fall_back_hypotheses = 100000;
+  std::uint32_t fall_back_hypotheses = 400000;
   std::uint32_t seed = 1;
 
   template <class V>
