@@ -22,6 +22,6 @@ double hereLogOdds(double best_score, double rival_score);
 void weighCandidates(RelocationResult& result);
 
 /// The same for candidates whose scores are log-odds against "all clutter" (maps without a dense
-/// field): the clutter hypothesis itself is what "elsewhere" competes with.
+/// field): the clutter hypothesis itself is what they compete with. \cite algorithm eq. (7.4)
 void weighByLogOdds(RelocationResult& result);
 }  // namespace sigloc
