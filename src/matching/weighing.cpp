@@ -19,6 +19,7 @@ constexpr double kSharpening = 1.3;  // of rivals against each other
 constexpr double kHereSlope = 12.0;  // of the log-odds of being in the map, per unit of score
 constexpr double kHereOffset = 10.4;
 constexpr double kChanceScore = 0.4;  // what chance reaches where there is no runner-up
+constexpr double kFeatureTempering = 0.5;  // features of one scan share their errors
 constexpr double kPriorElsewhere =
     0.002;  // of standing off the map, and of a generator that failed
 constexpr double kLocalized = 0.99;
@@ -91,17 +92,18 @@ void weighByLogOdds(RelocationResult& result)
   std::vector<Candidate>& candidates = result.candidates;
   double largest = 0;  // the clutter hypothesis itself has log-odds 0
   for (const Candidate& candidate : candidates) largest = std::max(largest, candidate.score);
-  double sum = std::exp(-largest);
+  double sum = std::exp(-kFeatureTempering * largest);
   for (Candidate& candidate : candidates)
   {
-    candidate.probability = std::exp(candidate.score - largest);
+    candidate.probability = std::exp(kFeatureTempering * (candidate.score - largest));
     sum += candidate.probability;
   }
   for (Candidate& candidate : candidates)
   {
     candidate.probability *= (1.0 - kPriorElsewhere) / sum;
   }
-  result.elsewhere = kPriorElsewhere + (1.0 - kPriorElsewhere) * std::exp(-largest) / sum;
+  result.elsewhere =
+      kPriorElsewhere + (1.0 - kPriorElsewhere) * std::exp(-kFeatureTempering * largest) / sum;
   decide(result);
 }
 }  // namespace sigloc
