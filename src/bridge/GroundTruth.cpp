@@ -20,6 +20,8 @@ using mrpt::math::TPose2D;
 
 namespace
 {
+constexpr double kMaxTurn = 0.2;  // [rad] between two rows that are interpolated
+constexpr double kMaxStep = 0.75;  // [m]
 constexpr double kSameTime = 1e-3;  // [s]
 constexpr double kLargestIndex = 1e7;  // larger whole numbers are seconds since some epoch
 
@@ -81,6 +83,37 @@ bool isSimplemap(const std::filesystem::path& path)
 }
 }  // namespace
 
+/// The longest run of rows whose times grow: a path is written as it is driven, so a row whose
+/// time jumps out of that order has a wrong time and would be the truth of some other moment.
+std::vector<GroundTruth::Entry> GroundTruth::inTimeOrder(const std::vector<Entry>& rows)
+{
+  constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+  std::vector<std::size_t> tails;  // last row of the best run of each length
+  std::vector<std::size_t> before(rows.size(), kNone);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+  {
+    const auto place =
+        std::lower_bound(tails.begin(), tails.end(), rows[i].key,
+                         [&](std::size_t tail, double key) { return rows[tail].key < key; });
+    if (place != tails.begin()) before[i] = *std::prev(place);
+    if (place == tails.end())
+    {
+      tails.push_back(i);
+    }
+    else
+    {
+      *place = i;
+    }
+  }
+  std::vector<Entry> kept;
+  for (std::size_t i = tails.empty() ? kNone : tails.back(); i != kNone; i = before[i])
+  {
+    kept.push_back(rows[i]);
+  }
+  std::reverse(kept.begin(), kept.end());
+  return kept;
+}
+
 GroundTruth GroundTruth::read(const std::filesystem::path& path, const TPose2D& map_from_truth)
 {
   GroundTruth truth;
@@ -124,8 +157,7 @@ GroundTruth GroundTruth::read(const std::filesystem::path& path, const TPose2D& 
     entry.pose = map_from_truth + entry.pose;
     entry.pose.phi = mrpt::math::wrapToPi(entry.pose.phi);
   }
-  std::stable_sort(truth.entries_.begin(), truth.entries_.end(),
-                   [](const Entry& a, const Entry& b) { return a.key < b.key; });
+  if (truth.key_ == Key::time) truth.entries_ = inTimeOrder(truth.entries_);
   return truth;
 }
 
@@ -145,6 +177,8 @@ std::optional<TPose2D> GroundTruth::at(std::size_t step, double time, double max
   const TPose2D& a = before->pose;
   const TPose2D& b = after->pose;
   const double turn = mrpt::math::wrapToPi(b.phi - a.phi);
+  // Where the robot turned or drove far between two rows, nobody knows how it went.
+  if (std::abs(turn) > kMaxTurn || std::hypot(b.x - a.x, b.y - a.y) > kMaxStep) return std::nullopt;
   return TPose2D{a.x + share * (b.x - a.x), a.y + share * (b.y - a.y),
                  mrpt::math::wrapToPi(a.phi + share * turn)};
 }

@@ -136,6 +136,7 @@ EvaluationMap evaluationMapFromScans(const std::vector<PosedScans>& scans)
   options.raster_resolution = kSearchResolution;
   options.min_hits = kSearchMinHits;
   map.raster = rasterFromScans(scans, options);
+  for (const PosedScans& posed : scans) map.mapped_poses.push_back(posed.map_from_robot);
   return map;
 }
 

@@ -26,7 +26,18 @@ struct LogStep
   std::optional<TPose2D> truth;
   double travelled = 0;  // [m] since the log began, along the truth
   bool may_start = false;
+  bool mapped = true;
 };
+
+/// True where the map's scans were taken within 1 m; always for a map without poses.
+bool isMapped(const TPose2D& truth, const std::vector<TPose2D>& mapped_poses)
+{
+  constexpr double kMappedDistance = 1.0;  // [m]
+  return mapped_poses.empty() ||
+         std::any_of(mapped_poses.begin(), mapped_poses.end(),
+                     [&](const TPose2D& pose)
+                     { return std::hypot(pose.x - truth.x, pose.y - truth.y) <= kMappedDistance; });
+}
 
 struct Drive
 {
@@ -34,7 +45,7 @@ struct Drive
   bool complete = true;
 };
 
-Drive readDrive(const TrackOptions& options)
+Drive readDrive(const TrackOptions& options, const std::vector<TPose2D>& mapped_poses)
 {
   const auto truth = GroundTruth::read(options.ground_truth, options.map_from_truth);
   std::optional<GroundTruth> start_frames;
@@ -52,6 +63,7 @@ Drive readDrive(const TrackOptions& options)
     if (out.truth && last) travelled += std::hypot(out.truth->x - last->x, out.truth->y - last->y);
     if (out.truth) last = out.truth;
     out.travelled = travelled;
+    out.mapped = !out.truth || isMapped(*out.truth, mapped_poses);
     out.may_start = out.truth.has_value() &&
                     (!start_frames || start_frames->at(i, step->time, kSameScan).has_value());
     out.step = std::move(*step);
@@ -123,6 +135,7 @@ void drivePart(TrackingMethod& method, const Drive& drive, const Leg& leg,
     record.claim = method.step(step);
     record.time_ms = 1e3 * (threadCpuSeconds() - start);
     record.step = i;
+    record.mapped = drive.steps[i].mapped;
     record.travelled = before + drive.steps[i].travelled - drive.steps[leg.first].travelled;
     const auto& truth = drive.steps[i].truth;
     if (truth && record.claim.has_pose)
@@ -167,7 +180,10 @@ void judgeRun(TrackRun& run)
 {
   const auto& steps = run.steps;
   std::size_t settled = steps.size();
-  while (settled > 0 && steps[settled - 1].claim.confident) --settled;
+  while (settled > 0 && (steps[settled - 1].claim.confident || !steps[settled - 1].mapped))
+  {
+    --settled;
+  }
   if (settled < steps.size())
   {
     run.settled_after =
@@ -183,9 +199,9 @@ void judgeRun(TrackRun& run)
     ++run.wrong_steps;
     if (i == 0 || steps[i - 1].judged != Claim::wrong) ++run.wrong_episodes;
   }
-  const auto last_with_truth =
-      std::find_if(steps.rbegin(), steps.rend(),
-                   [](const TrackStepRecord& s) { return !std::isnan(s.error.distance); });
+  const auto last_with_truth = std::find_if(steps.rbegin(), steps.rend(),
+                                            [](const TrackStepRecord& s)
+                                            { return s.mapped && !std::isnan(s.error.distance); });
   run.right_at_end = last_with_truth != steps.rend() && last_with_truth->judged == Claim::right;
   if (run.kidnapped_at == 0) return;
   for (std::size_t i = run.kidnapped_at; i < steps.size() && !run.noticed_after; ++i)
@@ -207,7 +223,7 @@ TrackReport runTrack(const TrackOptions& options)
     }
   }
   const EvaluationMap map = readEvaluationMap(options.map);
-  const Drive drive = readDrive(options);
+  const Drive drive = readDrive(options, map.mapped_poses);
   const std::vector<std::size_t> starts = startsOf(drive, options);
   TrackReport report;
   report.map_features = map.features->features().size();

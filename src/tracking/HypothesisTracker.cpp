@@ -47,6 +47,7 @@ struct HypothesisTracker::State
   bool wantsRelocation() const;
   void relocate(const ObservedScene& scene);
   void confirm(const RelocationResult& result, double fresh_share);
+  GaussianPose withCommonError(GaussianPose pose, int sign) const;
   void publish(const ObservedScene& scene);
 
   std::shared_ptr<const SignatureMatcher> matcher;
@@ -151,7 +152,7 @@ void HypothesisTracker::State::relocate(const ObservedScene& scene)
       continue;
     }
     Track fresh;
-    fresh.hypothesis.pose = candidate.pose;
+    fresh.hypothesis.pose = withCommonError(candidate.pose, -1);
     fresh.hypothesis.weight = share;
     fresh.hypothesis.id = next_id++;
     fresh.score = fresh.mean_score = candidate.score;
@@ -211,16 +212,24 @@ void HypothesisTracker::State::confirm(const RelocationResult& result, double fr
   set.normalise();
 }
 
+/// The error that moves a whole neighbourhood of the map belongs in what is told, once: within the
+/// tracks it would make every scan look like news about it.
+GaussianPose HypothesisTracker::State::withCommonError(GaussianPose pose, int sign) const
+{
+  const double common = matcher->map().error().common_sigma;
+  pose.covariance(0, 0) += sign * common * common;
+  pose.covariance(1, 1) += sign * common * common;
+  return pose;
+}
+
 void HypothesisTracker::State::publish(const ObservedScene& scene)
 {
   belief = {};
   belief.elsewhere = set.elsewhere;
-  const double common = matcher->map().error().common_sigma;
   for (const Track& track : set.tracks)
   {
     belief.hypotheses.push_back(track.hypothesis);
-    belief.hypotheses.back().pose.covariance(0, 0) += common * common;
-    belief.hypotheses.back().pose.covariance(1, 1) += common * common;
+    belief.hypotheses.back().pose = withCommonError(track.hypothesis.pose, +1);
   }
   if (set.tracks.empty())
   {

@@ -52,18 +52,29 @@ TEST(GroundTruth, ReadsRowsByIndex)
 TEST(GroundTruth, InterpolatesTimesAcrossTheTurnOfTheHeading)
 {
   const TemporaryFolder folder;
-  writeText(folder / "t.txt", "100.0 0 0 3.1\n101.0 2 4 -3.1\n105.0 2 4 0\n");
+  writeText(folder / "t.txt",
+            "100.0 0 0 3.1\n101.0 0.2 0.4 -3.1\n105.0 0.2 0.4 -3.0\n106.0 0.2 0.4 0\n");
   const GroundTruth truth = GroundTruth::read(folder / "t.txt");
   const auto middle = truth.at(0, 100.5);
   ASSERT_TRUE(middle);
-  EXPECT_NEAR(middle->x, 1.0, 1e-9);
-  EXPECT_NEAR(middle->y, 2.0, 1e-9);
+  EXPECT_NEAR(middle->x, 0.1, 1e-9);
+  EXPECT_NEAR(middle->y, 0.2, 1e-9);
   EXPECT_NEAR(std::abs(middle->phi), M_PI, 1e-9);
-  expectPose(truth.at(7, 101.0), {2, 4, -3.1});
+  expectPose(truth.at(7, 101.0), {0.2, 0.4, -3.1});
   EXPECT_FALSE(truth.at(0, 103.0)) << "the gap is too wide";
   EXPECT_TRUE(truth.at(0, 103.0, 3.0));
   EXPECT_FALSE(truth.at(0, 99.9));
-  EXPECT_FALSE(truth.at(0, 105.1));
+  EXPECT_FALSE(truth.at(0, 105.5)) << "who knows how it turned";
+  EXPECT_FALSE(truth.at(0, 106.1));
+}
+
+TEST(GroundTruth, LeavesOutRowsWhoseTimeIsOutOfOrder)
+{
+  const TemporaryFolder folder;
+  writeText(folder / "t.txt", "1.5 0 0 0\n9.5 5 5 1\n2.5 0.1 0 0\n3.5 0.2 0 0\n");
+  const GroundTruth truth = GroundTruth::read(folder / "t.txt");
+  EXPECT_FALSE(truth.at(0, 9.5));
+  expectPose(truth.at(0, 2.5), {0.1, 0, 0});
 }
 
 TEST(GroundTruth, ReadsSevenColumnsAndMovesThemIntoTheMap)

@@ -38,6 +38,8 @@ class GroundTruth
     double key;
     mrpt::math::TPose2D pose;
   };
+  static std::vector<Entry> inTimeOrder(const std::vector<Entry>& rows);
+
   Key key_ = Key::row;
   std::vector<Entry> entries_;
 };

@@ -22,6 +22,7 @@ struct EvaluationMap
   /// What dense baselines search: 0.1 m cells from the mapping scans, or the grid as given. None
   /// for a map of landmarks.
   std::optional<OccupancyRaster> raster;
+  std::vector<mrpt::math::TPose2D> mapped_poses;  ///< of the mapping scans; empty for a grid
   double build_seconds = 0;  ///< CPU time of building `features`
 };
 

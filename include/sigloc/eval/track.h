@@ -40,6 +40,7 @@ struct TrackStepRecord
   double travelled = 0;  ///< [m] since the start
   TrackClaim claim;
   PoseError error;  ///< NaN without truth
+  bool mapped = true;  ///< the truth lies within 1 m of a mapped pose, or the map has no poses
   Claim judged = Claim::none;
   double time_ms = 0;
 };
@@ -50,10 +51,10 @@ struct TrackRun
   std::size_t start = 0;  ///< step of the log
   std::vector<TrackStepRecord> steps;
   std::size_t kidnapped_at = 0;  ///< index into steps; 0: not kidnapped
-  bool right_at_end = false;
-  std::optional<double> settled_after;  ///< [m]; none: never
+  bool right_at_end = false;  ///< at the last mapped step with truth
+  std::optional<double> settled_after;  ///< [m], confident from there on where mapped; none: never
   double cpu_to_settled = 0;  ///< [s]; of the whole run when it never settles
-  std::size_t wrong_steps = 0;
+  std::size_t wrong_steps = 0;  ///< off the mapped area too
   std::size_t wrong_episodes = 0;
   std::optional<double> noticed_after;  ///< [m] after the kidnapping; none: never
 };
