@@ -30,13 +30,15 @@ void splitRange(const ScanPoints& scan, PointRange range, const FeatureExtractor
   if (range.last < range.first + 1) return;
   const TPoint2D a = scan.points[range.first];
   const TPoint2D chord = scan.points[range.last] - a;
-  const double length = std::max(chord.norm(), 1e-9);
+  const double length = chord.norm();
+  // An outline that closes on itself has no chord to speak of.
+  const bool is_closed = length < options.split_distance;
   double farthest = 0;
   std::size_t at = range.first;
   for (std::size_t i = range.first + 1; i < range.last; ++i)
   {
     const TPoint2D d = scan.points[i] - a;
-    const double off = std::abs(chord.x * d.y - chord.y * d.x) / length;
+    const double off = is_closed ? d.norm() : std::abs(chord.x * d.y - chord.y * d.x) / length;
     if (off > farthest)
     {
       farthest = off;
@@ -263,10 +265,15 @@ std::vector<Feature> featuresOfScan(const ScanPoints& scan, double range_sigma,
   }
 
   std::vector<Feature> derived;
-  for (std::size_t i = 0; i + 1 < segments.features.size(); ++i)
+  const std::size_t count = segments.features.size();
+  for (std::size_t i = 0; i < count; ++i)
   {
-    if (segments.ranges[i + 1].first > segments.ranges[i].last + 3) continue;
-    if (auto corner = makeCorner(segments.features[i], segments.features[i + 1], options))
+    const bool at_seam = i + 1 == count;
+    if (at_seam && (!scan.closed || count < 2)) continue;
+    const std::size_t next = at_seam ? 0 : i + 1;
+    const std::size_t first = segments.ranges[next].first + (at_seam ? scan.points.size() : 0);
+    if (first > segments.ranges[i].last + 3) continue;
+    if (auto corner = makeCorner(segments.features[i], segments.features[next], options))
     {
       corner->parent = static_cast<std::int32_t>(i);
       derived.push_back(*corner);
@@ -307,7 +314,7 @@ ObservedScene observeScene(const std::vector<LaserScan>& scans,
   {
     checkScan(scan);
     ScanPoints points = validPoints(scan, options);
-    startAtBreak(points, scan.ranges.size(), options);
+    startAtBreak(points, options);
 
     const auto origin = static_cast<std::uint32_t>(scene.sensor_origins.size());
     const TPose2D& robot_from_sensor = scan.robot_from_sensor;

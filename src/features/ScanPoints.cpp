@@ -24,6 +24,14 @@ bool breaksBetween(const ScanPoints& scan, std::size_t i, std::size_t j,
   return (scan.points[j] - scan.points[i]).norm() > limit;
 }
 
+/// Beams from return `from` on to the next return `to`; a full circle is counted through.
+std::size_t beamsBetween(const ScanPoints& scan, std::size_t from, std::size_t to)
+{
+  if (scan.beams[to] >= scan.beams[from]) return scan.beams[to] - scan.beams[from];
+  const auto turn = static_cast<std::size_t>(std::lround(2 * M_PI / scan.beam_spacing));
+  const std::size_t last = scan.beams[to] + turn;
+  return last > scan.beams[from] ? last - scan.beams[from] : 0;
+}
 }  // namespace
 
 ScanPoints validPoints(const LaserScan& scan, const FeatureExtractorOptions& options)
@@ -48,20 +56,21 @@ ScanPoints validPoints(const LaserScan& scan, const FeatureExtractorOptions& opt
   return out;
 }
 
-void startAtBreak(ScanPoints& scan, std::size_t beam_count, const FeatureExtractorOptions& options)
+void startAtBreak(ScanPoints& scan, const FeatureExtractorOptions& options)
 {
   const std::size_t n = scan.points.size();
   if (!scan.closed || n < 3 || breaksBetween(scan, n - 1, 0, options)) return;
-  for (std::size_t i = 1; i < n; ++i)
+  std::size_t start = 1;
+  while (start < n && !breaksBetween(scan, start - 1, start, options)) ++start;
+  if (start == n)
   {
-    if (!breaksBetween(scan, i - 1, i, options)) continue;
-    const auto shift = static_cast<std::ptrdiff_t>(i);
-    std::rotate(scan.points.begin(), scan.points.begin() + shift, scan.points.end());
-    std::rotate(scan.ranges.begin(), scan.ranges.begin() + shift, scan.ranges.end());
-    std::rotate(scan.beams.begin(), scan.beams.begin() + shift, scan.beams.end());
-    for (std::size_t k = n - i; k < n; ++k) scan.beams[k] += beam_count;
-    return;
+    const auto farthest = std::max_element(scan.ranges.begin(), scan.ranges.end());
+    start = static_cast<std::size_t>(farthest - scan.ranges.begin());
   }
+  const auto shift = static_cast<std::ptrdiff_t>(start);
+  std::rotate(scan.points.begin(), scan.points.begin() + shift, scan.points.end());
+  std::rotate(scan.ranges.begin(), scan.ranges.begin() + shift, scan.ranges.end());
+  std::rotate(scan.beams.begin(), scan.beams.begin() + shift, scan.beams.end());
 }
 
 std::vector<PointRange> clustersOf(const ScanPoints& scan, const FeatureExtractorOptions& options)
@@ -82,13 +91,13 @@ std::vector<PointRange> clustersOf(const ScanPoints& scan, const FeatureExtracto
 bool jumpsFarther(const ScanPoints& scan, std::size_t edge, int step,
                   const FeatureExtractorOptions& options)
 {
-  const auto n = static_cast<std::ptrdiff_t>(scan.points.size());
-  const std::ptrdiff_t neighbour = static_cast<std::ptrdiff_t>(edge) + step;
-  if (neighbour < 0 || neighbour >= n) return false;
-  const auto other = static_cast<std::size_t>(neighbour);
-  const std::size_t beam_gap =
-      step > 0 ? scan.beams[other] - scan.beams[edge] : scan.beams[edge] - scan.beams[other];
-  return beam_gap <= 2 && scan.ranges[other] > scan.ranges[edge] + options.wall_end_jump;
+  const std::size_t n = scan.points.size();
+  const bool at_seam = step > 0 ? edge + 1 == n : edge == 0;
+  if (at_seam && !scan.closed) return false;
+  const std::size_t other = step > 0 ? (edge + 1) % n : (edge + n - 1) % n;
+  const std::size_t from = step > 0 ? edge : other;
+  const std::size_t to = step > 0 ? other : edge;
+  return beamsBetween(scan, from, to) <= 2 &&
+         scan.ranges[other] > scan.ranges[edge] + options.wall_end_jump;
 }
-
 }  // namespace sigloc

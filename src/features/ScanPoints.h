@@ -16,7 +16,7 @@ struct ScanPoints
 {
   std::vector<mrpt::math::TPoint2D> points;
   std::vector<double> ranges;
-  std::vector<std::size_t> beams;  // beam index of each return; grows by 1 where none was lost
+  std::vector<std::size_t> beams;  // beam index of each return
   double beam_spacing = 0;  // [rad]
   bool closed = false;  // the scan covers the full circle: the last beam meets the first
 };
@@ -30,14 +30,16 @@ struct PointRange
 /// Returns the valid returns of a scan; out-of-range and broken beams are skipped.
 ScanPoints validPoints(const LaserScan& scan, const FeatureExtractorOptions& options);
 
-/// Turns a full-circle scan so that it starts at a break: no wall is cut by the seam.
-void startAtBreak(ScanPoints& scan, std::size_t beam_count, const FeatureExtractorOptions& options);
+/// Turns a full-circle scan so that no wall is cut by its seam: it starts at a break or, where the
+/// outline is closed, at the farthest return, which is a corner.
+void startAtBreak(ScanPoints& scan, const FeatureExtractorOptions& options);
 
 /// Returns the runs of neighbouring returns without a break between them.
 std::vector<PointRange> clustersOf(const ScanPoints& scan, const FeatureExtractorOptions& options);
 
 /// True when the neighbouring return beyond `edge` (towards `step`) was measured by the next beam
 /// and lies farther by the jump: what ends here ends for real. A lost or nearer beam tells nothing.
+/// In a full-circle scan the first and the last return are neighbours.
 bool jumpsFarther(const ScanPoints& scan, std::size_t edge, int step,
                   const FeatureExtractorOptions& options);
 }  // namespace sigloc
