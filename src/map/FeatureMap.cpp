@@ -29,7 +29,7 @@ void checkFeature(const Feature& feature, std::size_t k)
                       std::isfinite(feature.direction) && std::isfinite(feature.size) &&
                       std::isfinite(feature.direction_variance) &&
                       std::isfinite(feature.size_variance) && std::isfinite(p(0, 0)) &&
-                      std::isfinite(p(0, 1)) && std::isfinite(p(1, 1));
+                      std::isfinite(p(0, 1)) && std::isfinite(p(1, 0)) && std::isfinite(p(1, 1));
   if (!finite)
   {
     throw std::invalid_argument("FeatureMap: feature " + std::to_string(k) + " is not finite");

@@ -29,17 +29,19 @@ std::uint64_t cellKey(double x, double y, double size)
          static_cast<std::uint32_t>(iy);
 }
 
-/// Calls `visit(x, y)` at points every cell length along a segment, both ends included.
+/// Calls `visit(x, y)` at points every `spacing` along a segment prolonged by `beyond` [m] at both
+/// ends, which are included.
 template <class Visit>
-void walkAlong(const Feature& segment, double spacing, Visit&& visit)
+void walkAlong(const Feature& segment, double spacing, double beyond, Visit&& visit)
 {
-  const TPoint2D start = segmentStart(segment);
   const TPoint2D tangent = tangentVector(segment);
-  const int steps = static_cast<int>(std::ceil(segment.size / spacing));
+  const TPoint2D start = segmentStart(segment) - tangent * beyond;
+  const double length = segment.size + 2 * beyond;
+  const int steps = static_cast<int>(std::ceil(length / spacing));
   for (int k = 0; k <= steps; ++k)
   {
-    const double along = std::min(segment.size, k * spacing);
-    visit(start.x + along * tangent.x, start.y + along * tangent.y);
+    const TPoint2D p = start + tangent * std::min(length, k * spacing);
+    visit(p.x, p.y);
   }
 }
 
@@ -86,21 +88,29 @@ void FeatureMerger::addSegment(const Feature& segment)
 {
   std::int64_t best = -1;
   double best_offset = 1e9;
-  walkAlong(segment, 0.5 * kSegmentCell,
+  const auto look = [&](double x, double y)
+  {
+    const auto cell = segment_cells_.find(cellKey(x, y, kSegmentCell));
+    if (cell == segment_cells_.end()) return;
+    for (const std::uint32_t k : cell->second)
+    {
+      double offset = 0;
+      if (!fits(segments_[k].line, segment, offset)) continue;
+      if (offset < best_offset || (offset == best_offset && k < best))
+      {
+        best = k;
+        best_offset = offset;
+      }
+    }
+  };
+  // What may merge lies within these margins, perhaps across the border of a cell.
+  const TPoint2D aside = directionVector(segment) * options_.merge_offset;
+  walkAlong(segment, 0.5 * kSegmentCell, options_.merge_gap,
             [&](double x, double y)
             {
-              const auto cell = segment_cells_.find(cellKey(x, y, kSegmentCell));
-              if (cell == segment_cells_.end()) return;
-              for (const std::uint32_t k : cell->second)
-              {
-                double offset = 0;
-                if (!fits(segments_[k].line, segment, offset)) continue;
-                if (offset < best_offset || (offset == best_offset && k < best))
-                {
-                  best = k;
-                  best_offset = offset;
-                }
-              }
+              look(x, y);
+              look(x - aside.x, y - aside.y);
+              look(x + aside.x, y + aside.y);
             });
   if (best < 0)
   {
@@ -151,7 +161,7 @@ void FeatureMerger::absorb(MergedSegment& merged, const Feature& segment)
 
 void FeatureMerger::registerSegment(std::uint32_t index, const Feature& segment)
 {
-  walkAlong(segment, 0.5 * kSegmentCell,
+  walkAlong(segment, 0.5 * kSegmentCell, 0.0,
             [&](double x, double y)
             {
               auto& cell = segment_cells_[cellKey(x, y, kSegmentCell)];
@@ -206,7 +216,7 @@ void FeatureMerger::addPlace(const Feature& place)
   MergedPlace& merged = places_[static_cast<std::size_t>(best)];
   Feature& feature = merged.feature;
   // Running means; the hash keeps the first place, from which the mean moves by less than a cell.
-  const double n = feature.sightings;
+  const double n = merged.count++;
   feature.position = (feature.position * n + place.position) * (1.0 / (n + 1));
   const bool length_like = place.type == FeatureType::wall_end;
   feature.size =

@@ -36,6 +36,10 @@ void forEachReturn(const PosedScans& posed, double max_range, Visit&& visit)
   {
     const TPose2D map_from_sensor = posed.map_from_robot + scan.robot_from_sensor;
     const TPoint2D origin(map_from_sensor.x, map_from_sensor.y);
+    if (!std::isfinite(origin.x) || !std::isfinite(origin.y) || !std::isfinite(map_from_sensor.phi))
+    {
+      throw std::invalid_argument("rasterFromScans: the pose of a scan is not finite");
+    }
     for (std::size_t i = 0; i < scan.ranges.size(); ++i)
     {
       const double range = static_cast<double>(scan.ranges[i]);

@@ -41,6 +41,7 @@ class FeatureMerger
   {
     Feature feature;
     double cosine_sum = 0, sine_sum = 0;
+    std::uint32_t count = 1;  // of observations; several of one scan are one sighting
     std::uint32_t last_scan = 0;
   };
   using Cells = std::unordered_map<std::uint64_t, std::vector<std::uint32_t>>;
