@@ -123,6 +123,11 @@ class RowEnvelope
 };
 }  // namespace
 
+double truncationDistance(double resolution)
+{
+  return truncationRadius(resolution) * resolution;
+}
+
 DenseField buildDenseField(const OccupancyRaster& raster)
 {
   checkRaster(raster);

@@ -17,7 +17,7 @@ std::optional<double> RayCaster::cast(const mrpt::math::TPoint2D& origin, double
   const double x0 = (origin.x - frame.origin.x) / resolution;
   const double y0 = (origin.y - frame.origin.y) / resolution;
   const double limit = max_range / resolution;
-  constexpr double kUnit = DenseField::kDistanceUnit;
+  const double far = truncationDistance(resolution);
   double along = 0;  // [cells]
   while (along < limit)
   {
@@ -28,8 +28,10 @@ std::optional<double> RayCaster::cast(const mrpt::math::TPoint2D& origin, double
     const auto iy = static_cast<std::size_t>(y);
     const DenseCell& cell = field_.cells[iy * frame.width + ix];
     if (isWall(cell.state)) return along * resolution;
-    // The distance is between cell centres: a ray may come nearer by up to two half diagonals.
-    const double clear = cell.distance * kUnit / resolution - 1.42;
+    // The distance is between cell centres: a ray may come nearer by up to two half diagonals, and
+    // the byte may have been rounded up.
+    const double distance = std::min(far, (cell.distance - 0.5) * DenseField::kDistanceUnit);
+    const double clear = distance / resolution - 1.42;
     along += std::max(clear, 0.35);
   }
   return std::nullopt;

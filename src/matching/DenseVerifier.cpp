@@ -343,6 +343,7 @@ double DenseVerifier::throughWallShare(const DenseScan& scan, const TPose2D& pos
   const CellView cells(field_);
   const auto resolution = static_cast<float>(field_.frame.resolution);
   constexpr auto kUnit = static_cast<float>(DenseField::kDistanceUnit);
+  const auto far = static_cast<float>(truncationDistance(field_.frame.resolution));
   std::size_t through = 0;
   for (std::size_t i = 0; i < count; ++i)
   {
@@ -367,7 +368,8 @@ double DenseVerifier::throughWallShare(const DenseScan& scan, const TPose2D& pos
         ++through;
         break;
       }
-      const float clear = static_cast<float>(cell.distance) * kUnit - 1.42F * resolution;
+      const float distance = std::min(far, static_cast<float>(cell.distance) * kUnit);
+      const float clear = distance - 1.42F * resolution;
       along += std::max(clear, 0.7F * resolution);
     }
   }

@@ -63,6 +63,10 @@ struct DenseField
   std::uint32_t wall_cells = 0;
 };
 
+/// Returns how far [m] a cell is at least from any wall when its distance is 255: the distance byte
+/// ends at 1.27 m, the offset bytes at 127 cells.
+double truncationDistance(double resolution);
+
 /// Returns the dense field of a raster. Throws std::invalid_argument when the cell count disagrees
 /// with the frame, the resolution is not within [0.005 m, 1 m] or the raster is empty.
 DenseField buildDenseField(const OccupancyRaster& raster);

@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sigloc/matching/weighing.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+namespace sigloc
+{
+namespace
+{
+RelocationResult resultOf(const std::vector<double>& scores)
+{
+  RelocationResult result;
+  for (const double score : scores)
+  {
+    Candidate candidate;
+    candidate.score = score;
+    for (int d = 0; d < 3; ++d) candidate.pose.covariance(d, d) = 0.01;
+    result.candidates.push_back(candidate);
+  }
+  weighCandidates(result);
+  return result;
+}
+
+double sumOf(const RelocationResult& result)
+{
+  double sum = result.elsewhere;
+  for (const Candidate& candidate : result.candidates) sum += candidate.probability;
+  return sum;
+}
+
+TEST(Weighing, ProbabilitiesAndElsewhereSumToOne)
+{
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  for (int k = 0; k < 500; ++k)
+  {
+    std::vector<double> scores(1 + static_cast<std::size_t>(k % 10));
+    for (double& score : scores) score = uniform(random);
+    std::sort(scores.rbegin(), scores.rend());
+    const RelocationResult result = resultOf(scores);
+    EXPECT_NEAR(sumOf(result), 1.0, 1e-12);
+    for (std::size_t i = 0; i < scores.size(); ++i)
+    {
+      EXPECT_GE(result.candidates[i].probability, 0);
+      const double before = i > 0 ? result.candidates[i - 1].probability : 1.0;
+      EXPECT_LE(result.candidates[i].probability, before);
+    }
+    EXPECT_GE(result.probability, 0);
+    EXPECT_LE(result.probability, 1);
+  }
+  EXPECT_NEAR(sumOf(resultOf({1.5, 1.0, -3.0})), 1.0, 1e-12);
+}
+
+TEST(Weighing, EqualScoresGetEqualWeights)
+{
+  for (const std::size_t copies : {2U, 3U, 8U})
+  {
+    const RelocationResult result = resultOf(std::vector<double>(copies, 0.83));
+    for (const Candidate& candidate : result.candidates)
+    {
+      EXPECT_NEAR(candidate.probability, result.candidates.front().probability, 1e-9);
+      EXPECT_NEAR(candidate.probability, (1 - result.elsewhere) / static_cast<double>(copies),
+                  1e-9);
+    }
+    EXPECT_NE(result.verdict, Verdict::localized);
+  }
+}
+
+TEST(Weighing, GrowsWithScoreAndWithLead)
+{
+  double last = -1e9;
+  for (double score = -1.0; score <= 1.0; score += 0.01)
+  {
+    EXPECT_GT(logLikelihoodOfScore(score), last) << score;
+    last = logLikelihoodOfScore(score);
+  }
+  double by_score = 0;
+  double by_lead = 0;
+  for (double step = 0; step < 0.4; step += 0.02)
+  {
+    const double p = resultOf({0.55 + step, 0.5}).candidates.front().probability;
+    EXPECT_GT(p, by_score);
+    by_score = p;
+    const double q = resultOf({0.9, 0.9 - step}).candidates.front().probability;
+    EXPECT_GT(q, by_lead);
+    by_lead = q;
+  }
+}
+
+TEST(Weighing, SpeaksOfNothingWithoutCandidates)
+{
+  const RelocationResult none = resultOf({});
+  EXPECT_EQ(none.verdict, Verdict::not_here);
+  EXPECT_EQ(none.elsewhere, 1);
+  EXPECT_EQ(resultOf({0.1, 0.1}).verdict, Verdict::not_here);
+  EXPECT_EQ(resultOf({0.97, 0.4}).verdict, Verdict::localized);
+}
+
+TEST(Weighing, AnOpenLineIsNeverLocalized)
+{
+  RelocationResult result = resultOf({0.97, 0.2});
+  ASSERT_EQ(result.verdict, Verdict::localized);
+  result.candidates.front().pose.covariance(0, 0) = 4.0;
+  weighCandidates(result);
+  EXPECT_EQ(result.verdict, Verdict::ambiguous);
+}
+}  // namespace
+}  // namespace sigloc
