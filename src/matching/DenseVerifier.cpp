@@ -37,6 +37,7 @@ constexpr std::size_t kSettled = 4;
 constexpr int kSettleSteps = 3;
 constexpr double kContender = 0.2;  // of the score, behind the best
 constexpr double kDistinctDistance = 0.5;  // [m]
+constexpr double kApartDistance = 0.08;  // [m]
 constexpr double kDistinctAngle = 17.0 * M_PI / 180.0;  // [rad]
 constexpr double kWallMargin = 0.4;  // [m] before its end a beam must be clear of walls
 constexpr std::size_t kRayBeams = 64;  // beams tested for passing through walls
@@ -44,9 +45,9 @@ constexpr double kFreeMargin = 0.4;  // [m] from any wall that makes an end in f
 constexpr double kThroughPenalty = 0.5;
 constexpr double kFreePenalty = 0.5;
 
-bool distinct(const TPose2D& a, const TPose2D& b)
+bool distinct(const TPose2D& a, const TPose2D& b, double distance)
 {
-  return std::hypot(a.x - b.x, a.y - b.y) > kDistinctDistance ||
+  return std::hypot(a.x - b.x, a.y - b.y) > distance ||
          std::abs(wrapToPi(a.phi - b.phi)) > kDistinctAngle;
 }
 
@@ -60,16 +61,17 @@ bool better(const RankedPose& a, const RankedPose& b)
 }
 
 /// Keeps the best of each group of poses that are not distinct; at most `count`.
-void keepDistinct(std::vector<RankedPose>& poses, std::size_t count)
+void keepDistinct(std::vector<RankedPose>& poses, std::size_t count,
+                  double distance = kDistinctDistance)
 {
   std::sort(poses.begin(), poses.end(), better);
   std::vector<RankedPose> kept;
   for (const RankedPose& candidate : poses)
   {
     if (kept.size() == count) break;
-    const bool fresh =
-        std::all_of(kept.begin(), kept.end(),
-                    [&](const RankedPose& other) { return distinct(candidate.pose, other.pose); });
+    const bool fresh = std::all_of(kept.begin(), kept.end(),
+                                   [&](const RankedPose& other)
+                                   { return distinct(candidate.pose, other.pose, distance); });
     if (fresh) kept.push_back(candidate);
   }
   poses = std::move(kept);
@@ -184,7 +186,9 @@ std::vector<RankedPose> DenseVerifier::rank(const DenseScan& scan,
 
   // 2. The best of each cell of poses, refined on some of the beams.
   std::vector<RankedPose> poses = refineBest(scan, proposals, scored);
-  keepDistinct(poses, kFinalKept);
+  // Poses of one place that stopped apart stay rivals until all beams have judged them: which of
+  // them wins must not hang on where the proposals happened to lie.
+  keepDistinct(poses, kFinalKept, kApartDistance);
 
   // 3. The best of those, refined on more beams and judged by all of them.
   for (RankedPose& pose : poses)
