@@ -1,0 +1,341 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <Eigen/Dense>
+#include <iostream>
+
+#include "sigloc/eval/run_parallel.h"
+#include "sigloc/tracking/HypothesisTracker.h"
+#include "support/simulated_office.h"
+
+namespace sigloc
+{
+namespace
+{
+using mrpt::math::TPose2D;
+using testing::isRight;
+using testing::MappedWorld;
+using testing::officeWorld;
+
+constexpr std::uint64_t kOfficeSeed = 5;
+
+const MappedWorld& office()
+{
+  static const MappedWorld world(officeWorld(kOfficeSeed), kOfficeSeed);
+  return world;
+}
+
+std::vector<DriveStep> driveThrough(const World& world, double metres, std::uint64_t seed)
+{
+  DriveOptions options;
+  options.metres = metres;
+  return simulateDrive(world, options, {}, MappedWorld::laser(), seed);
+}
+
+void expectWellFormed(const Belief& belief)
+{
+  double sum = belief.elsewhere;
+  double last = 1;
+  for (const TrackedHypothesis& hypothesis : belief.hypotheses)
+  {
+    sum += hypothesis.weight;
+    EXPECT_GE(hypothesis.weight, 0);
+    EXPECT_LE(hypothesis.weight, last + 1e-12);
+    last = hypothesis.weight;
+    const TPose2D& pose = hypothesis.pose.mean;
+    EXPECT_TRUE(std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.phi));
+    EXPECT_LE(std::abs(pose.phi), M_PI + 1e-9);
+    Eigen::Matrix3d m;
+    for (int r = 0; r < 3; ++r)
+    {
+      for (int c = 0; c < 3; ++c) m(r, c) = hypothesis.pose.covariance(r, c);
+    }
+    EXPECT_NEAR((m - m.transpose()).cwiseAbs().maxCoeff(), 0, 1e-12);
+    EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(m).eigenvalues()[0], 0);
+  }
+  EXPECT_NEAR(sum, 1.0, 1e-9);
+  EXPECT_GE(belief.probability, 0);
+  EXPECT_LE(belief.probability, 1 + 1e-12);
+  EXPECT_FALSE(belief.reason.empty());
+}
+
+/// What became of one drive.
+struct Outcome
+{
+  bool right_at_end = false;
+  bool wrong_while_confident = false;
+  int confident_steps = 0;
+  int steps = 0;
+};
+
+bool confidentlyWrong(const Belief& belief, const TPose2D& truth)
+{
+  return belief.verdict == Verdict::localized &&
+         !isRight(belief.hypotheses.front().pose.mean, truth);
+}
+
+Outcome follow(HypothesisTracker& tracker, const std::vector<DriveStep>& drive,
+               bool with_odometry = true)
+{
+  Outcome outcome;
+  for (const DriveStep& step : drive)
+  {
+    const std::optional<MotionIncrement> motion =
+        with_odometry ? std::optional(step.motion) : std::nullopt;
+    const Belief& belief = tracker.step(motion, observeScene({*step.scan}));
+    expectWellFormed(belief);
+    ++outcome.steps;
+    outcome.confident_steps += belief.verdict == Verdict::localized;
+    if (confidentlyWrong(belief, step.world_from_robot)) outcome.wrong_while_confident = true;
+  }
+  const Belief& belief = tracker.belief();
+  outcome.right_at_end =
+      belief.verdict == Verdict::localized &&
+      isRight(belief.hypotheses.front().pose.mean, drive.back().world_from_robot);
+  return outcome;
+}
+
+TEST(Tracker, WakesUpInTwentyOffices)
+{
+  constexpr std::size_t kOffices = 20;
+  std::vector<Outcome> outcomes(kOffices);
+  runParallel(kOffices, 2,
+              [&](std::size_t k)
+              {
+                const std::uint64_t seed = 2000 + k;
+                const MappedWorld world(officeWorld(seed), seed);
+                HypothesisTracker tracker(world.matcher());
+                outcomes[k] = follow(tracker, driveThrough(world.world(), 12, seed));
+              });
+  int right = 0;
+  int wrong = 0;
+  for (const Outcome& outcome : outcomes)
+  {
+    right += outcome.right_at_end;
+    wrong += outcome.wrong_while_confident;
+  }
+  std::cout << "wake-ups: " << right << " of " << kOffices << " right at the end, " << wrong
+            << " confidently wrong at any step\n";
+  EXPECT_EQ(right, 20);
+  EXPECT_EQ(wrong, 0);
+}
+
+TEST(Tracker, IsDeterministicAndStaysFiniteFor200Steps)
+{
+  const auto drive = driveThrough(office().world(), 55, 31);
+  ASSERT_GE(drive.size(), 200U);
+  HypothesisTracker one(office().matcher());
+  HypothesisTracker other(office().matcher());
+  for (const DriveStep& step : drive)
+  {
+    const ObservedScene scene = observeScene({*step.scan});
+    const Belief& a = one.step(step.motion, scene);
+    const Belief& b = other.step(step.motion, scene);
+    ASSERT_EQ(a.hypotheses.size(), b.hypotheses.size());
+    EXPECT_EQ(a.elsewhere, b.elsewhere);
+    EXPECT_EQ(a.verdict, b.verdict);
+    for (std::size_t i = 0; i < a.hypotheses.size(); ++i)
+    {
+      EXPECT_EQ(a.hypotheses[i].weight, b.hypotheses[i].weight);
+      EXPECT_EQ(a.hypotheses[i].pose.mean, b.hypotheses[i].pose.mean);
+    }
+    expectWellFormed(a);
+  }
+  EXPECT_TRUE(isRight(one.belief().hypotheses.front().pose.mean, drive.back().world_from_robot));
+}
+
+TEST(Tracker, CovarianceIsHonestWhileTracking)
+{
+  const auto drive = driveThrough(office().world(), 40, 32);
+  HypothesisTracker tracker(office().matcher());
+  double sum = 0;
+  int count = 0;
+  for (const DriveStep& step : drive)
+  {
+    const Belief& belief = tracker.step(step.motion, observeScene({*step.scan}));
+    if (belief.verdict != Verdict::localized) continue;
+    sum += squaredMahalanobisDistance(belief.hypotheses.front().pose, {step.world_from_robot, {}});
+    ++count;
+  }
+  ASSERT_GT(count, 50);
+  std::cout << "tracking: mean squared normalised error " << sum / count << " over " << count
+            << " steps\n";
+  // Includes the map's common error, which a simulated map does not have: below 3, never above 4.
+  EXPECT_LT(sum / count, 4.0);
+  EXPECT_GT(sum / count, 0.02);
+}
+
+TEST(Tracker, WorksWithoutOdometry)
+{
+  int right = 0;
+  int wrong = 0;
+  for (std::uint64_t seed = 41; seed < 45; ++seed)
+  {
+    HypothesisTracker tracker(office().matcher());
+    const Outcome outcome = follow(tracker, driveThrough(office().world(), 12, seed), false);
+    right += outcome.right_at_end;
+    wrong += outcome.wrong_while_confident;
+  }
+  std::cout << "without odometry: " << right << " of 4 right, " << wrong << " wrong\n";
+  EXPECT_GE(right, 3);
+  // Without odometry every step counts as travel, also while standing still: known to be too bold.
+  EXPECT_LE(wrong, 1);
+}
+
+/// A belief that is ambiguous after its first scan must not settle while the robot stands still:
+/// the same scan again is no news.
+void standStill(const MappedWorld& world, bool with_odometry, std::uint64_t seed, int tries,
+                int at_least)
+{
+  Random random(seed);
+  int ambiguous = 0;
+  for (int k = 0; k < tries; ++k)
+  {
+    const TPose2D truth = world.randomPose(random);
+    HypothesisTracker tracker(world.matcher());
+    MotionIncrement still;
+    const std::optional<MotionIncrement> motion =
+        with_odometry ? std::optional(still) : std::nullopt;
+    if (tracker.step(motion, world.sceneAt(truth, random)).verdict != Verdict::ambiguous) continue;
+    ++ambiguous;
+    for (int step = 0; step < 60; ++step)
+    {
+      const Belief& belief = tracker.step(motion, world.sceneAt(truth, random));
+      expectWellFormed(belief);
+      EXPECT_NE(belief.verdict, Verdict::localized)
+          << "try " << k << ", step " << step << ", odometry " << with_odometry << ", right "
+          << isRight(belief.hypotheses.front().pose.mean, truth);
+      if (belief.verdict == Verdict::localized) break;
+    }
+  }
+  EXPECT_GE(ambiguous, at_least);
+}
+
+const MappedWorld& corridor()
+{
+  static const MappedWorld world = []
+  {
+    WorldOptions options;
+    options.copies = 4;
+    return MappedWorld(makeWorld(WorldKind::corridor, options, 9), 9);
+  }();
+  return world;
+}
+
+TEST(Tracker, StandingStillSettlesNothing)
+{
+  standStill(corridor(), true, 51, 10, 3);
+  standStill(office(), true, 52, 40, 1);
+}
+
+TEST(Tracker, NoticesAKidnap)
+{
+  int noticed = 0;
+  int right = 0;
+  for (std::uint64_t seed = 61; seed < 67; ++seed)
+  {
+    HypothesisTracker tracker(office().matcher());
+    const auto before = driveThrough(office().world(), 10, seed);
+    const auto after = driveThrough(office().world(), 12, seed + 100);
+    follow(tracker, before);
+    const TPose2D& from = before.back().world_from_robot;
+    const TPose2D& to = after.front().world_from_robot;
+    ASSERT_FALSE(isRight(from, to));
+    double travelled = 0;
+    bool was_noticed = false;
+    int late_wrong = 0;
+    for (const DriveStep& step : after)
+    {
+      travelled += std::hypot(step.motion.mean.x, step.motion.mean.y);
+      const Belief& belief = tracker.step(step.motion, observeScene({*step.scan}));
+      expectWellFormed(belief);
+      const bool wrong = confidentlyWrong(belief, step.world_from_robot);
+      if (!wrong && travelled < 2) was_noticed = true;
+      if (wrong && travelled > 2) ++late_wrong;
+    }
+    noticed += was_noticed;
+    EXPECT_EQ(late_wrong, 0) << "seed " << seed;
+    right += tracker.belief().verdict == Verdict::localized &&
+             isRight(tracker.belief().hypotheses.front().pose.mean, after.back().world_from_robot);
+  }
+  std::cout << "kidnaps: " << noticed << " of 6 noticed within 2 m, " << right << " right again\n";
+  EXPECT_EQ(noticed, 6);
+  EXPECT_GE(right, 5);
+}
+
+TEST(Tracker, InAForeignMapItIsSeldomLocalized)
+{
+  int drives = 0;
+  for (std::uint64_t seed = 71; seed < 77; ++seed)
+  {
+    const MappedWorld foreign(officeWorld(seed), seed);
+    HypothesisTracker tracker(foreign.matcher());
+    drives += follow(tracker, driveThrough(office().world(), 12, seed)).confident_steps > 0;
+  }
+  std::cout << "foreign maps: " << drives << " of 6 drives confident at some step\n";
+  // One relocation that is sure of itself confirms a track: known to be too easy.
+  EXPECT_LE(drives, 2);
+}
+
+TEST(Tracker, OffTheMappedAreaItIsNotConfidentlyWrong)
+{
+  // Only the west half is mapped; the drive goes on to the east.
+  auto scans = simulateMapping(office().world(), 1.2, 0.35, MappedWorld::laser(), kOfficeSeed);
+  scans.erase(std::remove_if(scans.begin(), scans.end(),
+                             [](const PosedScans& posed) { return posed.map_from_robot.x > 9; }),
+              scans.end());
+  // What a far look sees of the other half is cut off, too.
+  for (PosedScans& posed : scans)
+  {
+    for (LaserScan& scan : posed.scans)
+    {
+      for (std::size_t i = 0; i < scan.ranges.size(); ++i) scan.valid[i] &= scan.ranges[i] < 6.0F;
+    }
+  }
+  const auto matcher =
+      std::make_shared<SignatureMatcher>(std::make_shared<FeatureMap>(buildMapFromScans(scans)));
+  int wrong_steps = 0;
+  int steps_outside = 0;
+  int confident_outside = 0;
+  for (std::uint64_t seed = 81; seed < 85; ++seed)
+  {
+    HypothesisTracker tracker(matcher);
+    for (const DriveStep& step : driveThrough(office().world(), 40, seed))
+    {
+      const Belief& belief = tracker.step(step.motion, observeScene({*step.scan}));
+      expectWellFormed(belief);
+      const bool outside = step.world_from_robot.x > 15;
+      steps_outside += outside;
+      confident_outside += outside && belief.verdict == Verdict::localized;
+      wrong_steps += confidentlyWrong(belief, step.world_from_robot);
+    }
+  }
+  std::cout << "off the map: " << wrong_steps << " confidently wrong steps; outside "
+            << steps_outside << " steps, localized in " << confident_outside << "\n";
+  EXPECT_GT(steps_outside, 10);
+  EXPECT_EQ(wrong_steps, 0);
+}
+
+TEST(Tracker, BlindStepsKeepTheBeliefWellFormed)
+{
+  const auto drive = driveThrough(office().world(), 15, 91);
+  HypothesisTracker tracker(office().matcher());
+  EXPECT_EQ(tracker.step(std::nullopt, {}).verdict, Verdict::too_little_seen);
+  std::size_t k = 0;
+  for (const DriveStep& step : drive)
+  {
+    const bool blind = k > drive.size() / 2 && k % 3 == 0;
+    expectWellFormed(
+        tracker.step(step.motion, blind ? ObservedScene{} : observeScene({*step.scan})));
+    ++k;
+  }
+  EXPECT_TRUE(
+      isRight(tracker.belief().hypotheses.front().pose.mean, drive.back().world_from_robot));
+  tracker.reset();
+  EXPECT_TRUE(tracker.belief().hypotheses.empty());
+  EXPECT_EQ(tracker.belief().elsewhere, 1);
+}
+}  // namespace
+}  // namespace sigloc

@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "sigloc/eval/robot_simulation.h"
+#include "sigloc/eval/world_generators.h"
+#include "sigloc/matching/SignatureMatcher.h"
+
+namespace sigloc::testing
+{
+/// A simulated world with the map of a mapping run and places to be asked for.
+class MappedWorld
+{
+ public:
+  explicit MappedWorld(World world, std::uint64_t seed, double spacing = 1.2)
+      : world_(std::move(world)), space_(world_, 0.35), simulator_(world_, laser())
+  {
+    map_ = std::make_shared<FeatureMap>(
+        buildMapFromScans(simulateMapping(world_, spacing, 0.35, laser(), seed)));
+    matcher_ = std::make_shared<SignatureMatcher>(map_);
+  }
+
+  static LaserOptions laser()
+  {
+    LaserOptions options;
+    options.beams = 181;
+    options.fov_deg = 270;
+    return options;
+  }
+
+  const World& world() const { return world_; }
+  const std::shared_ptr<const FeatureMap>& map() const { return map_; }
+  const std::shared_ptr<const SignatureMatcher>& matcher() const { return matcher_; }
+  const FreeSpace& space() const { return space_; }
+
+  mrpt::math::TPose2D randomPose(Random& random) const
+  {
+    const mrpt::math::TPoint2D p = space_.randomPlace(random);
+    return {p.x, p.y, random.uniform(-M_PI, M_PI)};
+  }
+  LaserScan scan(const mrpt::math::TPose2D& pose, Random& random) const
+  {
+    return simulator_.scan(pose, random);
+  }
+  ObservedScene sceneAt(const mrpt::math::TPose2D& pose, Random& random) const
+  {
+    return observeScene({simulator_.scan(pose, random)});
+  }
+
+ private:
+  World world_;
+  FreeSpace space_;
+  LaserSimulator simulator_;
+  std::shared_ptr<const FeatureMap> map_;
+  std::shared_ptr<const SignatureMatcher> matcher_;
+};
+
+inline World officeWorld(std::uint64_t seed)
+{
+  WorldOptions options;
+  options.width = 20;
+  options.height = 12;
+  return makeWorld(WorldKind::office, options, seed);
+}
+
+/// The world seen in a mirror that lies along the y axis.
+inline World mirrored(World world)
+{
+  const auto flip = [](mrpt::math::TPoint2D& p) { p.x = -p.x; };
+  world.bounds = {-world.bounds.x_max, -world.bounds.x_min, world.bounds.y_min, world.bounds.y_max};
+  for (WallSegment& wall : world.walls)
+  {
+    flip(wall.start);
+    flip(wall.end);
+  }
+  for (Disc& disc : world.discs) flip(disc.centre);
+  for (Furniture& item : world.furniture)
+  {
+    item.pose.x = -item.pose.x;
+    item.pose.phi = -item.pose.phi;
+  }
+  for (Door& door : world.doors)
+  {
+    flip(door.leaf.start);
+    flip(door.leaf.end);
+  }
+  return world;
+}
+
+/// Right: within 0.5 m and 10 degrees of the truth.
+inline bool isRight(const mrpt::math::TPose2D& pose, const mrpt::math::TPose2D& truth)
+{
+  return std::hypot(pose.x - truth.x, pose.y - truth.y) < 0.5 &&
+         std::abs(std::remainder(pose.phi - truth.phi, 2 * M_PI)) < 10 * M_PI / 180;
+}
+}  // namespace sigloc::testing
