@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sigloc/tracking/HypothesisTracker.h"
 
+#include <mrpt/math/wrap2pi.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -43,6 +45,7 @@ struct HypothesisTracker::State
   {
   }
 
+  double travelSeen(double assumed);
   bool suspicious() const;
   bool wantsRelocation() const;
   void relocate(const ObservedScene& scene);
@@ -59,6 +62,8 @@ struct HypothesisTracker::State
   double travel_since_relocation = 0;  // [m]
   bool first_step = true;
   bool relocated = false;
+  std::uint64_t seen_id = 0;  // of the track that was heaviest when the robot last moved
+  mrpt::math::TPose2D seen_pose;  // where it was then
   Belief belief;
 };
 
@@ -94,20 +99,44 @@ const Belief& HypothesisTracker::step(const std::optional<MotionIncrement>& moti
                                       const ObservedScene& scene)
 {
   State& s = *state_;
-  const double travel = s.set.predict(motion);
-  s.travel_since_relocation += travel;
+  double travel = s.set.predict(motion);
   s.relocated = false;
   const bool sees_enough = scene.beams.size() >= s.matcher->options().min_beams;
   if (sees_enough && s.matcher->verifier() != nullptr)
   {
     s.set.update(makeDenseScan(scene, kUpdateBeams), *s.matcher->verifier());
+    if (!motion) travel = s.travelSeen(travel);
+    s.travel_since_relocation += travel;
     s.set.weigh(travel);
     if (s.wantsRelocation()) s.relocate(scene);
     s.set.mergeAndPrune();
     s.first_step = false;
   }
+  else
+  {
+    s.travel_since_relocation += travel;
+  }
   s.publish(scene);
   return s.belief;
+}
+
+/// Without odometry only the scans tell whether the robot moves. While the heaviest track stays put
+/// and explains what is seen, another scan is no news; when it fails, `assumed` travel counts.
+double HypothesisTracker::State::travelSeen(double assumed)
+{
+  constexpr double kMoved = 0.15;  // [m], more than the jitter of a standing robot's poses
+  if (set.tracks.empty() || suspicious()) return assumed;
+  const Track& first = set.heaviest();
+  if (first.score < options.lost_score) return assumed;
+  const mrpt::math::TPose2D& pose = first.hypothesis.pose.mean;
+  const bool same = first.hypothesis.id == seen_id;
+  const double turn = std::abs(mrpt::math::wrapToPi(pose.phi - seen_pose.phi));
+  const double moved = std::hypot(pose.x - seen_pose.x, pose.y - seen_pose.y) +
+                       turn * options.evidence_distance / options.evidence_turn;
+  if (same && moved < kMoved) return 0;
+  seen_id = first.hypothesis.id;
+  seen_pose = pose;
+  return same ? moved : 0;
 }
 
 /// The heaviest track suddenly explains much less than it used to: kidnapped, or a slip.
