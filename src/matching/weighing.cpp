@@ -19,7 +19,7 @@ constexpr double kSharpening = 1.3;  // of rivals against each other
 constexpr double kHereSlope = 12.0;  // of the log-odds of being in the map, per unit of score
 constexpr double kHereOffset = 10.4;
 constexpr double kChanceScore = 0.4;  // what chance reaches where there is no runner-up
-constexpr double kFeatureTempering = 0.5;  // features of one scan share their errors
+constexpr double kFeatureTempering = 0.25;  // features of one scan share their errors
 constexpr double kPriorElsewhere =
     0.002;  // of standing off the map, and of a generator that failed
 constexpr double kLocalized = 0.99;
