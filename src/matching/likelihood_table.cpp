@@ -28,13 +28,13 @@ LikelihoodTable makeTable(double sigma)
 
 const LikelihoodTable& fineTable()
 {
-  static const LikelihoodTable table = makeTable(kFineSigma);
-  return table;
+  static const LikelihoodTable kTable = makeTable(kFineSigma);
+  return kTable;
 }
 const LikelihoodTable& coarseTable()
 {
-  static const LikelihoodTable table = makeTable(kCoarseSigma);
-  return table;
+  static const LikelihoodTable kTable = makeTable(kCoarseSigma);
+  return kTable;
 }
 
 }  // namespace sigloc
