@@ -5,72 +5,85 @@
 
 Most of clang-tidy's time goes into the headers of MRPT, Eigen and the standard library, anew for
 every source file. So files that are compiled alike are first linted in groups, each through a
-generated file that includes its members; a group that is not clean (because of a finding, or
-because its members don't go together in one translation unit) is linted again file by file, and
-that is what counts.
+generated file that includes its members. A group that is not clean (because of a finding, or
+because two members use a name twice) is halved and linted again; what counts is what is found in a
+file by itself.
 """
 import argparse
 import collections
 import concurrent.futures
+import hashlib
 import json
 import os
 import pathlib
+import re
 import shlex
 import subprocess
 import sys
 
-TIDY = ["clang-tidy-14", "--quiet", "--extra-arg=-Wno-unknown-warning-option"]
+TIDY = ["clang-tidy-14", "--quiet"]
 GROUP_CHECKS = "--checks=-bugprone-suspicious-include"
 MAX_GROUP = 12
 ROOT = pathlib.Path(__file__).resolve().parent.parent
+HAS_MAIN = re.compile(r"^int main\(", re.MULTILINE)
 
 
 def own_commands(build, files):
-    """Yields (file, arguments) of our sources: generated and fetched ones are not ours."""
+    """Yields (file, flags) of our sources: generated and fetched ones are not ours."""
     listed = subprocess.run(
         ["git", "ls-files", "--cached", "--others", "--exclude-standard", "--", "*.cpp"],
         cwd=ROOT, capture_output=True, text=True, check=True,
     )  # fmt: skip
     own = {str(ROOT / line) for line in listed.stdout.splitlines()}
-    wanted = {str(path.resolve()) for path in files} or own
+    wanted = own & {str(path.resolve()) for path in files} if files else own
     database = json.loads((build / "compile_commands.json").read_text(encoding="utf-8"))
     for entry in sorted(database, key=lambda entry: entry["file"]):
-        if entry["file"] in own & wanted:
+        if entry["file"] in wanted:
             wanted.discard(entry["file"])  # a file of two targets is linted once
-            arguments = shlex.split(entry["command"])
-            end = arguments.index("-o")
-            yield pathlib.Path(entry["file"]), tuple(arguments[:end])
+            words = shlex.split(entry["command"])[: shlex.split(entry["command"]).index("-o")]
+            flags = [words[i] for i in range(len(words)) if is_flag(words, i)]
+            yield entry["file"], (*flags, "-Wno-unknown-warning-option")
+
+
+def is_flag(words, i):
+    return words[i].startswith("-") or words[i - 1] in ("-isystem", "-include")
 
 
 def make_groups(commands):
-    """Returns lists of (file, arguments) of nearly equal size, all with the same arguments."""
+    """Yields (files, flags): groups of nearly equal size, compiled alike, with at most one main."""
     alike = collections.defaultdict(list)
-    for file, arguments in commands:
-        alike[arguments].append(file)
-    for arguments, files in alike.items():
+    for file, flags in commands:
+        if HAS_MAIN.search(pathlib.Path(file).read_text(encoding="utf-8")):
+            yield [file], flags
+        else:
+            alike[flags].append(file)
+    for flags, files in alike.items():
         count = -(-len(files) // MAX_GROUP)
         for i in range(count):
-            yield files[i::count], arguments
+            yield files[i * len(files) // count : (i + 1) * len(files) // count], flags
 
 
-def write_group(folder, number, files, arguments):
-    unit = folder / f"group_{number}.cpp"
-    unit.write_text("".join(f'#include "{file}"\n' for file in files), encoding="utf-8")
-    return {"directory": str(folder), "file": str(unit), "arguments": [*arguments, "-c", str(unit)]}
-
-
-def tidy(database, file, *options):
-    """Returns clang-tidy's findings in a file, or None when it is clean."""
-    command = [*TIDY, *options, "-p", str(database), str(file)]
+def tidy(unit, flags, *options):
+    """Returns clang-tidy's findings in a translation unit, or None when it is clean."""
+    command = [*TIDY, *options, unit, "--", *flags]
     result = subprocess.run(command, capture_output=True, text=True)
     return None if result.returncode == 0 else result.stdout + result.stderr
 
 
-def lint_group(build, folder, unit, files):
-    if len(files) > 1 and tidy(folder, unit, GROUP_CHECKS) is None:
-        return []
-    findings = [(file, tidy(build, file)) for file in files]
-    return [(file, text) for file, text in findings if text is not None]
+def lint(files, flags, folder):
+    """Prints the findings in files and returns the number of files that have some."""
+    if len(files) == 1:
+        findings = tidy(files[0], flags)
+        if findings is not None:
+            print(f"== {pathlib.Path(files[0]).relative_to(ROOT)}\n{findings}", flush=True)
+        return int(findings is not None)
+    name = hashlib.sha1("\n".join(files).encode()).hexdigest()
+    unit = folder / f"{name}.cpp"
+    unit.write_text("".join(f'#include "{file}"\n' for file in files), encoding="utf-8")
+    if tidy(str(unit), flags, GROUP_CHECKS) is None:
+        return 0
+    half = len(files) // 2
+    return lint(files[:half], flags, folder) + lint(files[half:], flags, folder)
 
 
 def main():
@@ -78,26 +91,14 @@ def main():
     parser.add_argument("build", type=pathlib.Path, help="build folder with its compile commands")
     parser.add_argument("files", type=pathlib.Path, nargs="*", help="default: all our sources")
     arguments = parser.parse_args()
-    build = arguments.build.resolve()
-    folder = build / "lint"
+    folder = arguments.build.resolve() / "lint"
     folder.mkdir(exist_ok=True)
-    groups = list(make_groups(own_commands(build, arguments.files)))
-    units = [write_group(folder, i, *group) for i, group in enumerate(groups)]
-    (folder / "compile_commands.json").write_text(json.dumps(units), encoding="utf-8")
-
-    faulty = 0
+    groups = list(make_groups(own_commands(arguments.build, arguments.files)))
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        jobs = [
-            pool.submit(lint_group, build, folder, unit["file"], files)
-            for unit, (files, _) in zip(units, groups)
-        ]
-        for job in concurrent.futures.as_completed(jobs):
-            for file, text in job.result():
-                faulty += 1
-                print(f"== {file.relative_to(ROOT)}\n{text}", flush=True)
+        faulty = sum(pool.map(lambda group: lint(*group, folder), groups))
     count = sum(len(files) for files, _ in groups)
     print(f"lint: {count} files, {faulty} with findings")
-    return 1 if faulty else 0
+    return 1 if faulty or not count else 0
 
 
 if __name__ == "__main__":

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sigloc/eval/cpu_time.h"
 
-#include <time.h>
+#include <ctime>
 
 #include <fstream>
 #include <string>

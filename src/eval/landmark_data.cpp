@@ -129,7 +129,7 @@ LandmarkData readDlr(const std::filesystem::path& folder)
     if (key == "STEP")
     {
       std::string image;
-      double x, y, phi, xx, xy, yy, xt, yt, tt;
+      double x{}, y{}, phi{}, xx{}, xy{}, yy{}, xt{}, yt{}, tt{};
       if (!(cells >> image >> x >> y >> phi >> xx >> xy >> yy >> xt >> yt >> tt))
       {
         throw std::runtime_error(data.files[0].string() + ": bad line '" + line + "'");
@@ -140,7 +140,7 @@ LandmarkData readDlr(const std::filesystem::path& folder)
     }
     else if (key == "LANDMARK_C" && !data.steps.empty())
     {
-      double x, y, quality, xx, xy, yy;
+      double x{}, y{}, quality{}, xx{}, xy{}, yy{};
       int identity = -1;
       if (!(cells >> x >> y >> quality >> xx >> xy >> yy))
       {
