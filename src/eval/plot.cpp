@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sigloc/eval/plot.h"
 
-#include <stdio.h>
+#include <cstdio>
 
 #include <algorithm>
 #include <cmath>

@@ -190,7 +190,7 @@ MethodEntry entry(const char* name, Arguments... arguments)
 
 const std::vector<MethodEntry>& methodTable()
 {
-  static const std::vector<MethodEntry> table = {
+  static const std::vector<MethodEntry> kTable = {
       entry<SignatureRelocation>("signature", GenerationMode::automatic),
       entry<SignatureRelocation>("signature-plain", GenerationMode::plain),
       entry<SignatureRelocation>("signature-anchors", GenerationMode::anchors),
@@ -202,7 +202,7 @@ const std::vector<MethodEntry>& methodTable()
       entry<LatticeRelocation>("lattice"),
       entry<VotingRelocation>("voting"),
   };
-  return table;
+  return kTable;
 }
 }  // namespace
 
