@@ -65,7 +65,7 @@ NormalEquations normalEquations(const DenseField& field, const DenseScan& scan, 
     float ex = 0;
     float ey = 0;
     if (!cells.offsetToWall(place.x + rx, place.y + ry, ex, ey)) continue;
-    const float weight = std::exp(-(ex * ex + ey * ey) * inverse_square);
+    const float weight = 1.0F / (1.0F + (ex * ex + ey * ey) * inverse_square);
     if (scan.nx[i] != 0 || scan.ny[i] != 0)
     {
       const float nx = place.c * scan.nx[i] - place.s * scan.ny[i];
