@@ -50,7 +50,7 @@ std::size_t beliefsWithAPose(const TemporaryFolder& folder)
     mrpt::poses::CPosePDFSOG belief;
     mrpt::io::CFileGZInputStream file(entry.path().string());
     mrpt::serialization::archiveFrom(file) >> belief;
-    if (belief.size() > 0) ++count;
+    if (!belief.empty()) ++count;
   }
   return count;
 }
