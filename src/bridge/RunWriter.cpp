@@ -11,7 +11,9 @@
 #include <cstdio>
 #include <fstream>
 #include <iomanip>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <stdexcept>
 
 #include "sigloc/bridge/pose_pdf.h"
@@ -106,6 +108,32 @@ ordered_json orNull(const std::optional<T>& value)
 {
   return value ? ordered_json(*value) : ordered_json(nullptr);
 }
+
+/// True when a folder, if it exists, holds nothing but what a run writes: only that may be
+/// replaced.
+bool holdsOnlyARun(const fs::path& folder)
+{
+  static const std::map<std::string, std::set<std::string>> kParts = {
+      {"belief", {".CPosePDFSOG", ".txt"}}, {"3D", {".3Dscene"}}, {"pictures", {".png"}}};
+  static const std::set<std::string> kFiles = {"path.tum", "steps.csv", "annotated.rawlog",
+                                               kSummaryFile};
+  if (!fs::exists(folder)) return true;
+  if (!fs::is_directory(folder)) return false;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+  {
+    const auto part = kParts.find(entry.path().filename().string());
+    if (part == kParts.end() || !entry.is_directory())
+    {
+      if (kFiles.count(entry.path().filename().string()) == 0) return false;
+      continue;
+    }
+    for (const fs::directory_entry& file : fs::directory_iterator(entry.path()))
+    {
+      if (part->second.count(file.path().extension().string()) == 0) return false;
+    }
+  }
+  return true;
+}
 }  // namespace
 
 RunWriter::RunWriter(const fs::path& folder) : folder_(fs::absolute(folder).lexically_normal())
@@ -117,9 +145,15 @@ RunWriter::RunWriter(const fs::path& folder) : folder_(fs::absolute(folder).lexi
   {
     throw std::runtime_error(folder.string() + ": is not a folder");
   }
-  if (exists && !fs::is_empty(folder_) && !fs::exists(folder_ / kSummaryFile))
+  if (fs::is_symlink(folder_))  // results belong where the link points
   {
-    throw std::runtime_error(folder.string() +
+    folder_ = fs::canonical(folder_);
+    work_ = folder_.string() + ".partial";
+  }
+  for (const fs::path& replaced : {folder_, work_})
+  {
+    if (holdsOnlyARun(replaced)) continue;
+    throw std::runtime_error(replaced.string() +
                              ": holds something else than an earlier run; not overwritten");
   }
   std::error_code error;

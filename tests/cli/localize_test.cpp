@@ -186,6 +186,24 @@ TEST(Localize, reusesTheUnchangedMapAndReplacesItsOwnFolder)
   EXPECT_EQ(readBytes(folder / "out/path.tum"), first_path);
 }
 
+TEST(Localize, neverReplacesWhatItDidNotWrite)
+{
+  const TemporaryFolder folder;
+  writeConfig(folder, kLabLog.string());
+  ASSERT_EQ(localize(folder).exit_code, 0);
+  writeText(folder / "out/belief/notes.tex", "mine");
+  const CommandResult result = localize(folder);
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_NE(result.errors.find("not overwritten"), std::string::npos) << result.errors;
+  EXPECT_EQ(readBytes(folder / "out/belief/notes.tex"), "mine");
+
+  std::filesystem::remove(folder / "out/belief/notes.tex");
+  std::filesystem::create_directory(folder / "out.partial");
+  writeText(folder / "out.partial/notes.tex", "mine too");
+  EXPECT_EQ(localize(folder).exit_code, 1);
+  EXPECT_EQ(readBytes(folder / "out.partial/notes.tex"), "mine too");
+}
+
 TEST(Localize, saysThatATruncatedLogWasCovered)
 {
   const TemporaryFolder folder;
