@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -255,7 +254,7 @@ std::string landmarksTable(const LandmarksReport& report)
 
 void writeLandmarksReport(const LandmarksReport& report, const std::filesystem::path& folder)
 {
-  makeFolder(folder);
+  RunReport files;
   std::ostringstream csv;
   csv << "method,local_map_steps,step,features,travelled_m,answered,firm,right,error_m,error_deg,"
          "time_ms\n";
@@ -266,7 +265,7 @@ void writeLandmarksReport(const LandmarksReport& report, const std::filesystem::
         << ',' << fixedNumber(r.error.distance, 3) << ',' << fixedNumber(r.error.angle_deg, 3)
         << ',' << fixedNumber(r.time_ms, 4) << '\n';
   }
-  nlohmann::ordered_json json;
+  nlohmann::ordered_json& json = files.summary;
   for (const LandmarksRow& row : report.rows)
   {
     nlohmann::ordered_json entry;
@@ -280,11 +279,9 @@ void writeLandmarksReport(const LandmarksReport& report, const std::filesystem::
     json["methods"][row.method]["rows"].push_back(entry);
   }
   json["map"] = {{"features", report.map_features}};
-  json["provenance"] = toJson(report.provenance);
-  writeTextFile(folder / "results.csv", csv.str());
-  writeTextFile(folder / "summary.json", json.dump(2) + "\n");
-  writeTextFile(folder / "report.md", "# Landmarks: " + report.dataset + "\n\n" +
-                                          landmarksTable(report) + "\n## Provenance\n\n" +
-                                          provenanceSection(json["provenance"]));
+  files.results = csv.str();
+  files.text = "# Landmarks: " + report.dataset + "\n\n" + landmarksTable(report);
+  files.provenance = report.provenance;
+  writeRunReport(files, folder);
 }
 }  // namespace sigloc

@@ -6,12 +6,47 @@
 #include <cmath>
 #include <fstream>
 #include <iomanip>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
 
 namespace sigloc
 {
+namespace
+{
+/// The provenance as a Markdown list.
+std::string provenanceSection(const nlohmann::ordered_json& provenance)
+{
+  std::ostringstream out;
+  for (const auto& [key, value] : provenance.items())
+  {
+    if (key == "data") continue;
+    out << "* " << key << ": `" << (value.is_string() ? value.get<std::string>() : value.dump())
+        << "`\n";
+  }
+  for (const auto& file : provenance.at("data"))
+  {
+    out << "* data: `" << file.at("file").get<std::string>() << "`, MD5 `"
+        << file.at("md5").get<std::string>() << "`\n";
+  }
+  return out.str();
+}
+
+void writeTextFile(const std::filesystem::path& path, const std::string& text)
+{
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file) throw std::runtime_error(path.string() + ": cannot be written");
+}
+
+void makeFolder(const std::filesystem::path& folder)
+{
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw std::runtime_error(folder.string() + ": " + error.message());
+}
+}  // namespace
+
 std::string fixedNumber(double value, int decimals)
 {
   if (std::isnan(value)) return "";
@@ -70,35 +105,19 @@ std::string markdownTable(const std::vector<std::vector<std::string>>& rows)
   return out.str();
 }
 
-std::string provenanceSection(const nlohmann::ordered_json& provenance)
+void writeRunReport(const RunReport& report, const std::filesystem::path& folder)
 {
-  std::ostringstream out;
-  for (const auto& [key, value] : provenance.items())
+  nlohmann::ordered_json summary = report.summary;
+  summary["provenance"] = toJson(report.provenance);
+  makeFolder(folder);
+  writeTextFile(folder / "results.csv", report.results);
+  writeTextFile(folder / "summary.json", summary.dump(2) + "\n");
+  std::string text = report.text;
+  for (const auto& [file, plot] : report.plots)
   {
-    if (key == "data") continue;
-    out << "* " << key << ": `" << (value.is_string() ? value.get<std::string>() : value.dump())
-        << "`\n";
+    if (drawPlot(plot, folder / file)) text += "\n![" + plot.title + "](" + file + ")\n";
   }
-  for (const auto& file : provenance.at("data"))
-  {
-    out << "* data: `" << file.at("file").get<std::string>() << "`, MD5 `"
-        << file.at("md5").get<std::string>() << "`\n";
-  }
-  return out.str();
-}
-
-void writeTextFile(const std::filesystem::path& path, const std::string& text)
-{
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw std::runtime_error(path.string() + ": cannot be written");
-}
-
-void makeFolder(const std::filesystem::path& folder)
-{
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw std::runtime_error(folder.string() + ": " + error.message());
+  text += report.notes + "\n## Provenance\n\n" + provenanceSection(summary["provenance"]);
+  writeTextFile(folder / "report.md", text);
 }
 }  // namespace sigloc

@@ -7,13 +7,11 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
 
 #include "sigloc/eval/cpu_time.h"
 #include "sigloc/eval/feature_methods.h"
-#include "sigloc/eval/plot.h"
 #include "sigloc/eval/report_files.h"
 
 namespace sigloc
@@ -224,8 +222,8 @@ std::string scaleTable(const ScaleReport& report)
 
 void writeScaleReport(const ScaleReport& report, const std::filesystem::path& folder)
 {
-  makeFolder(folder);
-  nlohmann::ordered_json json;
+  RunReport files;
+  nlohmann::ordered_json& json = files.summary;
   std::ostringstream csv;
   csv << "method,map_features,wanted,observed,success,cases,signature_pairs,hypotheses,checks,"
          "time_ms_median,time_ms_p95,time_ms_mean\n";
@@ -263,12 +261,10 @@ void writeScaleReport(const ScaleReport& report, const std::filesystem::path& fo
     }
     plot.series.push_back({method, time, true});
   }
-  json["provenance"] = toJson(report.provenance);
-  writeTextFile(folder / "results.csv", csv.str());
-  writeTextFile(folder / "summary.json", json.dump(2) + "\n");
-  std::string text = "# Growth\n\n" + scaleTable(report) + "\n";
-  if (drawPlot(plot, folder / "time.png")) text += "![time over map features](time.png)\n\n";
-  writeTextFile(folder / "report.md",
-                text + "## Provenance\n\n" + provenanceSection(json["provenance"]));
+  files.results = csv.str();
+  files.text = "# Growth\n\n" + scaleTable(report);
+  files.plots = {{"time.png", plot}};
+  files.provenance = report.provenance;
+  writeRunReport(files, folder);
 }
 }  // namespace sigloc

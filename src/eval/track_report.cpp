@@ -2,10 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "sigloc/eval/plot.h"
 #include "sigloc/eval/report_files.h"
 #include "sigloc/eval/track.h"
 
@@ -139,7 +137,7 @@ std::string resultsCsv(const TrackReport& report)
   return csv.str();
 }
 
-std::vector<std::string> drawPlots(const TrackReport& report, const std::filesystem::path& folder)
+std::vector<std::pair<std::string, Plot>> plotsOf(const TrackReport& report)
 {
   Plot settled{"Distance driven until settled", "distance [m]", "share of runs", false, false, {}};
   Plot cpu{"CPU time until settled", "time [s]", "share of runs", true, false, {}};
@@ -156,10 +154,7 @@ std::vector<std::string> drawPlots(const TrackReport& report, const std::filesys
     settled.series.push_back(cumulativeShare(method.name, distances, method.runs.size()));
     cpu.series.push_back(cumulativeShare(method.name, seconds, method.runs.size()));
   }
-  std::vector<std::string> drawn;
-  if (drawPlot(settled, folder / "settled.png")) drawn.emplace_back("settled.png");
-  if (drawPlot(cpu, folder / "cpu.png")) drawn.emplace_back("cpu.png");
-  return drawn;
+  return {{"settled.png", settled}, {"cpu.png", cpu}};
 }
 }  // namespace
 
@@ -184,24 +179,18 @@ std::string trackTable(const TrackReport& report)
 
 void writeTrackReport(const TrackReport& report, const std::filesystem::path& folder)
 {
-  nlohmann::ordered_json json;
+  RunReport files;
   for (const TrackMethodReport& method : report.methods)
   {
-    json["methods"][method.name] = methodJson(method);
+    files.summary["methods"][method.name] = methodJson(method);
   }
-  json["map"] = {{"features", report.map_features}, {"build_s", report.map_build_seconds}};
-  json["complete"] = report.complete;
-  json["provenance"] = toJson(report.provenance);
-  makeFolder(folder);
-  writeTextFile(folder / "results.csv", resultsCsv(report));
-  writeTextFile(folder / "summary.json", json.dump(2) + "\n");
-  std::ostringstream markdown;
-  markdown << "# Wake-ups\n\n" << trackTable(report);
-  for (const std::string& plot : drawPlots(report, folder))
-  {
-    markdown << "\n![" << plot << "](" << plot << ")\n";
-  }
-  markdown << kDefinitions << "\n## Provenance\n\n" << provenanceSection(json["provenance"]);
-  writeTextFile(folder / "report.md", markdown.str());
+  files.summary["map"] = {{"features", report.map_features}, {"build_s", report.map_build_seconds}};
+  files.summary["complete"] = report.complete;
+  files.results = resultsCsv(report);
+  files.text = "# Wake-ups\n\n" + trackTable(report);
+  files.plots = plotsOf(report);
+  files.notes = kDefinitions;
+  files.provenance = report.provenance;
+  writeRunReport(files, folder);
 }
 }  // namespace sigloc

@@ -3,10 +3,13 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "sigloc/eval/plot.h"
+#include "sigloc/eval/provenance.h"
 #include "sigloc/eval/relocation_scoring.h"
 
 namespace sigloc
@@ -27,12 +30,18 @@ void addProportion(nlohmann::ordered_json& object, const std::string& name,
 /// Rows of cells as a Markdown table, columns aligned; the first row is the head.
 std::string markdownTable(const std::vector<std::vector<std::string>>& rows);
 
-/// The provenance as a Markdown list.
-std::string provenanceSection(const nlohmann::ordered_json& provenance);
+/// What every sub-command leaves behind.
+struct RunReport
+{
+  nlohmann::ordered_json summary;  ///< summary.json, all but the provenance
+  std::string results;  ///< results.csv
+  std::string text;  ///< report.md: title and tables
+  std::vector<std::pair<std::string, Plot>> plots;  ///< name of the PNG file, figure
+  std::string notes;  ///< report.md below the plots: what the columns mean, may be empty
+  Provenance provenance;
+};
 
-/// Writes a text file. Throws std::runtime_error ("path: reason").
-void writeTextFile(const std::filesystem::path& path, const std::string& text);
-
-/// Makes a folder, parents included. Throws std::runtime_error ("path: reason").
-void makeFolder(const std::filesystem::path& folder);
+/// Writes summary.json, results.csv, the plots that gnuplot can draw, and report.md into a folder,
+/// making it if need be. Throws std::runtime_error ("path: reason").
+void writeRunReport(const RunReport& report, const std::filesystem::path& folder);
 }  // namespace sigloc
