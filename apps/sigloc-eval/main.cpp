@@ -25,6 +25,8 @@ constexpr std::array kCommands = {
             sigloc::setUpScale},
     Command{"landmarks", "relocation from landmarks alone, with local maps",
             sigloc::setUpLandmarks},
+    Command{"sweep", "relocation in simulated worlds under conditions that are varied",
+            sigloc::setUpSweep},
     Command{"track", "wake up lost and drive on, method by method", sigloc::setUpTrack},
 };
 

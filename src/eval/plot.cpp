@@ -25,6 +25,27 @@ std::string quoted(const std::string& text)
   return out + "\"";
 }
 
+void writePoints(const PlotSeries& series, std::ostream& script)
+{
+  for (std::size_t i = 0; i < series.points.size(); ++i)
+  {
+    const auto& [x, y] = series.points[i];
+    if (!std::isfinite(x) || !std::isfinite(y)) continue;
+    script << x << " " << y;
+    if (!series.intervals.empty())
+    {
+      script << " " << series.intervals[i].first << " " << series.intervals[i].second;
+    }
+    script << "\n";
+  }
+}
+
+const char* styleOf(const PlotSeries& series)
+{
+  if (!series.intervals.empty()) return "1:2:3:4 with yerrorlines";
+  return series.markers ? "1:2 with linespoints" : "1:2 with lines";
+}
+
 std::string scriptOf(const Plot& plot, const std::filesystem::path& png)
 {
   std::ostringstream script;
@@ -32,10 +53,7 @@ std::string scriptOf(const Plot& plot, const std::filesystem::path& png)
   for (std::size_t i = 0; i < plot.series.size(); ++i)
   {
     script << "$series" << i << " << END_OF_DATA\n";
-    for (const auto& [x, y] : plot.series[i].points)
-    {
-      if (std::isfinite(x) && std::isfinite(y)) script << x << " " << y << "\n";
-    }
+    writePoints(plot.series[i], script);
     script << "END_OF_DATA\n";
   }
   script << "set terminal pngcairo size 900,600 noenhanced\n"
@@ -51,9 +69,8 @@ std::string scriptOf(const Plot& plot, const std::filesystem::path& png)
   for (std::size_t i = 0; i < plot.series.size(); ++i)
   {
     if (plot.series[i].points.empty()) continue;
-    script << (first ? "" : ", ") << "$series" << i << " using 1:2 with "
-           << (plot.series[i].markers ? "linespoints" : "lines") << " linewidth 2 title "
-           << quoted(plot.series[i].title);
+    script << (first ? "" : ", ") << "$series" << i << " using " << styleOf(plot.series[i])
+           << " linewidth 2 title " << quoted(plot.series[i].title);
     first = false;
   }
   script << "\n";

@@ -6,7 +6,6 @@
 #include <mrpt/serialization/CArchive.h>
 
 #include <algorithm>
-#include <atomic>
 #include <limits>
 #include <mutex>
 #include <stdexcept>
@@ -48,42 +47,61 @@ RelocateMethodReport runMethod(const std::string& name, const EvaluationData& da
   const double before = threadCpuSeconds();
   const auto method = makeRelocationMethod(name, data.map, options.method);
   report.prepare_seconds = threadCpuSeconds() - before;
-  report.records.resize(data.queries.size());
-  std::atomic<std::size_t> done{0};
-  std::mutex progress_mutex;
-  const auto ask = [&](std::size_t i)
+  const auto done = [&](std::size_t count)
   {
-    const EvaluationQuery& query = data.queries[i];
-    const double start = threadCpuSeconds();
-    const RelocationResult answer = method->localize(query.scans);
-    const double time = threadCpuSeconds() - start;
-    report.records[i] = judgeRelocation(query, answer, method->claimsVerdict(),
-                                        method->propose(query.scans), options.gates);
-    report.records[i].time_ms = 1e3 * time;
-    const double share = static_cast<double>(++done) / static_cast<double>(data.queries.size());
-    const std::lock_guard<std::mutex> lock(progress_mutex);
-    if (options.progress) options.progress(name, share);
+    if (!options.progress) return;
+    options.progress(name, static_cast<double>(count) / static_cast<double>(data.queries.size()));
   };
-  runParallel(data.queries.size(), options.threads, ask);
+  report.records = askQueries(*method, data.queries, options.gates, options.threads, done);
   report.summary = summarize(report.records, options.gates);
-  report.summary.claims_verdict = method->claimsVerdict();
   report.summary.ns_per_lookup = nsPerLookup(*method, report.records);
   report.summary.peak_rss_mb = peakMemoryMb();
+  report.failures =
+      collectFailures(name, *method, data.map, data.queries, report.records, options.keep_failures);
   return report;
 }
 }  // namespace
 
-RelocateReport runRelocate(const RelocateOptions& options)
+std::vector<RelocationRecord> askQueries(const RelocationMethod& method,
+                                         const std::vector<EvaluationQuery>& queries,
+                                         const AccuracyGates& gates, std::uint32_t threads,
+                                         const std::function<void(std::size_t)>& done)
 {
-  if (options.methods.empty()) throw std::invalid_argument("no method to run");
+  std::vector<RelocationRecord> records(queries.size());
+  std::size_t answered = 0;
+  std::mutex mutex;
+  const auto ask = [&](std::size_t i)
+  {
+    const EvaluationQuery& query = queries[i];
+    const double start = threadCpuSeconds();
+    const RelocationResult answer = method.localize(query.scans);
+    const double time = threadCpuSeconds() - start;
+    records[i] =
+        judgeRelocation(query, answer, method.claimsVerdict(), method.propose(query.scans), gates);
+    records[i].time_ms = 1e3 * time;
+    const std::lock_guard<std::mutex> lock(mutex);
+    done(++answered);
+  };
+  runParallel(queries.size(), threads, ask);
+  return records;
+}
+
+void checkRelocationMethods(const std::vector<std::string>& names)
+{
+  if (names.empty()) throw std::invalid_argument("no method to run");
   const std::vector<std::string> known = relocationMethodNames();
-  for (const std::string& name : options.methods)
+  for (const std::string& name : names)
   {
     if (std::find(known.begin(), known.end(), name) == known.end())
     {
       throw std::invalid_argument("unknown method '" + name + "'");
     }
   }
+}
+
+RelocateReport runRelocate(const RelocateOptions& options)
+{
+  checkRelocationMethods(options.methods);
   RelocateReport report;
   report.provenance.command = options.command;
   report.provenance.seed = options.method.seed;

@@ -78,6 +78,7 @@ RelocationRecord judgeRelocation(const EvaluationQuery& query, const RelocationR
     record.valid_beams +=
         static_cast<std::size_t>(std::count(scan.valid.begin(), scan.valid.end(), 1));
   }
+  record.claims_verdict = claims_verdict;
   record.verdict = answer.verdict;
   record.probability = answer.probability;
   record.candidates = answer.candidates.size();
@@ -157,6 +158,7 @@ RelocationSummary summarize(const std::vector<RelocationRecord>& records,
   for (const RelocationRecord& record : records)
   {
     ++summary.queries;
+    summary.claims_verdict = summary.claims_verdict || record.claims_verdict;
     times.push_back(record.time_ms);
     scored.push_back(static_cast<double>(record.poses_scored));
     if (record.claim != Claim::none) ++summary.confident;

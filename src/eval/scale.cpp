@@ -259,7 +259,7 @@ void writeScaleReport(const ScaleReport& report, const std::filesystem::path& fo
     {
       json["methods"][method]["operations_exponent_in_n"] = fitExponent(over_observed).slope;
     }
-    plot.series.push_back({method, time, true});
+    plot.series.push_back({method, time, true, {}});
   }
   files.results = csv.str();
   files.text = "# Growth\n\n" + scaleTable(report);

@@ -14,6 +14,7 @@ struct PlotSeries
   std::string title;
   std::vector<std::pair<double, double>> points;
   bool markers = false;  ///< points joined by lines instead of lines alone
+  std::vector<std::pair<double, double>> intervals;  ///< of y, one a point; empty: none drawn
 };
 
 /// A figure of curves.

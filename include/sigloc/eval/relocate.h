@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "sigloc/eval/failed_queries.h"
 #include "sigloc/eval/provenance.h"
 #include "sigloc/eval/relocation_scoring.h"
 #include "sigloc/eval/RelocationMethod.h"
@@ -21,6 +22,7 @@ struct RelocateOptions
   RelocationMethodOptions method;
   AccuracyGates gates;
   std::uint32_t threads = 1;  ///< queries asked at a time; each query is timed on its own thread
+  std::size_t keep_failures = 0;  ///< how many failed queries of each method the report keeps
   std::string command;  ///< for the report
   /// Called now and then with the method and the share of its queries that are done.
   std::function<void(const std::string& method, double share)> progress;
@@ -32,6 +34,7 @@ struct RelocateMethodReport
   std::vector<RelocationRecord> records;  ///< in the order of the queries
   RelocationSummary summary;
   double prepare_seconds = 0;  ///< CPU time of building the method's own structures
+  std::vector<FailedQuery> failures;  ///< the first ones
 };
 
 struct RelocateReport
@@ -45,6 +48,16 @@ struct RelocateReport
   bool foreign = false;
   Provenance provenance;
 };
+
+/// Asks one method every query, on up to `threads` threads, and judges the answers; each query is
+/// timed on its own. `done` is called after each with the number answered so far.
+std::vector<RelocationRecord> askQueries(const RelocationMethod& method,
+                                         const std::vector<EvaluationQuery>& queries,
+                                         const AccuracyGates& gates, std::uint32_t threads,
+                                         const std::function<void(std::size_t)>& done);
+
+/// Throws std::invalid_argument for an empty list or a name that is no method of relocation.
+void checkRelocationMethods(const std::vector<std::string>& names);
 
 /// Asks every method every query. Throws std::invalid_argument for options that make no sense and
 /// std::runtime_error ("path: reason") for a file that cannot be used.

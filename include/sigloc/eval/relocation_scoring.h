@@ -65,6 +65,7 @@ struct RelocationRecord
   std::size_t rank_of_right = 0;  ///< from 1; 0: none of the first ten is right
   std::optional<bool> proposed;  ///< a right pose was proposed; none: not asked or no truth
   std::size_t proposals = 0;
+  bool claims_verdict = false;  ///< the method says whether it is sure
   Claim claim = Claim::none;
   std::uint64_t poses_scored = 0;
   double time_ms = 0;

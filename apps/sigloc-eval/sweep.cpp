@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sigloc/eval/sweep.h"
+
+#include <algorithm>
+#include <iostream>
+#include <stdexcept>
+
+#include "commands.h"
+#include "sigloc/eval/swept_quantities.h"
+
+namespace sigloc
+{
+namespace
+{
+struct SweepFlags
+{
+  CommonOptions common;
+  SweepOptions options;
+  std::vector<std::string> worlds;
+
+  int run(const std::string& command_line)
+  {
+    if (common.poseRegion())
+    {
+      throw std::invalid_argument("sweep takes no --region or --heading: it asks in many worlds");
+    }
+    if (!common.methods.empty()) options.methods = common.methods;
+    for (const std::string& world : worlds) options.worlds.push_back(worldKindFrom(world));
+    options.use_dense_field = !common.no_dense;
+    if (common.max_queries > 0)
+    {
+      options.queries_per_world = std::min(options.queries_per_world, common.max_queries);
+    }
+    options.seed = common.seed;
+    options.threads = common.threads;
+    options.command = command_line;
+    options.progress = progressBar(common.quiet);
+    const SweepReport report = runSweep(options);
+    writeSweepReport(report, common.out);
+    if (!common.quiet) std::cout << sweepTable(report);
+    return 0;
+  }
+};
+
+std::vector<std::string> namesOfQuantities()
+{
+  std::vector<std::string> names;
+  for (const SweptQuantity& quantity : sweptQuantities()) names.push_back(quantity.name);
+  return names;
+}
+}  // namespace
+
+std::function<int()> setUpSweep(CLI::App& command, const std::string& command_line)
+{
+  const auto flags = std::make_shared<SweepFlags>();
+  SweepOptions& options = flags->options;
+  command.add_option("--over", options.over, "what is varied; all else stays")
+      ->check(CLI::IsMember(namesOfQuantities()))
+      ->required();
+  command.add_option("--values", options.values, "values of it (default: its own)")->delimiter(',');
+  command.add_option("--world", flags->worlds, "kinds of world (default: where it matters)")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"office", "corridor", "hall", "park"}));
+  command.add_option("--worlds-per-kind", options.worlds_per_kind, "worlds of each kind")
+      ->capture_default_str();
+  command.add_option("--queries", options.queries_per_world, "robots asked in each world")
+      ->capture_default_str();
+  flags->common.declare(command);
+  return [flags, command_line] { return flags->run(command_line); };
+}
+}  // namespace sigloc

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sigloc/eval/swept_quantities.h"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace sigloc
+{
+namespace
+{
+using C = SweepConditions;
+
+/// Field of view at the same angle between beams.
+void setFieldOfView(double degrees, C& conditions)
+{
+  const LaserOptions plain;
+  const double step_deg = plain.fov_deg / (plain.beams - 1);
+  conditions.laser.fov_deg = degrees;
+  const bool full_circle = degrees > 360.0 - 1e-6;  // which does not repeat its first beam
+  conditions.laser.beams =
+      static_cast<std::uint32_t>(std::lround(degrees / step_deg)) + (full_circle ? 0U : 1U);
+}
+}  // namespace
+
+const std::vector<SweptQuantity>& sweptQuantities()
+{
+  using Kinds = std::vector<WorldKind>;
+  const Kinds all = {WorldKind::office, WorldKind::corridor, WorldKind::hall};
+  const Kinds furnished = {WorldKind::office, WorldKind::corridor};
+  static const std::vector<SweptQuantity> kTable = {
+      {"noise",
+       "sd of a range [m]",
+       {0.01, 0.02, 0.03, 0.05, 0.07, 0.10},
+       all,
+       false,
+       [](double value, C& c) { c.laser.range_sigma = value; }},
+      {"clutter",
+       "share of the beams that end early",
+       {0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6},
+       all,
+       false,
+       [](double value, C& c) { c.laser.clutter_share = value; }},
+      {"fov", "field of view [deg]", {90, 120, 180, 240, 270, 360}, all, false, setFieldOfView},
+      {"range",
+       "range of the laser [m]",
+       {5, 8, 12, 20, 30},
+       all,
+       false,
+       [](double value, C& c) { c.laser.max_range = value; }},
+      {"map-noise",
+       "sd of a mapping scan's position [m]",
+       {0, 0.02, 0.05, 0.1, 0.15},
+       all,
+       true,
+       [](double value, C& c) { c.map_sigma = value; }},
+      {"furniture",
+       "share of the furniture that was moved",
+       {0, 0.25, 0.5, 0.75, 1},
+       furnished,
+       false,
+       [](double value, C& c) { c.change.moved_share = value; }},
+      {"unmapped",
+       "unmapped pieces in 100 m^2",
+       {0, 2, 5, 10, 20},
+       all,
+       false,
+       [](double value, C& c) { c.unmapped_items = value; }},
+      {"doors",
+       "share of the doors shut since mapping",
+       {0, 0.25, 0.5, 0.75, 1},
+       furnished,
+       false,
+       [](double value, C& c) { c.change.closed_door_share = value; }},
+      {"repeats",
+       "copies of the room",
+       {1, 2, 4, 6, 8},
+       {WorldKind::corridor},
+       true,
+       [](double value, C& c) { c.world.copies = static_cast<std::uint32_t>(std::lround(value)); }},
+  };
+  return kTable;
+}
+
+const SweptQuantity& sweptQuantity(const std::string& name)
+{
+  std::string known;
+  for (const SweptQuantity& quantity : sweptQuantities())
+  {
+    if (quantity.name == name) return quantity;
+    known += " " + quantity.name;
+  }
+  throw std::invalid_argument("nothing called '" + name + "' to sweep over; known are:" + known);
+}
+}  // namespace sigloc
