@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <iostream>
+#include <stdexcept>
+#include <utility>
 
 #include "commands.h"
+#include "sigloc/eval/track_simulated.h"
 
 namespace sigloc
 {
@@ -17,8 +20,26 @@ struct TrackFlags
   TrackOptions options;
   std::vector<double> map_from_truth;
 
+  SimulatedTrackOptions simulated;
+  std::vector<std::string> worlds;
+
   int run(const std::string& command_line)
   {
+    const TrackReport report =
+        simulated.drives > 0 ? runSimulated(command_line) : runLog(command_line);
+    writeTrackReport(report, common.out);
+    if (!common.quiet) std::cout << trackTable(report);
+    return report.complete ? 0 : 2;
+  }
+
+  TrackReport runLog(const std::string& command_line)
+  {
+    for (const auto& [path, name] :
+         {std::pair{options.map, "--map"}, std::pair{options.rawlog, "--rawlog"},
+          std::pair{options.ground_truth, "--ground-truth"}})
+    {
+      if (path.empty()) throw std::invalid_argument(std::string(name) + " is required");
+    }
     options.map_from_truth = poseOfFlag(map_from_truth);
     if (!common.methods.empty()) options.methods = common.methods;
     options.method.seed = common.seed;
@@ -28,24 +49,71 @@ struct TrackFlags
     options.threads = common.threads;
     options.command = command_line;
     options.progress = progressBar(common.quiet);
-    const TrackReport report = runTrack(options);
-    writeTrackReport(report, common.out);
-    if (!common.quiet) std::cout << trackTable(report);
-    return report.complete ? 0 : 2;
+    return runTrack(options);
+  }
+
+  TrackReport runSimulated(const std::string& command_line)
+  {
+    for (const std::string& name : worlds) simulated.kinds.push_back(worldKindFrom(name));
+    simulated.travel = options.travel;
+    simulated.kidnap = options.kidnap;
+    if (!common.methods.empty()) simulated.methods = common.methods;
+    simulated.method.seed = common.seed;
+    simulated.method.region = common.poseRegion();
+    simulated.method.use_dense_field = !common.no_dense;
+    if (common.max_queries > 0) simulated.drives = std::min(simulated.drives, common.max_queries);
+    simulated.threads = common.threads;
+    simulated.command = command_line;
+    simulated.progress = progressBar(common.quiet);
+    return runSimulatedTrack(simulated);
   }
 };
+
+void declareSimulation(CLI::App& command, TrackFlags& flags)
+{
+  const std::string group = "Simulated drives";
+  SimulatedTrackOptions& options = flags.simulated;
+  options.drives = 0;
+  command
+      .add_option("--simulate", options.drives,
+                  "drives in simulated worlds, instead of --map, --rawlog, --ground-truth")
+      ->group(group);
+  command.add_option("--drives-per-world", options.drives_per_world, "that share one world")
+      ->group(group)
+      ->capture_default_str();
+  command.add_option("--worlds", flags.worlds, "office,corridor,hall,park: kinds, in turn")
+      ->delimiter(',')
+      ->group(group);
+  command.add_option("--clutter", options.clutter_share, "share of beams that end too early")
+      ->check(CLI::Range(0.0, 1.0))
+      ->group(group)
+      ->capture_default_str();
+  command.add_option("--moved-share", options.moved_share, "share of furniture moved since mapped")
+      ->check(CLI::Range(0.0, 1.0))
+      ->group(group)
+      ->capture_default_str();
+  command.add_option("--unmapped", options.extra_items, "pieces of furniture added since mapped")
+      ->group(group)
+      ->capture_default_str();
+  command.add_option("--mapped-share", options.mapped_share, "share of the world that is mapped")
+      ->group(group)
+      ->capture_default_str();
+  command.add_option("--map-sigma", options.map_sigma, "[m] error common to all of a map")
+      ->group(group)
+      ->capture_default_str();
+  command.add_flag("--foreign", options.foreign, "the map is of another world")->group(group);
+  command.add_flag("!--no-odometry", options.odometry, "scans alone")->group(group);
+}
 }  // namespace
 
 std::function<int()> setUpTrack(CLI::App& command, const std::string& command_line)
 {
   const auto flags = std::make_shared<TrackFlags>();
   TrackOptions& options = flags->options;
-  command.add_option("--map", options.map, "whatever sigloc-map build takes")->required();
-  command.add_option("--rawlog", options.rawlog, "the drive")->required();
-  command
-      .add_option("--ground-truth", options.ground_truth,
-                  "truth of the drive: rows `time x y phi`, 3 or 7 columns, or a simplemap")
-      ->required();
+  command.add_option("--map", options.map, "whatever sigloc-map build takes");
+  command.add_option("--rawlog", options.rawlog, "the drive");
+  command.add_option("--ground-truth", options.ground_truth,
+                     "truth of the drive: rows `time x y phi`, 3 or 7 columns, or a simplemap");
   command.add_option("--starts", options.starts, "places to wake up at")->capture_default_str();
   command.add_option("--travel", options.travel, "[m] driven after each")->capture_default_str();
   command.add_option("--start-from", options.start_from,
@@ -56,6 +124,7 @@ std::function<int()> setUpTrack(CLI::App& command, const std::string& command_li
                   "x,y,deg: frame of the truth in the map")
       ->delimiter(',')
       ->expected(3);
+  declareSimulation(command, *flags);
   flags->common.declare(command);
   return [flags, command_line] { return flags->run(command_line); };
 }

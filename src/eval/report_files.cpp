@@ -111,6 +111,7 @@ void writeRunReport(const RunReport& report, const std::filesystem::path& folder
   summary["provenance"] = toJson(report.provenance);
   makeFolder(folder);
   writeTextFile(folder / "results.csv", report.results);
+  for (const auto& [file, content] : report.tables) writeTextFile(folder / file, content);
   writeTextFile(folder / "summary.json", summary.dump(2) + "\n");
   std::string text = report.text;
   for (const auto& [file, plot] : report.plots)

@@ -8,62 +8,40 @@
 #include <mutex>
 #include <stdexcept>
 
-#include "own_process.h"
 #include "sigloc/bridge/GroundTruth.h"
 #include "sigloc/bridge/map_sources.h"
 #include "sigloc/eval/cpu_time.h"
 #include "sigloc/eval/run_parallel.h"
+#include "track_drive.h"
 
 namespace sigloc
 {
 namespace
 {
+using detail::TrackDrive;
+using detail::TrackDriveStep;
+using detail::TrackLeg;
 using mrpt::math::TPose2D;
 
-struct LogStep
-{
-  RawlogStep step;
-  std::optional<TPose2D> truth;
-  double travelled = 0;  // [m] since the log began, along the truth
-  bool may_start = false;
-  bool mapped = true;
-};
-
-/// True where the map's scans were taken within 1 m; always for a map without poses.
-bool isMapped(const TPose2D& truth, const std::vector<TPose2D>& mapped_poses)
-{
-  constexpr double kMappedDistance = 1.0;  // [m]
-  return mapped_poses.empty() ||
-         std::any_of(mapped_poses.begin(), mapped_poses.end(),
-                     [&](const TPose2D& pose)
-                     { return std::hypot(pose.x - truth.x, pose.y - truth.y) <= kMappedDistance; });
-}
-
-struct Drive
-{
-  std::vector<LogStep> steps;
-  bool complete = true;
-};
-
-Drive readDrive(const TrackOptions& options, const std::vector<TPose2D>& mapped_poses)
+TrackDrive readDrive(const TrackOptions& options, const std::vector<TPose2D>& mapped_poses)
 {
   const auto truth = GroundTruth::read(options.ground_truth, options.map_from_truth);
   std::optional<GroundTruth> start_frames;
   if (!options.start_from.empty()) start_frames = GroundTruth::read(options.start_from);
   constexpr double kSameScan = 0.5;  // [s] between the log's scan and the key frame
   RawlogReader reader(options.rawlog);
-  Drive drive;
+  TrackDrive drive;
   std::optional<TPose2D> last;
   double travelled = 0;
   for (std::size_t i = 0; auto step = reader.next(); ++i)
   {
     if (step->scans.empty()) continue;
-    LogStep out;
+    TrackDriveStep out;
     out.truth = truth.at(i, step->time);
     if (out.truth && last) travelled += std::hypot(out.truth->x - last->x, out.truth->y - last->y);
     if (out.truth) last = out.truth;
     out.travelled = travelled;
-    out.mapped = !out.truth || isMapped(*out.truth, mapped_poses);
+    out.mapped = !out.truth || detail::isMapped(*out.truth, mapped_poses);
     out.may_start = out.truth.has_value() &&
                     (!start_frames || start_frames->at(i, step->time, kSameScan).has_value());
     out.step = std::move(*step);
@@ -74,7 +52,7 @@ Drive readDrive(const TrackOptions& options, const std::vector<TPose2D>& mapped_
 }
 
 // Places equally spaced in the distance travelled, so that no luck is chosen.
-std::vector<std::size_t> startsOf(const Drive& drive, const TrackOptions& options)
+std::vector<std::size_t> startsOf(const TrackDrive& drive, const TrackOptions& options)
 {
   std::vector<std::size_t> allowed;
   const double last = drive.steps.empty() ? 0 : drive.steps.back().travelled - options.travel;
@@ -104,13 +82,7 @@ std::vector<std::size_t> startsOf(const Drive& drive, const TrackOptions& option
   return starts;
 }
 
-struct Leg
-{
-  std::size_t first;
-  std::size_t last;  // exclusive
-};
-
-Leg legFrom(const Drive& drive, std::size_t start, double travel)
+TrackLeg legFrom(const TrackDrive& drive, std::size_t start, double travel)
 {
   std::size_t last = start;
   while (last < drive.steps.size() &&
@@ -118,61 +90,23 @@ Leg legFrom(const Drive& drive, std::size_t start, double travel)
   {
     ++last;
   }
-  return {start, last};
+  return {&drive, start, last};
 }
 
-void drivePart(TrackingMethod& method, const Drive& drive, const Leg& leg,
-               const AccuracyGates& gates, TrackRun& run)
-{
-  const double before = run.steps.empty() ? 0 : run.steps.back().travelled;
-  for (std::size_t i = leg.first; i < leg.last; ++i)
-  {
-    RawlogStep step = drive.steps[i].step;
-    // Whoever wakes up, or is carried, has not driven the way before.
-    if (i == leg.first) step.motion = MotionIncrement{};
-    const double start = threadCpuSeconds();
-    TrackStepRecord record;
-    record.claim = method.step(step);
-    record.time_ms = 1e3 * (threadCpuSeconds() - start);
-    record.step = i;
-    record.mapped = drive.steps[i].mapped;
-    record.travelled = before + drive.steps[i].travelled - drive.steps[leg.first].travelled;
-    const auto& truth = drive.steps[i].truth;
-    if (truth && record.claim.has_pose)
-    {
-      record.error = poseError(record.claim.pose, *truth);
-      if (record.claim.confident) record.judged = judgeClaim(record.error, gates);
-    }
-    run.steps.push_back(record);
-  }
-}
-
-TrackRun runOnce(const TrackingMethodFactory& factory, const Drive& drive,
+/// One wake-up; with `kidnap` carried half-way to the start half the list away.
+TrackRun runOnce(const TrackingMethodFactory& factory, const TrackDrive& drive,
                  const std::vector<std::size_t>& starts, std::size_t which,
                  const TrackOptions& options)
 {
-  const auto drive_all = [&]
+  std::vector<TrackLeg> legs = {legFrom(drive, starts[which], options.travel)};
+  if (options.kidnap)
   {
-    TrackRun run;
-    run.start = starts[which];
-    // Building the filter is part of what waking up costs.
-    const double before = threadCpuSeconds();
-    const auto method =
-        factory.start(options.method.seed * 1000003U + static_cast<std::uint32_t>(run.start));
-    const double set_up_ms = 1e3 * (threadCpuSeconds() - before);
-    drivePart(*method, drive, legFrom(drive, run.start, options.travel), options.gates, run);
-    run.steps.front().time_ms += set_up_ms;
-    if (options.kidnap)
-    {
-      run.kidnapped_at = run.steps.size();
-      const std::size_t elsewhere = starts[(which + starts.size() / 2) % starts.size()];
-      drivePart(*method, drive, legFrom(drive, elsewhere, options.travel), options.gates, run);
-    }
-    return run;
-  };
-  TrackRun run = factory.needsOwnProcess() ? detail::runInOwnProcess(drive_all) : drive_all();
-  judgeRun(run);
-  return run;
+    const std::size_t elsewhere = starts[(which + starts.size() / 2) % starts.size()];
+    legs.push_back(legFrom(drive, elsewhere, options.travel));
+  }
+  const std::uint32_t seed =
+      options.method.seed * 1000003U + static_cast<std::uint32_t>(starts[which]);
+  return detail::runLegs(factory, legs, seed, options.gates);
 }
 }  // namespace
 
@@ -214,16 +148,9 @@ void judgeRun(TrackRun& run)
 TrackReport runTrack(const TrackOptions& options)
 {
   if (options.starts == 0) throw std::invalid_argument("--starts must be at least 1");
-  const std::vector<std::string> known = trackingMethodNames();
-  for (const std::string& name : options.methods)
-  {
-    if (std::find(known.begin(), known.end(), name) == known.end())
-    {
-      throw std::invalid_argument("unknown method '" + name + "'");
-    }
-  }
+  checkTrackingMethods(options.methods);
   const EvaluationMap map = readEvaluationMap(options.map);
-  const Drive drive = readDrive(options, map.mapped_poses);
+  const TrackDrive drive = readDrive(options, map.mapped_poses);
   const std::vector<std::size_t> starts = startsOf(drive, options);
   TrackReport report;
   report.map_features = map.features->features().size();

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 #include <limits>
+#include <set>
 #include <sstream>
 
 #include "sigloc/eval/report_files.h"
 #include "sigloc/eval/track.h"
+#include "track_calibration.h"
 
 namespace sigloc
 {
@@ -44,7 +46,8 @@ struct TrackSummary
   Quantiles step_ms;
 };
 
-TrackSummary summarizeRuns(const TrackMethodReport& method)
+/// Of all runs, or of those of one group.
+TrackSummary summarizeRuns(const TrackMethodReport& method, const std::string& group = {})
 {
   TrackSummary s;
   std::vector<double> distances;
@@ -53,6 +56,7 @@ TrackSummary summarizeRuns(const TrackMethodReport& method)
   std::vector<double> times;
   for (const TrackRun& run : method.runs)
   {
+    if (!group.empty() && run.group != group) continue;
     ++s.runs;
     ++s.right_at_end.cases;
     ++s.settled.cases;
@@ -85,6 +89,17 @@ TrackSummary summarizeRuns(const TrackMethodReport& method)
   return s;
 }
 
+/// Names of the groups that the runs belong to, if any.
+std::set<std::string> groupsOf(const TrackMethodReport& method)
+{
+  std::set<std::string> groups;
+  for (const TrackRun& run : method.runs)
+  {
+    if (!run.group.empty()) groups.insert(run.group);
+  }
+  return groups;
+}
+
 nlohmann::ordered_json methodJson(const TrackMethodReport& method)
 {
   const TrackSummary s = summarizeRuns(method);
@@ -102,6 +117,16 @@ nlohmann::ordered_json methodJson(const TrackMethodReport& method)
   addProportion(json, "noticed", s.noticed);
   json["noticed_after_m"] = toJson(s.noticed_after);
   json["peak_rss_mb"] = method.peak_rss_mb;
+  json["calibration"] = detail::toJson(detail::selfKnowledgeOf(method, {}));
+  for (const std::string& group : groupsOf(method))
+  {
+    const TrackSummary part = summarizeRuns(method, group);
+    nlohmann::ordered_json& of_group = json["groups"][group];
+    of_group["queries"] = part.runs;
+    of_group["confidently_wrong"] = part.wrong_runs;
+    addProportion(of_group, "right_at_end", part.right_at_end);
+    of_group["distance_to_settled_m"] = toJson(part.distance_to_settled);
+  }
   return json;
 }
 
@@ -109,7 +134,7 @@ std::string resultsCsv(const TrackReport& report)
 {
   std::ostringstream csv;
   csv << "method,start,step,travelled_m,kidnapped,confident,x,y,phi,error_m,error_deg,claim,"
-         "time_ms\n";
+         "verdict,hypotheses,weight,second_weight,elsewhere,nees,mapped,time_ms\n";
   for (const TrackMethodReport& method : report.methods)
   {
     for (const TrackRun& run : method.runs)
@@ -130,8 +155,39 @@ std::string resultsCsv(const TrackReport& report)
           csv << ",,";
         }
         csv << "," << fixedNumber(r.error.distance, 4) << "," << fixedNumber(r.error.angle_deg, 3)
-            << "," << toString(r.judged) << "," << fixedNumber(r.time_ms, 3) << "\n";
+            << "," << toString(r.judged) << ",";
+        if (r.claim.belief)
+        {
+          csv << toString(r.claim.verdict) << "," << r.claim.hypotheses << ","
+              << fixedNumber(r.claim.weights[0], 5) << "," << fixedNumber(r.claim.weights[1], 5)
+              << "," << fixedNumber(r.claim.elsewhere, 5) << "," << fixedNumber(r.nees, 3);
+        }
+        else
+        {
+          csv << ",,,,,";
+        }
+        csv << "," << r.mapped << "," << fixedNumber(r.time_ms, 3) << "\n";
       }
+    }
+  }
+  return csv.str();
+}
+
+/// One row a run.
+std::string runsCsv(const TrackReport& report)
+{
+  std::ostringstream csv;
+  csv << "method,start,group,steps,right_at_end,settled_after_m,wrong_steps,wrong_episodes,"
+         "noticed_after_m\n";
+  for (const TrackMethodReport& method : report.methods)
+  {
+    for (const TrackRun& run : method.runs)
+    {
+      constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+      csv << method.name << "," << run.start << "," << run.group << "," << run.steps.size() << ","
+          << run.right_at_end << "," << fixedNumber(run.settled_after.value_or(kNone), 3) << ","
+          << run.wrong_steps << "," << run.wrong_episodes << ","
+          << fixedNumber(run.noticed_after.value_or(kNone), 3) << "\n";
     }
   }
   return csv.str();
@@ -154,7 +210,12 @@ std::vector<std::pair<std::string, Plot>> plotsOf(const TrackReport& report)
     settled.series.push_back(cumulativeShare(method.name, distances, method.runs.size()));
     cpu.series.push_back(cumulativeShare(method.name, seconds, method.runs.size()));
   }
-  return {{"settled.png", settled}, {"cpu.png", cpu}};
+  std::vector<std::pair<std::string, Plot>> plots = {{"settled.png", settled}, {"cpu.png", cpu}};
+  for (const TrackMethodReport& method : report.methods)
+  {
+    for (auto& plot : detail::beliefPlots(method)) plots.push_back(std::move(plot));
+  }
+  return plots;
 }
 }  // namespace
 
@@ -163,16 +224,23 @@ std::string trackTable(const TrackReport& report)
   std::vector<std::vector<std::string>> rows = {
       {"method", "runs", "right at end", "settled", "wrong runs", "wrong steps", "episodes",
        "m to settle", "p95", "CPU s to settle", "p95", "step ms", "p95", "noticed"}};
-  for (const TrackMethodReport& method : report.methods)
+  const auto add = [&](const std::string& name, const TrackSummary& s)
   {
-    const TrackSummary s = summarizeRuns(method);
     rows.push_back(
-        {method.name, std::to_string(s.runs), withInterval(s.right_at_end), withInterval(s.settled),
+        {name, std::to_string(s.runs), withInterval(s.right_at_end), withInterval(s.settled),
          std::to_string(s.wrong_runs), std::to_string(s.wrong_steps),
          std::to_string(s.wrong_episodes), fixedNumber(s.distance_to_settled.median, 2),
          fixedNumber(s.distance_to_settled.p95, 2), fixedNumber(s.cpu_to_settled.median, 3),
          fixedNumber(s.cpu_to_settled.p95, 3), fixedNumber(s.step_ms.median, 2),
          fixedNumber(s.step_ms.p95, 2), withInterval(s.noticed)});
+  };
+  for (const TrackMethodReport& method : report.methods)
+  {
+    add(method.name, summarizeRuns(method));
+    for (const std::string& group : groupsOf(method))
+    {
+      add(method.name + ", " + group, summarizeRuns(method, group));
+    }
   }
   return markdownTable(rows);
 }
@@ -188,6 +256,13 @@ void writeTrackReport(const TrackReport& report, const std::filesystem::path& fo
   files.summary["complete"] = report.complete;
   files.results = resultsCsv(report);
   files.text = "# Wake-ups\n\n" + trackTable(report);
+  for (const TrackMethodReport& method : report.methods)
+  {
+    const std::string tables = detail::toMarkdown(detail::selfKnowledgeOf(method, {}));
+    if (tables.empty()) continue;
+    files.text += "\n## What the weights of `" + method.name + "` are worth\n\n" + tables;
+  }
+  files.tables = {{"runs.csv", runsCsv(report)}};
   files.plots = plotsOf(report);
   files.notes = kDefinitions;
   files.provenance = report.provenance;

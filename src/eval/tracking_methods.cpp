@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 #include "sigloc/eval/TrackingMethod.h"
@@ -10,6 +12,32 @@ namespace sigloc
 {
 namespace
 {
+TrackClaim claimOf(const Belief& belief)
+{
+  TrackClaim claim;
+  claim.confident = belief.verdict == Verdict::localized;
+  claim.belief = true;
+  claim.verdict = belief.verdict;
+  claim.hypotheses = static_cast<std::uint32_t>(belief.hypotheses.size());
+  claim.elsewhere = belief.elsewhere;
+  for (std::size_t i = 0; i < std::min(belief.hypotheses.size(), TrackClaim::kWeights); ++i)
+  {
+    claim.weights[i] = belief.hypotheses[i].weight;
+  }
+  claim.has_pose = !belief.hypotheses.empty();
+  if (!claim.has_pose) return claim;
+  const GaussianPose& first = belief.hypotheses.front().pose;
+  claim.pose = first.mean;
+  for (int r = 0; r < 3; ++r)
+  {
+    for (int c = 0; c < 3; ++c)
+    {
+      claim.covariance[static_cast<std::size_t>(3 * r + c)] = first.covariance(r, c);
+    }
+  }
+  return claim;
+}
+
 class SignatureTracking : public TrackingMethod
 {
  public:
@@ -23,11 +51,7 @@ class SignatureTracking : public TrackingMethod
   TrackClaim step(const RawlogStep& step) override
   {
     const Belief& belief = tracker_.step(step.motion, observeScene(step.scans));
-    TrackClaim claim;
-    claim.confident = belief.verdict == Verdict::localized;
-    claim.has_pose = !belief.hypotheses.empty();
-    if (claim.has_pose) claim.pose = belief.hypotheses.front().pose.mean;
-    return claim;
+    return claimOf(belief);
   }
 
  private:
@@ -60,6 +84,33 @@ class SignatureTrackingFactory : public TrackingMethodFactory
 std::vector<std::string> trackingMethodNames()
 {
   return {"signature", "mcl", "mcl-fixed", "mcl-tuned"};
+}
+
+void checkTrackingMethods(const std::vector<std::string>& names)
+{
+  const std::vector<std::string> known = trackingMethodNames();
+  for (const std::string& name : names)
+  {
+    if (std::find(known.begin(), known.end(), name) == known.end())
+    {
+      throw std::invalid_argument("unknown method '" + name + "'");
+    }
+  }
+}
+
+double squaredNormalisedError(const TrackClaim& claim, const mrpt::math::TPose2D& truth)
+{
+  if (!claim.belief || !claim.has_pose) return std::numeric_limits<double>::quiet_NaN();
+  GaussianPose pose;
+  pose.mean = claim.pose;
+  for (int r = 0; r < 3; ++r)
+  {
+    for (int c = 0; c < 3; ++c)
+    {
+      pose.covariance(r, c) = claim.covariance[static_cast<std::size_t>(3 * r + c)];
+    }
+  }
+  return squaredMahalanobisDistance(pose, {truth, {}});
 }
 
 std::unique_ptr<TrackingMethodFactory> makeTrackingMethod(const std::string& name,

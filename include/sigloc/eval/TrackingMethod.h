@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,13 +15,25 @@
 
 namespace sigloc
 {
-/// What a method claims after a step.
+/// What a method claims after a step. Plain data: worker processes send it as bytes.
 struct TrackClaim
 {
+  static constexpr std::size_t kWeights = 4;
+
   bool confident = false;
   bool has_pose = false;
   mrpt::math::TPose2D pose;  ///< map_from_robot, where has_pose
+  bool belief = false;  ///< the method tells weighted Gaussians: the fields below are filled
+  Verdict verdict = Verdict::too_little_seen;
+  std::uint32_t hypotheses = 0;  ///< alive
+  std::array<double, kWeights> weights{};  ///< of the heaviest hypotheses, heaviest first
+  double elsewhere = 1;  ///< weight of "somewhere else"
+  std::array<double, 9> covariance{};  ///< of `pose`, row by row
 };
+
+/// Returns the squared Mahalanobis distance of a claimed pose, heading wrapped, from the truth
+/// (3 degrees of freedom); NaN where the claim has no covariance.
+double squaredNormalisedError(const TrackClaim& claim, const mrpt::math::TPose2D& truth);
 
 /// A way of finding and following a robot, lost at first. One object a run.
 class TrackingMethod
@@ -42,6 +56,9 @@ class TrackingMethodFactory
 
 /// Names that `makeTrackingMethod` knows: `signature` and `mcl` in three settings.
 std::vector<std::string> trackingMethodNames();
+
+/// Throws std::invalid_argument for a name that `makeTrackingMethod` does not know.
+void checkTrackingMethods(const std::vector<std::string>& names);
 
 /// Throws std::invalid_argument for an unknown name or a map without what the method needs.
 std::unique_ptr<TrackingMethodFactory> makeTrackingMethod(const std::string& name,

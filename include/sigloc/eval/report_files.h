@@ -35,13 +35,14 @@ struct RunReport
 {
   nlohmann::ordered_json summary;  ///< summary.json, all but the provenance
   std::string results;  ///< results.csv
+  std::vector<std::pair<std::string, std::string>> tables;  ///< further files: name, content
   std::string text;  ///< report.md: title and tables
   std::vector<std::pair<std::string, Plot>> plots;  ///< name of the PNG file, figure
   std::string notes;  ///< report.md below the plots: what the columns mean, may be empty
   Provenance provenance;
 };
 
-/// Writes summary.json, results.csv, the plots that gnuplot can draw, and report.md into a folder,
-/// making it if need be. Throws std::runtime_error ("path: reason").
+/// Writes summary.json, results.csv, further tables, the plots that gnuplot can draw, and report.md
+/// into a folder, making it if need be. Throws std::runtime_error ("path: reason").
 void writeRunReport(const RunReport& report, const std::filesystem::path& folder);
 }  // namespace sigloc

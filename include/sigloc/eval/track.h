@@ -4,6 +4,8 @@
 
 #include <filesystem>
 #include <functional>
+#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,6 +42,7 @@ struct TrackStepRecord
   double travelled = 0;  ///< [m] since the start
   TrackClaim claim;
   PoseError error;  ///< NaN without truth
+  double nees = std::numeric_limits<double>::quiet_NaN();  ///< see squaredNormalisedError
   bool mapped = true;  ///< the truth lies within 1 m of a mapped pose, or the map has no poses
   Claim judged = Claim::none;
   double time_ms = 0;
@@ -48,7 +51,8 @@ struct TrackStepRecord
 /// One wake-up, judged.
 struct TrackRun
 {
-  std::size_t start = 0;  ///< step of the log
+  std::size_t start = 0;  ///< step of the log; of a simulation, the number of the drive
+  std::string group;  ///< kind of the simulated world, or empty
   std::vector<TrackStepRecord> steps;
   std::size_t kidnapped_at = 0;  ///< index into steps; 0: not kidnapped
   bool right_at_end = false;  ///< at the last mapped step with truth
@@ -82,7 +86,8 @@ struct TrackReport
 /// ("path: reason") for a file that cannot be used.
 TrackReport runTrack(const TrackOptions& options);
 
-/// Writes summary.json, results.csv and report.md into a folder.
+/// Writes summary.json, results.csv (a row a step), runs.csv (a row a run) and report.md into a
+/// folder.
 void writeTrackReport(const TrackReport& report, const std::filesystem::path& folder);
 
 std::string trackTable(const TrackReport& report);

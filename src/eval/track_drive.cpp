@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "track_drive.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "own_process.h"
+#include "sigloc/eval/cpu_time.h"
+
+namespace sigloc::detail
+{
+namespace
+{
+void judge(const TrackDriveStep& step, bool foreign, const AccuracyGates& gates,
+           TrackStepRecord& record)
+{
+  const TrackClaim& claim = record.claim;
+  record.mapped = step.mapped;
+  if (foreign)
+  {
+    if (claim.confident) record.judged = Claim::wrong;
+    return;
+  }
+  if (!step.truth || !claim.has_pose) return;
+  record.error = poseError(claim.pose, *step.truth);
+  if (claim.confident) record.judged = judgeClaim(record.error, gates);
+  if (claim.belief) record.nees = squaredNormalisedError(claim, *step.truth);
+}
+
+void driveLeg(TrackingMethod& method, const TrackLeg& leg, const AccuracyGates& gates,
+              TrackRun& run)
+{
+  const std::vector<TrackDriveStep>& steps = leg.drive->steps;
+  const double before = run.steps.empty() ? 0 : run.steps.back().travelled;
+  for (std::size_t i = leg.first; i < leg.last; ++i)
+  {
+    RawlogStep step = steps[i].step;
+    // Whoever wakes up, or is carried, has not driven the way before.
+    if (i == leg.first && step.motion) step.motion = MotionIncrement{};
+    const double start = threadCpuSeconds();
+    TrackStepRecord record;
+    record.claim = method.step(step);
+    record.time_ms = 1e3 * (threadCpuSeconds() - start);
+    record.step = i;
+    record.travelled = before + steps[i].travelled - steps[leg.first].travelled;
+    judge(steps[i], leg.drive->foreign, gates, record);
+    run.steps.push_back(record);
+  }
+}
+}  // namespace
+
+bool isMapped(const mrpt::math::TPose2D& truth,
+              const std::vector<mrpt::math::TPose2D>& mapped_poses)
+{
+  constexpr double kMappedDistance = 1.0;  // [m]
+  return mapped_poses.empty() ||
+         std::any_of(mapped_poses.begin(), mapped_poses.end(),
+                     [&](const mrpt::math::TPose2D& pose)
+                     { return std::hypot(pose.x - truth.x, pose.y - truth.y) <= kMappedDistance; });
+}
+
+TrackRun runLegs(const TrackingMethodFactory& factory, const std::vector<TrackLeg>& legs,
+                 std::uint32_t seed, const AccuracyGates& gates)
+{
+  const auto drive_all = [&]
+  {
+    TrackRun run;
+    run.start = legs.front().first;
+    // Building the filter is part of what waking up costs.
+    const double before = threadCpuSeconds();
+    const auto method = factory.start(seed);
+    const double set_up_ms = 1e3 * (threadCpuSeconds() - before);
+    for (const TrackLeg& leg : legs)
+    {
+      if (&leg != &legs.front()) run.kidnapped_at = run.steps.size();
+      driveLeg(*method, leg, gates, run);
+    }
+    run.steps.front().time_ms += set_up_ms;
+    return run;
+  };
+  TrackRun run = factory.needsOwnProcess() ? runInOwnProcess(drive_all) : drive_all();
+  judgeRun(run);
+  return run;
+}
+}  // namespace sigloc::detail

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mrpt/math/TPose2D.h>
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "sigloc/bridge/RawlogReader.h"
+#include "sigloc/eval/track.h"
+
+namespace sigloc::detail
+{
+/// A step of a drive with what it is judged by.
+struct TrackDriveStep
+{
+  RawlogStep step;
+  std::optional<mrpt::math::TPose2D> truth;
+  double travelled = 0;  ///< [m] since the drive began, along the truth
+  bool may_start = false;
+  bool mapped = true;  ///< see TrackStepRecord
+};
+
+struct TrackDrive
+{
+  std::vector<TrackDriveStep> steps;
+  bool foreign = false;  ///< the drive is of another place than the map: every claim is wrong
+  bool complete = true;  ///< false when the log was truncated
+};
+
+/// Steps [first, last) of a drive.
+struct TrackLeg
+{
+  const TrackDrive* drive = nullptr;
+  std::size_t first = 0;
+  std::size_t last = 0;
+};
+
+/// True where the map's scans were taken within 1 m; always for a map without poses.
+bool isMapped(const mrpt::math::TPose2D& truth,
+              const std::vector<mrpt::math::TPose2D>& mapped_poses);
+
+/// Runs a method, lost at first, over one leg after another, carried from the end of each to the
+/// start of the next, and judges every step.
+TrackRun runLegs(const TrackingMethodFactory& factory, const std::vector<TrackLeg>& legs,
+                 std::uint32_t seed, const AccuracyGates& gates);
+}  // namespace sigloc::detail

@@ -1,0 +1,267 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sigloc/eval/track_simulated.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <mutex>
+#include <stdexcept>
+
+#include "sigloc/eval/cpu_time.h"
+#include "sigloc/eval/robot_simulation.h"
+#include "sigloc/eval/run_parallel.h"
+#include "track_drive.h"
+
+namespace sigloc
+{
+namespace
+{
+using detail::TrackDrive;
+using detail::TrackDriveStep;
+using mrpt::math::TPose2D;
+
+constexpr double kClearance = 0.35;  // [m] of robot and mapping run
+constexpr std::uint64_t kSizeStream = 400;  // of the random numbers, see Random
+constexpr std::uint64_t kMapStream = 401;
+
+std::uint64_t seedOf(std::uint64_t run_seed, std::uint64_t number)
+{
+  return run_seed * 1000003U + number;
+}
+
+/// Sizes and contents as they differ from building to building.
+WorldOptions drawWorldOptions(WorldKind kind, Random& random)
+{
+  WorldOptions options;
+  options.furniture_per_room = random.uniform(0.0, 4.0);
+  if (kind == WorldKind::office)
+  {
+    options.width = random.uniform(16.0, 40.0);
+    options.height = random.uniform(11.0, 15.0);
+  }
+  else if (kind == WorldKind::corridor)
+  {
+    options.width = random.uniform(4.0, 6.5);  // of a room
+    options.height = random.uniform(3.5, 5.5);
+    options.copies = 2 + static_cast<std::uint32_t>(random.index(5));
+    options.jitter = random.uniform(0.05, 0.4);
+  }
+  else if (kind == WorldKind::hall)
+  {
+    options.width = random.uniform(24.0, 50.0);
+    options.height = random.uniform(16.0, 30.0);
+  }
+  return options;
+}
+
+LaserOptions drawLaser(Random& random)
+{
+  struct Model
+  {
+    std::uint32_t beams;
+    double fov_deg;
+    double max_range;
+  };
+  constexpr std::array<Model, 5> kModels = {
+      {{181, 180, 30}, {361, 270, 30}, {360, 360, 12}, {271, 270, 10}, {181, 180, 8}}};
+  const Model& model = kModels[random.index(kModels.size())];
+  LaserOptions options;
+  options.beams = model.beams;
+  options.fov_deg = model.fov_deg;
+  options.max_range = model.max_range;
+  options.range_sigma = random.uniform(0.01, 0.03);
+  return options;
+}
+
+struct SimulatedPlace
+{
+  WorldKind kind;
+  std::uint64_t seed;
+  World world;
+  LaserOptions laser;
+};
+
+SimulatedPlace makePlace(const SimulatedTrackOptions& options, std::size_t number)
+{
+  const std::uint64_t seed = seedOf(options.method.seed, number);
+  constexpr std::array<WorldKind, 3> kUsual = {WorldKind::office, WorldKind::corridor,
+                                               WorldKind::hall};
+  const WorldKind kind = options.kinds.empty() ? kUsual[number % kUsual.size()]
+                                               : options.kinds[number % options.kinds.size()];
+  Random random(seed, kSizeStream);
+  const WorldOptions sizes = drawWorldOptions(kind, random);
+  return {kind, seed, makeWorld(kind, sizes, seed), drawLaser(random)};
+}
+
+/// The map of a mapping run through a place, bent by what its error model states.
+EvaluationMap mapPlace(const SimulatedPlace& place, const SimulatedTrackOptions& options)
+{
+  auto scans =
+      simulateMapping(place.world, options.map_spacing, kClearance, place.laser, place.seed);
+  const Bounds& bounds = place.world.bounds;
+  const double border = bounds.x_min + options.mapped_share * (bounds.x_max - bounds.x_min);
+  scans.erase(
+      std::remove_if(scans.begin(), scans.end(),
+                     [&](const PosedScans& posed) { return posed.map_from_robot.x > border; }),
+      scans.end());
+  Random random(place.seed, kMapStream);
+  const double dx = options.map_sigma * random.normal();
+  const double dy = options.map_sigma * random.normal();
+  for (PosedScans& posed : scans)
+  {
+    posed.map_from_robot.x += dx;
+    posed.map_from_robot.y += dy;
+  }
+  EvaluationMap map = evaluationMapFromScans(scans);
+  MapErrorModel error = map.features->error();
+  error.common_sigma = options.map_sigma;
+  map.features =
+      std::make_shared<const FeatureMap>(map.features->features(), map.features->field(), error);
+  return map;
+}
+
+/// What the drives of one place share.
+class DrivenPlace
+{
+ public:
+  DrivenPlace(const SimulatedPlace& place, const EvaluationMap& map,
+              const SimulatedTrackOptions& options)
+      : options_(options),
+        map_(map),
+        world_(changedWorld(place.world, {options.moved_share, 1.0, options.extra_items, 0.0},
+                            place.seed)),
+        space_(world_, kClearance),
+        simulator_(world_, drivingLaser(place.laser, options))
+  {
+  }
+
+  TrackDrive drive(std::uint64_t seed) const
+  {
+    DriveOptions how;
+    how.metres = options_.travel;
+    const std::vector<TPose2D> truth = simulateTruth(space_, how, seed);
+    const std::vector<MotionIncrement> motions = simulateOdometry(truth, {}, seed);
+    Random random(seed, 12);
+    TrackDrive drive;
+    drive.foreign = options_.foreign;
+    for (std::size_t i = 0; i < truth.size(); ++i)
+    {
+      TrackDriveStep step;
+      step.step.time = how.step_time * static_cast<double>(i);
+      if (options_.odometry) step.step.motion = motions[i];
+      step.step.scans = {simulator_.scan(truth[i], random)};
+      step.truth = truth[i];
+      step.mapped = options_.foreign || detail::isMapped(truth[i], map_.mapped_poses);
+      if (i > 0)
+      {
+        step.travelled = drive.steps.back().travelled +
+                         std::hypot(truth[i].x - truth[i - 1].x, truth[i].y - truth[i - 1].y);
+      }
+      drive.steps.push_back(std::move(step));
+    }
+    return drive;
+  }
+
+ private:
+  static LaserOptions drivingLaser(LaserOptions laser, const SimulatedTrackOptions& options)
+  {
+    laser.clutter_share = options.clutter_share;
+    return laser;
+  }
+
+  const SimulatedTrackOptions& options_;
+  const EvaluationMap& map_;
+  World world_;
+  FreeSpace space_;
+  LaserSimulator simulator_;
+};
+
+TrackRun runDrive(const TrackingMethodFactory& factory, const DrivenPlace& place,
+                  std::size_t number, const SimulatedTrackOptions& options)
+{
+  // Drives and worlds draw from seeds of their own.
+  constexpr std::uint64_t kDrives = 1U << 20U;
+  constexpr std::uint64_t kSecondLegs = 1U << 21U;
+  AccuracyGates gates;
+  gates.wrong_distance = gates.right_distance;
+  gates.wrong_angle_deg = gates.right_angle_deg;
+  std::vector<TrackDrive> drives = {place.drive(seedOf(options.method.seed, kDrives + number))};
+  if (options.kidnap)
+  {
+    drives.push_back(place.drive(seedOf(options.method.seed, kSecondLegs + number)));
+  }
+  std::vector<detail::TrackLeg> legs;
+  for (const TrackDrive& drive : drives) legs.push_back({&drive, 0, drive.steps.size()});
+  const auto seed = static_cast<std::uint32_t>(seedOf(options.method.seed, number));
+  TrackRun run = detail::runLegs(factory, legs, seed, gates);
+  run.start = number;
+  return run;
+}
+
+void check(const SimulatedTrackOptions& options)
+{
+  if (options.drives == 0) throw std::invalid_argument("--simulate must be at least 1");
+  if (options.drives_per_world == 0)
+  {
+    throw std::invalid_argument("--drives-per-world must be at least 1");
+  }
+  if (std::find(options.kinds.begin(), options.kinds.end(), WorldKind::points) !=
+      options.kinds.end())
+  {
+    throw std::invalid_argument("--worlds: no laser sees a world of points");
+  }
+  if (!(options.mapped_share > 0 && options.mapped_share <= 1))
+  {
+    throw std::invalid_argument("--mapped-share must be above 0, up to 1");
+  }
+  if (!(options.map_sigma >= 0)) throw std::invalid_argument("--map-sigma must not be negative");
+  checkTrackingMethods(options.methods);
+}
+}  // namespace
+
+TrackReport runSimulatedTrack(const SimulatedTrackOptions& options)
+{
+  check(options);
+  TrackReport report;
+  report.provenance = {options.command, options.method.seed, {}};
+  for (const std::string& name : options.methods)
+  {
+    report.methods.push_back({name, std::vector<TrackRun>(options.drives), 0});
+  }
+  const std::size_t worlds =
+      (options.drives + options.drives_per_world - 1) / options.drives_per_world;
+  std::atomic<std::size_t> done{0};
+  std::mutex mutex;
+  const auto run_world = [&](std::size_t index)
+  {
+    const SimulatedPlace place = makePlace(options, index);
+    // Another number is another place, of all kinds in turn.
+    const std::size_t mapped = options.foreign ? worlds + index + index / 3 : index;
+    const EvaluationMap map =
+        mapPlace(mapped == index ? place : makePlace(options, mapped), options);
+    const DrivenPlace driven(place, map, options);
+    for (TrackMethodReport& method : report.methods)
+    {
+      const auto factory = makeTrackingMethod(method.name, map, options.method);
+      const std::size_t first = index * options.drives_per_world;
+      const std::size_t last =
+          std::min<std::size_t>(first + options.drives_per_world, options.drives);
+      for (std::size_t number = first; number < last; ++number)
+      {
+        method.runs[number] = runDrive(*factory, driven, number, options);
+        method.runs[number].group = toString(place.kind);
+      }
+    }
+    const std::lock_guard<std::mutex> lock(mutex);
+    report.map_features += map.features->features().size();
+    report.map_build_seconds += map.build_seconds;
+    const double share = static_cast<double>(++done) / static_cast<double>(worlds);
+    if (options.progress) options.progress("worlds", share);
+  };
+  runParallel(worlds, options.threads, run_world);
+  for (TrackMethodReport& method : report.methods) method.peak_rss_mb = peakMemoryMb();
+  return report;
+}
+}  // namespace sigloc

@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sigloc/eval/track_simulated.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace sigloc
+{
+namespace
+{
+SimulatedTrackOptions smallOptions()
+{
+  SimulatedTrackOptions options;
+  options.drives = 6;
+  options.drives_per_world = 2;
+  options.travel = 4;
+  options.method.seed = 7;
+  return options;
+}
+
+TEST(SimulatedTrack, GivesTheSameStepsOnOneAndTwoThreads)
+{
+  SimulatedTrackOptions options = smallOptions();
+  const TrackReport one = runSimulatedTrack(options);
+  options.threads = 2;
+  const TrackReport two = runSimulatedTrack(options);
+  for (std::size_t r = 0; r < options.drives; ++r)
+  {
+    const TrackRun& a = one.methods.front().runs[r];
+    const TrackRun& b = two.methods.front().runs[r];
+    EXPECT_EQ(a.group, b.group);
+    ASSERT_EQ(a.steps.size(), b.steps.size());
+    ASSERT_FALSE(a.steps.empty());
+    for (std::size_t i = 0; i < a.steps.size(); ++i)
+    {
+      EXPECT_EQ(a.steps[i].claim.pose, b.steps[i].claim.pose);
+      EXPECT_EQ(a.steps[i].claim.weights, b.steps[i].claim.weights);
+      EXPECT_EQ(a.steps[i].claim.confident, b.steps[i].claim.confident);
+    }
+  }
+}
+
+TEST(SimulatedTrack, VisitsAllKindsOfWorldsAndFindsTheRobot)
+{
+  const TrackReport report = runSimulatedTrack(smallOptions());
+  std::size_t right = 0;
+  std::vector<std::string> groups;
+  for (const TrackRun& run : report.methods.front().runs)
+  {
+    right += run.right_at_end;
+    if (std::find(groups.begin(), groups.end(), run.group) == groups.end())
+    {
+      groups.push_back(run.group);
+    }
+    EXPECT_TRUE(run.steps.back().claim.belief);
+  }
+  EXPECT_EQ(groups.size(), 3U);
+  EXPECT_GE(right, 5U);
+}
+
+TEST(SimulatedTrack, JudgesEveryClaimInAForeignMapWrong)
+{
+  SimulatedTrackOptions options = smallOptions();
+  options.foreign = true;
+  for (const TrackRun& run : runSimulatedTrack(options).methods.front().runs)
+  {
+    EXPECT_FALSE(run.right_at_end);
+    for (const TrackStepRecord& step : run.steps)
+    {
+      EXPECT_EQ(step.judged, step.claim.confident ? Claim::wrong : Claim::none);
+    }
+  }
+}
+
+TEST(SimulatedTrack, CarriesTheRobotToAnotherPlace)
+{
+  SimulatedTrackOptions options = smallOptions();
+  options.drives = 1;
+  options.kidnap = true;
+  const TrackReport report = runSimulatedTrack(options);
+  const TrackRun& run = report.methods.front().runs.front();
+  ASSERT_GT(run.kidnapped_at, 0U);
+  EXPECT_EQ(run.steps[run.kidnapped_at].step, 0U) << "the first step of the second drive";
+  EXPECT_GE(run.steps.back().travelled, 1.9 * options.travel);
+}
+
+TEST(SimulatedTrack, RefusesOptionsThatMakeNoSense)
+{
+  SimulatedTrackOptions options = smallOptions();
+  options.kinds = {WorldKind::points};
+  EXPECT_THROW(runSimulatedTrack(options), std::invalid_argument);
+  options = smallOptions();
+  options.mapped_share = 0;
+  EXPECT_THROW(runSimulatedTrack(options), std::invalid_argument);
+  options = smallOptions();
+  options.methods = {"magic"};
+  EXPECT_THROW(runSimulatedTrack(options), std::invalid_argument);
+}
+}  // namespace
+}  // namespace sigloc
