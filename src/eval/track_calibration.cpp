@@ -158,8 +158,10 @@ std::vector<std::pair<std::string, Plot>> beliefPlots(const TrackMethodReport& m
       alive[static_cast<int>(step.travelled / kBin)].push_back(step.claim.hypotheses);
     }
   }
-  PlotSeries mean{"mean", {}};
-  PlotSeries p95{"95 % of the runs", {}};
+  PlotSeries mean;
+  mean.title = "mean";
+  PlotSeries p95;
+  p95.title = "95 % of the runs";
   for (const auto& [bin, values] : alive)
   {
     const Quantiles q = quantilesOf(values);
@@ -170,8 +172,10 @@ std::vector<std::pair<std::string, Plot>> beliefPlots(const TrackMethodReport& m
   for (const std::size_t r : evenlySpaced(method.runs.size(), kRunsDrawn))
   {
     const TrackRun& run = method.runs[r];
-    PlotSeries first{"start " + std::to_string(run.start), {}};
-    PlotSeries second{"its rival", {}};
+    PlotSeries first;
+    first.title = "start " + std::to_string(run.start);
+    PlotSeries second;
+    second.title = "its rival";
     for (const TrackStepRecord& step : run.steps)
     {
       first.points.emplace_back(step.travelled, step.claim.weights[0]);
