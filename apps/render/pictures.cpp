@@ -48,6 +48,13 @@ const std::vector<LegendEntry> kStepLegend = {
     {"chosen pose", TColorf(0, 0.59F, 0.24F)},
     {"truth", TColorf(0, 0, 0)},
 };
+const std::vector<LegendEntry> kComparisonLegend = {
+    {"proposed", TColorf(0.59F, 0.35F, 0.86F)},
+    {"returns", TColorf(0.88F, 0.12F, 0.12F)},
+    {"candidates", TColorf(0.47F, 0.78F, 1)},
+    {"first candidate", TColorf(0, 0.59F, 0.24F)},
+    {"truth", TColorf(0, 0, 0)},
+};
 
 void addText(mrpt::opengl::COpenGLViewport& viewport, double x, double y, const std::string& text,
              std::size_t index, const TColorf& color)
@@ -187,17 +194,59 @@ mrpt::img::CImage PictureMaker::stepPicture(const StepDrawing& step,
   overview_->show(step);
   overview_->write(title, {kMapLegend, kStepLegend});
   close_up_->show(step);
-  const auto whole = renderer_.render(overview_->scene, overview_->view, overview_->size);
-  const auto near = renderer_.render(close_up_->scene, close_up_->view, close_up_->size);
-  const PictureSize& a = overview_->size;
-  const PictureSize& b = close_up_->size;
-  const bool stacked = a.width == kAboveSize.width;
-  mrpt::img::CImage both(stacked ? a.width : a.width + kGapPixels + b.width,
-                         stacked ? a.height + kGapPixels + b.height : a.height, mrpt::img::CH_RGB);
-  both.filledRectangle(0, 0, static_cast<int>(both.getWidth()) - 1,
-                       static_cast<int>(both.getHeight()) - 1, mrpt::img::TColor(70, 70, 70));
-  paste(whole, both, 0, 0);
-  paste(near, both, stacked ? 0 : a.width + kGapPixels, stacked ? a.height + kGapPixels : 0);
-  return both;
+  return join({picture(*overview_), picture(*close_up_)});
+}
+
+mrpt::img::CImage PictureMaker::comparison(const StepDrawing& step,
+                                           const std::vector<std::string>& title,
+                                           const std::vector<CloseUp>& places)
+{
+  StepDrawing whole = step;
+  whole.observed = nullptr;
+  overview_->show(whole);
+  overview_->write(title, {kMapLegend, kComparisonLegend});
+  std::vector<mrpt::img::CImage> pictures = {picture(*overview_)};
+  for (const CloseUp& place : places)
+  {
+    StepDrawing near = step;
+    near.observed_at = place.scan_at;
+    close_up_->view.x = place.scan_at.x;
+    close_up_->view.y = place.scan_at.y;
+    close_up_->show(near);
+    close_up_->write({place.title}, {});
+    pictures.push_back(picture(*close_up_));
+  }
+  return join(pictures);
+}
+
+mrpt::img::CImage PictureMaker::picture(Panel& panel)
+{
+  return renderer_.render(panel.scene, panel.view, panel.size);
+}
+
+/// Side by side, or one above the other for a wide map.
+mrpt::img::CImage PictureMaker::join(const std::vector<mrpt::img::CImage>& pictures) const
+{
+  const bool stacked = overview_->size.width == kAboveSize.width;
+  unsigned width = 0;
+  unsigned height = 0;
+  for (const mrpt::img::CImage& each : pictures)
+  {
+    const auto w = static_cast<unsigned>(each.getWidth());
+    const auto h = static_cast<unsigned>(each.getHeight());
+    const unsigned gap = width == 0 ? 0 : kGapPixels;
+    width = stacked ? std::max(width, w) : width + gap + w;
+    height = stacked ? height + gap + h : std::max(height, h);
+  }
+  mrpt::img::CImage all(width, height, mrpt::img::CH_RGB);
+  all.filledRectangle(0, 0, static_cast<int>(width) - 1, static_cast<int>(height) - 1,
+                      mrpt::img::TColor(70, 70, 70));
+  unsigned at = 0;
+  for (const mrpt::img::CImage& each : pictures)
+  {
+    paste(each, all, stacked ? 0 : at, stacked ? at : 0);
+    at += static_cast<unsigned>(stacked ? each.getHeight() : each.getWidth()) + kGapPixels;
+  }
+  return all;
 }
 }  // namespace sigloc

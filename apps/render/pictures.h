@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <mrpt/math/TPose2D.h>
+
 #include <memory>
 #include <string>
 #include <vector>
@@ -27,8 +29,22 @@ class PictureMaker
   /// here.
   mrpt::img::CImage stepPicture(const StepDrawing& step, const std::vector<std::string>& title);
 
+  /// A place to look at closely.
+  struct CloseUp
+  {
+    mrpt::math::TPose2D scan_at;  ///< where the step's scan is drawn
+    std::string title;
+  };
+
+  /// Returns the overview without the scan, and one close-up a place with the scan drawn there.
+  mrpt::img::CImage comparison(const StepDrawing& step, const std::vector<std::string>& title,
+                               const std::vector<CloseUp>& places);
+
  private:
   struct Panel;
+  mrpt::img::CImage picture(Panel& panel);
+  mrpt::img::CImage join(const std::vector<mrpt::img::CImage>& pictures) const;
+
   OffscreenRenderer renderer_;  // first: its context outlives the scenes below
   std::unique_ptr<Panel> overview_;
   std::unique_ptr<Panel> close_up_;

@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "commands.h"
+#include "failure_pictures.h"
 
 namespace sigloc
 {
@@ -16,6 +17,7 @@ struct RelocateFlags
   EvaluationSources sources;
   std::vector<double> map_from_queries;
   bool simulated = false;
+  std::size_t draw_failures = 0;
 
   int run(const std::string& command_line) const
   {
@@ -33,10 +35,15 @@ struct RelocateFlags
       options.gates.wrong_angle_deg = options.gates.right_angle_deg;
     }
     options.threads = common.threads;
+    options.keep_failures = draw_failures;
     options.command = command_line;
     options.progress = progressBar(common.quiet);
     const RelocateReport report = runRelocate(options);
     writeRelocateReport(report, common.out);
+    for (const RelocateMethodReport& method : report.methods)
+    {
+      drawFailures(method.failures, std::filesystem::path(common.out) / "failures");
+    }
     if (!common.quiet) std::cout << relocateTable(report);
     return report.complete ? 0 : 2;
   }
@@ -62,6 +69,8 @@ std::function<int()> setUpRelocate(CLI::App& command, const std::string& command
   command.add_flag("--foreign", sources.foreign, "the queries are of another place");
   command.add_flag("--simulated", flags->simulated,
                    "the truth is exact: every confident answer that is not right is wrong");
+  command.add_option("--draw-failures", flags->draw_failures,
+                     "pictures of the first so many failed queries of each method");
   flags->common.declare(command);
   return [flags, command_line] { return flags->run(command_line); };
 }

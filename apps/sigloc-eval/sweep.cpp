@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "commands.h"
+#include "failure_pictures.h"
 #include "sigloc/eval/swept_quantities.h"
 
 namespace sigloc
@@ -18,6 +19,7 @@ struct SweepFlags
   CommonOptions common;
   SweepOptions options;
   std::vector<std::string> worlds;
+  std::size_t draw_failures = 0;
 
   int run(const std::string& command_line)
   {
@@ -34,10 +36,16 @@ struct SweepFlags
     }
     options.seed = common.seed;
     options.threads = common.threads;
+    options.keep_failures = draw_failures;
     options.command = command_line;
     options.progress = progressBar(common.quiet);
     const SweepReport report = runSweep(options);
     writeSweepReport(report, common.out);
+    for (const SweepRow& row : report.rows)
+    {
+      const auto value = options.over + "-" + sweptValueText(row.value);
+      drawFailures(row.failures, std::filesystem::path(common.out) / "failures" / value);
+    }
     if (!common.quiet) std::cout << sweepTable(report);
     return 0;
   }
@@ -66,6 +74,8 @@ std::function<int()> setUpSweep(CLI::App& command, const std::string& command_li
       ->capture_default_str();
   command.add_option("--queries", options.queries_per_world, "robots asked in each world")
       ->capture_default_str();
+  command.add_option("--draw-failures", flags->draw_failures,
+                     "pictures of the first so many failed queries of each method and value");
   flags->common.declare(command);
   return [flags, command_line] { return flags->run(command_line); };
 }

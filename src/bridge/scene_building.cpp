@@ -41,6 +41,7 @@ const TColor kObservedColor(255, 140, 0);
 const TColor kPoseColor(0, 150, 60);
 const TColor kPathColor(60, 190, 110);
 const TColor kTruthColor(0, 0, 0);
+const TColor kProposedColor(150, 90, 220);
 
 TPoint2D unitVector(double angle)
 {
@@ -237,6 +238,15 @@ mrpt::opengl::CSetOfTriangles::Ptr drawPath(const std::vector<TPose2D>& path, do
   }
   return batch.object();
 }
+mrpt::opengl::CSetOfTriangles::Ptr drawProposed(const std::vector<TPose2D>& poses, double width)
+{
+  TriangleBatch batch(kPathHeight);
+  for (const TPose2D& pose : poses)
+  {
+    batch.addSquare({pose.x, pose.y}, 1.2 * width, kProposedColor);
+  }
+  return batch.object();
+}
 }  // namespace
 
 mrpt::opengl::CSetOfObjects::Ptr drawMap(const FeatureMap& map, const MapDrawing& drawing)
@@ -255,13 +265,19 @@ mrpt::opengl::CSetOfObjects::Ptr drawMap(const FeatureMap& map, const MapDrawing
 mrpt::opengl::CSetOfObjects::Ptr drawStep(const StepDrawing& step)
 {
   auto objects = mrpt::opengl::CSetOfObjects::Create();
+  objects->insert(drawProposed(step.proposed, step.line_width));
   objects->insert(drawPath(step.path, step.line_width));
+  std::optional<TPose2D> observed_at = step.observed_at;
   if (step.belief != nullptr && !step.belief->hypotheses.empty())
   {
     const TPose2D& first = step.belief->hypotheses.front().pose.mean;
-    if (step.observed != nullptr) objects->insert(drawScan(*step.observed, first, step.line_width));
+    if (!observed_at) observed_at = first;
     objects->insert(drawBelief(*step.belief, step));
     objects->insert(drawRobot(first, step.min_mark_size));
+  }
+  if (step.observed != nullptr && observed_at)
+  {
+    objects->insert(drawScan(*step.observed, *observed_at, step.line_width));
   }
   if (step.truth) objects->insert(drawTruth(*step.truth, step.min_mark_size, step.line_width));
   return objects;

@@ -16,14 +16,6 @@ A row pools all worlds. The truth is exact here: **wrong** is every confident an
 right, and nothing is inaccurate. The errors of mapping scans' poses are independent of each other.
 )";
 
-std::string valueText(double value)
-{
-  std::string text = fixedNumber(value, 3);
-  while (text.back() == '0') text.pop_back();
-  if (text.back() == '.') text.pop_back();
-  return text;
-}
-
 RelocationSummary summaryOf(const std::vector<SweepRecord>& records)
 {
   std::vector<RelocationRecord> answers;
@@ -96,7 +88,7 @@ std::string resultsCsv(const SweepReport& report)
   {
     for (const SweepRecord& record : row.records)
     {
-      csv += report.over + "," + valueText(row.value) + "," + record.world + "," +
+      csv += report.over + "," + sweptValueText(row.value) + "," + record.world + "," +
              relocationCsvRow(row.method, record.answer) + "\n";
     }
   }
@@ -126,7 +118,7 @@ std::string kindTable(const SweepReport& report)
   std::vector<std::vector<std::string>> rows = {head};
   for (const auto& [key, cells] : lines)
   {
-    rows.push_back({key.first, valueText(key.second)});
+    rows.push_back({key.first, sweptValueText(key.second)});
     rows.back().insert(rows.back().end(), cells.begin(), cells.end());
   }
   return markdownTable(rows);
@@ -188,6 +180,14 @@ Plot timeRatioPlot(const SweepReport& report, const std::vector<SummarizedRow>& 
 }
 }  // namespace
 
+std::string sweptValueText(double value)
+{
+  std::string text = fixedNumber(value, 3);
+  while (text.back() == '0') text.pop_back();
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
+
 std::string sweepTable(const SweepReport& report)
 {
   const std::vector<SummarizedRow> summarized = summarizeRows(report);
@@ -196,7 +196,7 @@ std::string sweepTable(const SweepReport& report)
   for (const SummarizedRow& row : summarized)
   {
     rows.push_back(relocationTableRow(row.method, row.summary, referenceOf(summarized, row.value)));
-    rows.back().insert(rows.back().begin(), valueText(row.value));
+    rows.back().insert(rows.back().begin(), sweptValueText(row.value));
   }
   return markdownTable(rows);
 }

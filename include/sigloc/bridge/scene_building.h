@@ -30,17 +30,19 @@ mrpt::opengl::CSetOfObjects::Ptr drawMap(const FeatureMap& map, const MapDrawing
 /// One step as it is drawn over the map.
 struct StepDrawing
 {
-  const ObservedScene* observed = nullptr;  ///< drawn at the first hypothesis, if there is one
+  const ObservedScene* observed = nullptr;  ///< drawn at `observed_at`
+  std::optional<mrpt::math::TPose2D> observed_at;  ///< none: at the first hypothesis, if any
   const Belief* belief = nullptr;
   std::optional<mrpt::math::TPose2D> truth;
   std::vector<mrpt::math::TPose2D> path;  ///< the estimated path so far
+  std::vector<mrpt::math::TPose2D> proposed;  ///< poses that were considered, kept or not
   double line_width = 0.1;  ///< [m]
   double min_mark_size = 0.5;  ///< [m], marks are never smaller, so that an overview shows them
 };
 
 /// Returns the estimated path (green line), the returns (red) and observed features (orange), every
 /// hypothesis as its 3-sigma ellipse (light blue to magenta by weight) with its heading, the first
-/// pose as a green arrowhead and the truth as a black ring.
+/// pose as a green arrowhead, the truth as a black ring and proposed poses as violet dots.
 mrpt::opengl::CSetOfObjects::Ptr drawStep(const StepDrawing& step);
 
 /// Axis-aligned box in the map frame [m].
