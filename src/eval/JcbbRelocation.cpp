@@ -5,119 +5,137 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
-#include "sigloc/matching/PlainGenerator.h"
 #include "sigloc/matching/sampling.h"
 #include "sigloc/matching/SplitMix.h"
-#include "sigloc/signature/unary_constraint.h"
+#include "sigloc/signature/location_constraint.h"
 
 namespace sigloc
 {
 namespace
 {
-constexpr std::size_t kSampleSize = 4;  // p
+constexpr std::uint32_t kSampleSize = 4;  // p
 constexpr double kGoodShare = 0.5;  // P_good, before anything is found
 constexpr double kFailure = 0.05;  // P_fail
+
+bool holds(const std::vector<FeaturePairing>& pairings, const FeaturePairing& other, bool wall)
+{
+  return std::any_of(
+      pairings.begin(), pairings.end(),
+      [&](const FeaturePairing& pairing)
+      { return pairing.observed == other.observed || (pairing.mapped == other.mapped && !wall); });
+}
 }  // namespace
 
-/// One draw of observed features and the pairings found for its first ones.
-struct JcbbRelocation::Search
+/// One draw of observed features, with the pairings of its first ones.
+struct JcbbRelocation::Draw
 {
-  Search(const PreparedScene& observed, MatchingCounters& operations)
-      : scene(observed), counters(operations), found(observed.size())
-  {
-  }
-
-  const PreparedScene& scene;
-  MatchingCounters& counters;
-  HypothesisSet found;
-  FeatureVerifier::Workspace workspace;
-  std::array<std::uint32_t, kSampleSize> drawn{};
-  std::size_t size = 0;
-  std::array<std::uint32_t, kSampleSize> mapped{};
+  std::vector<std::uint32_t> observed;
+  std::vector<FeaturePairing> pairings;
   std::array<std::vector<std::uint32_t>, kSampleSize> candidates;
 };
 
-JcbbRelocation::JcbbRelocation(const FeatureMap& map, const GeneratorOptions& options)
-    : map_(std::make_shared<const PreparedMap>(map)),
-      verifier_(map_, options),
-      lists_(*map_, PairLists::cutOffFor(*map_, options))
+std::uint32_t JcbbRelocation::baseSize() const
 {
+  return kSampleSize;
 }
 
-void JcbbRelocation::extend(Search& search, std::size_t level) const
+void JcbbRelocation::complete(Query& query, const Draw& draw) const
 {
-  if (level == search.size)
+  ++query.counters.hypotheses;
+  const auto base = fit(query, draw.pairings);
+  if (!base || !jointlyCompatible(base->distance, base->degrees)) return;
+
+  // With a known map the joint distance is the running sum of the normalised innovations.
+  const PreparedScene& scene = query.scene;
+  PoseEstimate pose = base->pose;
+  double joint_distance = base->distance;
+  int joint_degrees = base->degrees;
+  std::vector<FeaturePairing> pairings = draw.pairings;
+  std::vector<std::uint32_t> candidates;
+  const std::uint32_t* order = scene.orderFrom(draw.observed.front());
+  for (std::size_t step = 0; step < scene.size(); ++step)
   {
-    const FeaturePairing first{search.drawn[0], search.mapped[0]};
-    const FeaturePairing last{search.drawn[1], search.mapped[1]};
-    HypothesisBase& base = search.workspace.base;
-    if (!verifier_.makeBase(search.scene, first, last, base, search.counters)) return;
-    verifier_.verify(search.scene, nullptr, search.found, search.workspace, search.counters);
-    return;
-  }
-  const BinaryGates& gates = verifier_.gates();
-  const MapErrorModel& error = map_->map().error();
-  for (const std::uint32_t l : search.candidates[level])
-  {
-    bool fits = true;
-    for (std::size_t k = 1; k < level && fits; ++k)
+    const std::uint32_t q = order[step];
+    const DirectedFeature& observed = scene.views[q];
+    const bool wall = isSegment(observed.type());
+    const bool drawn = std::any_of(draw.pairings.begin(), draw.pairings.end(),
+                                   [&](const FeaturePairing& p) { return p.observed == q; });
+    if (drawn) continue;
+    gather(query, draw.pairings.front(), q, candidates);
+    double nearest = std::numeric_limits<double>::infinity();
+    std::uint32_t best = 0;
+    for (const std::uint32_t l : candidates)
     {
-      ++search.counters.checks;
-      fits = search.mapped[k] != l &&
-             binaryCompatible(search.scene.views[search.drawn[k]],
-                              search.scene.views[search.drawn[level]], map_->view(search.mapped[k]),
-                              map_->view(l), error, gates);
+      if (holds(pairings, {q, l}, wall)) continue;
+      ++query.counters.checks;
+      const PlanarMeasurement m =
+          placeMeasurement(pose, observed, map().view(l), scene.relative_sigma);
+      const double distance = squaredInnovation(m, innovationCovariance(pose.covariance, m));
+      if (distance > gates().planar || distance >= nearest) continue;
+      nearest = distance;
+      best = l;
     }
+    if (!std::isfinite(nearest)) continue;
+    constexpr int kPlanar = 2;
+    if (!jointlyCompatible(joint_distance + nearest, joint_degrees + kPlanar)) continue;
+    joint_distance += nearest;
+    joint_degrees += kPlanar;
+    update(pose, placeMeasurement(pose, observed, map().view(best), scene.relative_sigma));
+    pairings.push_back({q, best});
+  }
+  const auto whole = fit(query, pairings);
+  if (whole && jointlyCompatible(whole->distance, whole->degrees)) add(query, pairings, *whole);
+}
+
+void JcbbRelocation::extend(Query& query, Draw& draw, std::size_t level) const
+{
+  if (query.exhausted()) return;
+  if (level == draw.observed.size()) return complete(query, draw);
+  for (const std::uint32_t l : draw.candidates[level])
+  {
+    const FeaturePairing next{draw.observed[level], l};
+    // The first pairing has chosen the candidates.
+    const bool fits = std::all_of(draw.pairings.begin() + 1, draw.pairings.end(),
+                                  [&](const FeaturePairing& p) { return binary(query, p, next); });
     if (!fits) continue;
-    search.mapped[level] = l;
-    extend(search, level + 1);
+    draw.pairings.push_back(next);
+    extend(query, draw, level + 1);
+    draw.pairings.pop_back();
   }
 }
 
-std::vector<FeatureHypothesis> JcbbRelocation::generate(const std::vector<Feature>& observed,
-                                                        MatchingCounters& counters) const
+void JcbbRelocation::search(Query& query) const
 {
-  const PreparedScene scene(observed, *map_, verifier_.options());
-  const auto n = static_cast<std::uint32_t>(scene.size());
-  if (n < 2) return {};
-  Search search(scene, counters);
-  search.size = std::min<std::size_t>(kSampleSize, n);
-  SplitMix random(verifier_.options().seed);
+  const auto n = static_cast<std::uint32_t>(query.scene.size());
+  const std::uint32_t size = std::min(kSampleSize, n);
+  SplitMix random(options().seed);
   std::vector<std::uint32_t> order(n);
   std::iota(order.begin(), order.end(), 0U);
-  const std::uint64_t before = counters.hypotheses;
-
   double good = kGoodShare;
-  std::uint32_t draws = drawsNeeded(kFailure, std::pow(good, search.size));
-  for (std::uint32_t draw = 0; draw < draws; ++draw)
+  std::uint32_t draws = drawsNeeded(kFailure, std::pow(good, size));
+  Draw draw;
+  for (std::uint32_t d = 0; d < draws; ++d)
   {
     random.shuffle(order);
-    std::copy_n(order.begin(), search.size, search.drawn.begin());
-    for (std::uint32_t k = 0; k < map_->size(); ++k)
+    draw.observed.assign(order.begin(), order.begin() + size);
+    for (std::uint32_t k = 0; k < map().size() && !query.exhausted(); ++k)
     {
-      if (!unaryCompatible(scene.views[search.drawn[0]], map_->view(k), verifier_.gates().scalar))
-      {
-        continue;
-      }
-      ++counters.signature_pairs;
-      search.mapped[0] = k;
+      if (!unary(query, draw.observed[0], k)) continue;
+      draw.pairings.assign(1, {draw.observed[0], k});
       bool complete = true;
-      for (std::size_t level = 1; level < search.size && complete; ++level)
+      for (std::size_t level = 1; level < size && complete; ++level)
       {
-        ++counters.checks;
-        gatherCandidates(scene, verifier_, lists_, {search.drawn[0], k}, search.drawn[level],
-                         search.candidates[level]);
-        complete = !search.candidates[level].empty();
+        gather(query, draw.pairings[0], draw.observed[level], draw.candidates[level]);
+        complete = !draw.candidates[level].empty();
       }
-      if (complete) extend(search, 1);
+      if (complete) extend(query, draw, 1);
     }
     // The best so far tells how many of the features are good.
-    good = std::max(good, static_cast<double>(search.found.bestSupport()) / n);
-    draws = std::min(draws, drawsNeeded(kFailure, std::pow(good, search.size)));
+    good = std::max(good, static_cast<double>(query.found.bestSupport()) / n);
+    draws = std::min(draws, drawsNeeded(kFailure, std::pow(good, size)));
   }
-  return rankedHypotheses(scene, verifier_, search.found, static_cast<std::uint32_t>(search.size),
-                          counters.hypotheses - before);
 }
 }  // namespace sigloc

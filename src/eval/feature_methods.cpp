@@ -4,6 +4,8 @@
 
 #include <stdexcept>
 
+#include "sigloc/eval/CliqueAssociation.h"
+#include "sigloc/eval/InterpretationTree.h"
 #include "sigloc/eval/JcbbRelocation.h"
 #include "sigloc/matching/generators.h"
 
@@ -19,9 +21,11 @@ std::unique_ptr<FeatureHypothesisGenerator> makeFeatureMethod(const std::string&
   if (name == "signature-pairs") return makeGenerator(GenerationMode::pairs, map, options);
   if (name == "signature-patterns") return makeGenerator(GenerationMode::patterns, map, options);
   if (name == "jcbb") return std::make_unique<JcbbRelocation>(map, options);
+  if (name == "interpretation-tree") return std::make_unique<InterpretationTree>(map, options);
+  if (name == "clique") return std::make_unique<CliqueAssociation>(map, options);
   throw std::invalid_argument("unknown method '" + name +
                               "': signature, signature-plain, signature-anchors, signature-pairs, "
-                              "signature-patterns, jcbb");
+                              "signature-patterns, jcbb, interpretation-tree, clique");
 }
 
 bool isLinearMethod(const std::string& name)

@@ -53,6 +53,8 @@ Asked ask(const FeatureHypothesisGenerator& method, const LocalMap& local, std::
   asked.found = method.generate(features, counters);
   LandmarkRecord& record = asked.record;
   record.time_ms = 1e3 * (threadCpuSeconds() - before);
+  record.operations = counters.signature_pairs + counters.hypotheses + counters.checks;
+  record.cut_short = counters.cut_short > 0;
   record.step = step;
   record.features = features.size();
   record.travelled = local.travelled();
@@ -147,6 +149,7 @@ void runGrowingLocalMaps(const FeatureHypothesisGenerator& method, const std::st
     LocalMap local;
     LandmarkRecord record;
     double time = 0;
+    std::uint64_t operations = 0;
     for (std::size_t k = start; k < data.steps.size(); ++k)
     {
       const double before_travel = local.travelled();
@@ -158,10 +161,12 @@ void runGrowingLocalMaps(const FeatureHypothesisGenerator& method, const std::st
       if (!news) continue;
       record = ask(method, local, k, data, options).record;
       time += record.time_ms;
+      operations += record.operations;
       if (record.firm || local.travelled() > options.max_travel) break;
     }
     record.method = name;
     record.time_ms = time;
+    record.operations = operations;
     report.records.push_back(record);
   }
 }
@@ -184,6 +189,8 @@ std::vector<LandmarksRow> summarizeRows(const std::vector<LandmarkRecord>& recor
     }
     LandmarksRow& row = rows.back();
     row.features += static_cast<double>(record.features);
+    row.operations += static_cast<double>(record.operations);
+    row.cut_short += record.cut_short;
     for (Proportion* share : {&row.right, &row.firm, &row.firm_and_wrong}) ++share->cases;
     row.right.count += record.right;
     row.firm.count += record.firm;
@@ -194,6 +201,7 @@ std::vector<LandmarksRow> summarizeRows(const std::vector<LandmarkRecord>& recor
   for (std::size_t k = 0; k < rows.size(); ++k)
   {
     rows[k].features /= static_cast<double>(rows[k].right.cases);
+    rows[k].operations /= static_cast<double>(rows[k].right.cases);
     rows[k].travelled = quantilesOf(travelled[k]);
     rows[k].time_ms = quantilesOf(times[k]);
   }
@@ -237,9 +245,9 @@ LandmarksReport runLandmarks(const LandmarksOptions& options)
 
 std::string landmarksTable(const LandmarksReport& report)
 {
-  std::vector<std::vector<std::string>> rows{{"method", "local map steps", "features", "right",
-                                              "firm", "firm and wrong", "travel m median", "p95",
-                                              "ms median", "p95"}};
+  std::vector<std::vector<std::string>> rows{
+      {"method", "local map steps", "features", "right", "firm", "firm and wrong",
+       "travel m median", "p95", "ms median", "p95", "mean", "operations", "cut short"}};
   for (const LandmarksRow& row : report.rows)
   {
     rows.push_back({row.method,
@@ -247,7 +255,8 @@ std::string landmarksTable(const LandmarksReport& report)
                     fixedNumber(row.features, 1), withInterval(row.right), withInterval(row.firm),
                     withInterval(row.firm_and_wrong), fixedNumber(row.travelled.median, 2),
                     fixedNumber(row.travelled.p95, 2), fixedNumber(row.time_ms.median, 3),
-                    fixedNumber(row.time_ms.p95, 3)});
+                    fixedNumber(row.time_ms.p95, 3), fixedNumber(row.time_ms.mean, 3),
+                    fixedNumber(row.operations, 0), std::to_string(row.cut_short)});
   }
   return markdownTable(rows);
 }
@@ -257,13 +266,13 @@ void writeLandmarksReport(const LandmarksReport& report, const std::filesystem::
   RunReport files;
   std::ostringstream csv;
   csv << "method,local_map_steps,step,features,travelled_m,answered,firm,right,error_m,error_deg,"
-         "time_ms\n";
+         "operations,time_ms\n";
   for (const LandmarkRecord& r : report.records)
   {
     csv << r.method << ',' << r.local_map_steps << ',' << r.step << ',' << r.features << ','
         << fixedNumber(r.travelled, 3) << ',' << r.answered << ',' << r.firm << ',' << r.right
         << ',' << fixedNumber(r.error.distance, 3) << ',' << fixedNumber(r.error.angle_deg, 3)
-        << ',' << fixedNumber(r.time_ms, 4) << '\n';
+        << ',' << r.operations << ',' << fixedNumber(r.time_ms, 4) << '\n';
   }
   nlohmann::ordered_json& json = files.summary;
   for (const LandmarksRow& row : report.rows)
@@ -276,6 +285,8 @@ void writeLandmarksReport(const LandmarksReport& report, const std::filesystem::
     addProportion(entry, "firm_and_wrong", row.firm_and_wrong);
     entry["travelled_m"] = toJson(row.travelled);
     entry["time_ms"] = toJson(row.time_ms);
+    entry["operations"] = row.operations;
+    entry["cut_short"] = row.cut_short;
     json["methods"][row.method]["rows"].push_back(entry);
   }
   json["map"] = {{"features", report.map_features}};

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "sigloc/eval/feature_methods.h"
 #include "sigloc/eval/FeatureVoting.h"
 #include "sigloc/eval/lattice_search.h"
 #include "sigloc/eval/RelocationMethod.h"
@@ -173,6 +174,51 @@ class VotingRelocation : public RelocationMethod
   FeatureVoting voting_;
 };
 
+/// An opponent that looks at features alone.
+class FeatureOpponentRelocation : public RelocationMethod
+{
+ public:
+  FeatureOpponentRelocation(const EvaluationMap& map, const RelocationMethodOptions& options,
+                            const char* name)
+      : map_(map.features),
+        method_(makeFeatureMethod(name, *map_, generatorOptions(options))),
+        region_(options.region)
+  {
+  }
+
+  RelocationResult localize(const std::vector<LaserScan>& scans) const override
+  {
+    RelocationResult result;
+    result.verdict = Verdict::ambiguous;
+    for (const FeatureHypothesis& hypothesis :
+         method_->generate(observeScene(scans).features, result.counters))
+    {
+      if (region_ && !region_->contains(hypothesis.pose.mean)) continue;
+      if (result.candidates.size() == kMaxRanked) break;
+      Candidate candidate;
+      candidate.pose = hypothesis.pose;
+      candidate.score = hypothesis.log_odds;
+      candidate.pairings = hypothesis.pairings;
+      result.candidates.push_back(std::move(candidate));
+    }
+    return result;
+  }
+
+ private:
+  static constexpr std::size_t kMaxRanked = 10;
+
+  static GeneratorOptions generatorOptions(const RelocationMethodOptions& options)
+  {
+    GeneratorOptions out;
+    out.seed = options.seed;
+    return out;
+  }
+
+  std::shared_ptr<const FeatureMap> map_;
+  std::unique_ptr<FeatureHypothesisGenerator> method_;
+  std::optional<PoseRegion> region_;
+};
+
 struct MethodEntry
 {
   const char* name;
@@ -201,6 +247,9 @@ const std::vector<MethodEntry>& methodTable()
       entry<DenseRelocation>("branch-and-bound", true),
       entry<LatticeRelocation>("lattice"),
       entry<VotingRelocation>("voting"),
+      entry<FeatureOpponentRelocation>("jcbb", "jcbb"),
+      entry<FeatureOpponentRelocation>("interpretation-tree", "interpretation-tree"),
+      entry<FeatureOpponentRelocation>("clique", "clique"),
   };
   return kTable;
 }

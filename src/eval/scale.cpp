@@ -72,6 +72,7 @@ ScaleRow runRow(const std::string& method, const FeatureWorld& world, const Feat
   row.signature_pairs = mean(counters.signature_pairs);
   row.hypotheses = mean(counters.hypotheses);
   row.checks = mean(counters.checks);
+  row.cut_short = counters.cut_short;
   row.time_ms = quantilesOf(std::move(times));
   return row;
 }
@@ -198,15 +199,15 @@ std::string scaleTable(const ScaleReport& report)
 {
   std::vector<std::vector<std::string>> rows{{"method", "map features", "observed", "success",
                                               "ms median", "p95", "mean", "pairs", "hypotheses",
-                                              "checks", "build s", "bytes/feature"}};
+                                              "checks", "cut short", "build s", "bytes/feature"}};
   for (const ScaleRow& row : report.rows)
   {
     rows.push_back({row.method, std::to_string(row.map_features), fixedNumber(row.observed, 1),
                     withInterval(row.success), fixedNumber(row.time_ms.median, 3),
                     fixedNumber(row.time_ms.p95, 3), fixedNumber(row.time_ms.mean, 3),
                     fixedNumber(row.signature_pairs, 0), fixedNumber(row.hypotheses, 0),
-                    fixedNumber(row.checks, 0), fixedNumber(row.build_seconds, 2),
-                    fixedNumber(row.bytes_per_feature, 0)});
+                    fixedNumber(row.checks, 0), std::to_string(row.cut_short),
+                    fixedNumber(row.build_seconds, 2), fixedNumber(row.bytes_per_feature, 0)});
   }
   std::vector<std::vector<std::string>> exponents{
       {"method", "operations in m", "median time in m", "operations in n", "median time in n"}};
@@ -225,20 +226,23 @@ void writeScaleReport(const ScaleReport& report, const std::filesystem::path& fo
   RunReport files;
   nlohmann::ordered_json& json = files.summary;
   std::ostringstream csv;
-  csv << "method,map_features,wanted,observed,success,cases,signature_pairs,hypotheses,checks,"
+  csv << "method,map_features,wanted,observed,success,cases,signature_pairs,hypotheses,checks,cut_"
+         "short,"
          "time_ms_median,time_ms_p95,time_ms_mean\n";
   for (const ScaleRow& row : report.rows)
   {
     csv << row.method << ',' << row.map_features << ',' << row.wanted << ','
         << fixedNumber(row.observed, 3) << ',' << row.success.count << ',' << row.success.cases
         << ',' << fixedNumber(row.signature_pairs, 3) << ',' << fixedNumber(row.hypotheses, 3)
-        << ',' << fixedNumber(row.checks, 3) << ',' << fixedNumber(row.time_ms.median, 4) << ','
-        << fixedNumber(row.time_ms.p95, 4) << ',' << fixedNumber(row.time_ms.mean, 4) << '\n';
+        << ',' << fixedNumber(row.checks, 3) << ',' << row.cut_short << ','
+        << fixedNumber(row.time_ms.median, 4) << ',' << fixedNumber(row.time_ms.p95, 4) << ','
+        << fixedNumber(row.time_ms.mean, 4) << '\n';
     nlohmann::ordered_json entry;
     entry["map_features"] = row.map_features;
     entry["observed"] = row.observed;
     addProportion(entry, "success", row.success);
     entry["operations"] = row.operations();
+    entry["cut_short"] = row.cut_short;
     entry["time_ms"] = toJson(row.time_ms);
     entry["build_s"] = row.build_seconds;
     entry["bytes_per_feature"] = row.bytes_per_feature;

@@ -75,7 +75,7 @@ void AnchorGenerator::search(const PreparedScene& scene, HypothesisSet& found,
       for (const std::uint32_t j : partners)
       {
         // 3. Every l in L_j(i, k) makes a base, verified over all observed features.
-        gatherCandidates(scene, *verifier_, *lists_, {i, k}, j, candidates);
+        gatherCandidates(scene, map, verifier_->gates(), *lists_, {i, k}, j, candidates);
         for (const std::uint32_t l : candidates)
         {
           if (!verifier_->makeBase(scene, {i, k}, {j, l}, workspace.base, counters)) continue;

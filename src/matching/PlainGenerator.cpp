@@ -9,12 +9,10 @@
 
 namespace sigloc
 {
-void gatherCandidates(const PreparedScene& scene, const FeatureVerifier& verifier,
+void gatherCandidates(const PreparedScene& scene, const PreparedMap& map, const BinaryGates& gates,
                       const PairLists& lists, const FeaturePairing& anchor, std::uint32_t j,
                       std::vector<std::uint32_t>& candidates)
 {
-  const PreparedMap& map = verifier.map();
-  const BinaryGates& gates = verifier.gates();
   const MapErrorModel& error = map.map().error();
   const DirectedFeature& first = scene.views[anchor.observed];
   const DirectedFeature& second = scene.views[j];
@@ -60,7 +58,7 @@ std::vector<FeatureHypothesis> PlainGenerator::generate(const std::vector<Featur
       {
         candidates[j].clear();
         if (j == i) continue;
-        gatherCandidates(scene, *verifier_, *lists_, {i, k}, j, candidates[j]);
+        gatherCandidates(scene, map, verifier_->gates(), *lists_, {i, k}, j, candidates[j]);
         if (!candidates[j].empty()) ++possible;
       }
       if (possible < needed) continue;

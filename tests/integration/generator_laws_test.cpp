@@ -325,7 +325,7 @@ TEST(PlainGenerator, CountersStayBelowTheStatedComplexity)
       for (std::uint32_t j = 0; j < n; ++j)
       {
         if (j == i) continue;
-        gatherCandidates(scene, *verifier, *lists, {i, k}, j, candidates);
+        gatherCandidates(scene, *map, verifier->gates(), *lists, {i, k}, j, candidates);
         sum += static_cast<double>(candidates.size());
       }
       squares += sum * sum / (n * m);

@@ -99,8 +99,8 @@ TEST(FeatureMethods, EveryMethodFindsARobotInThePointWorld)
   Random random(33);
   const FeatureWorld world = makeFeatureWorld(300, options, random);
   const FeatureMap map(world.mapped);
-  for (const char* name :
-       {"signature", "signature-anchors", "signature-pairs", "signature-patterns", "jcbb"})
+  for (const char* name : {"signature", "signature-anchors", "signature-pairs",
+                           "signature-patterns", "jcbb", "clique"})
   {
     const auto method = makeFeatureMethod(name, map, {});
     int right = 0;

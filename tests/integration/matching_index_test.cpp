@@ -94,7 +94,7 @@ TEST(PairLists, BinarySearchEqualsBruteForce)
       for (std::uint32_t j = 0; j < scene.size(); ++j)
       {
         if (j == i) continue;
-        gatherCandidates(scene, verifier, lists, {i, k}, j, candidates);
+        gatherCandidates(scene, *map, verifier.gates(), lists, {i, k}, j, candidates);
         std::vector<std::uint32_t> expected;
         for (std::uint32_t l = 0; l < map->size(); ++l)
         {

@@ -28,10 +28,15 @@ class RelocateTest : public ::testing::Test
   static RelocateOptions officeOptions()
   {
     RelocateOptions options;
+    options.methods.clear();
     options.sources.map = kOffice;
     options.sources.interleave = 4;
     options.sources.max_queries = 12;
-    options.methods = relocationMethodNames();
+    for (const std::string& name : relocationMethodNames())
+    {
+      // In an office's walls the tree takes until its budget.
+      if (name != "interpretation-tree") options.methods.push_back(name);
+    }
     options.command = "test";
     return options;
   }

@@ -48,6 +48,8 @@ struct LandmarkRecord
   PoseError error;
   bool right = false;
   double time_ms = 0;
+  std::uint64_t operations = 0;  ///< pairs tried, hypotheses generated and checks
+  bool cut_short = false;  ///< the search ended at its budget
 };
 
 struct LandmarksRow
@@ -60,6 +62,8 @@ struct LandmarksRow
   Proportion firm_and_wrong;
   Quantiles travelled;
   Quantiles time_ms;
+  double operations = 0;  ///< mean a query
+  std::uint64_t cut_short = 0;
 };
 
 struct LandmarksReport

@@ -36,6 +36,7 @@ struct MatchingCounters
   std::uint64_t hypotheses = 0;  ///< base pairings turned into a pose
   std::uint64_t checks = 0;  ///< location-dependent checks of a pairing at a pose
   std::uint64_t poses_scored = 0;  ///< poses looked up in the dense field
+  std::uint64_t cut_short = 0;  ///< searches that ended at their budget, unfinished
 };
 
 /// A way of generating pose hypotheses from features alone: modes (a) to (d) of the method.
