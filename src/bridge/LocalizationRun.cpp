@@ -109,7 +109,8 @@ struct LocalizationRun::State
   RawlogReader reader;
   std::optional<RawlogStep> pending;  // read, not yet taken; none at the end
   std::optional<GroundTruth> truth;
-  std::unique_ptr<HypothesisTracker> tracker;
+  std::unique_ptr<HypothesisTracker> tracker;  // the one or
+  std::unique_ptr<ParticleTracker> particles;  // the other
   bool map_reused = false;
   double map_seconds = 0;
 };
@@ -122,6 +123,14 @@ LocalizationRun::LocalizationRun(const LocalizationSetup& setup, const fs::path&
   state_->map_reused = made.reused;
   state_->map_seconds = made.build_seconds;
   const auto matcher = std::make_shared<const SignatureMatcher>(map_, setup_.matcher);
+  if (setup_.use_particles)
+  {
+    const auto map = std::make_shared<const SignatureMap>(FeatureMap(*map_));
+    state_->particles = std::make_unique<ParticleTracker>(map, matcher, setup_.tracker,
+                                                          setup_.particles, setup_.matcher.seed);
+    state_->particles->reset(setup_.prior);
+    return;
+  }
   state_->tracker = std::make_unique<HypothesisTracker>(matcher, setup_.tracker);
   state_->tracker->reset(setup_.prior);
 }
@@ -149,9 +158,11 @@ const StepRecord* LocalizationRun::next()
   scene_.features.insert(scene_.features.end(), input->landmarks.begin(), input->landmarks.end());
   step.extraction_ms = extraction.milliseconds();
   const Stopwatch tracking;
-  step.belief = state_->tracker->step(input->motion, scene_);
+  step.belief = state_->particles ? state_->particles->step(*input)
+                                  : state_->tracker->step(input->motion, scene_);
   step.tracking_ms = tracking.milliseconds();
-  step.relocated = state_->tracker->relocated();
+  step.relocated =
+      state_->particles ? state_->particles->relocated() : state_->tracker->relocated();
 
   if (state_->truth)
   {

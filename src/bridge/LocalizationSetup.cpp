@@ -24,10 +24,12 @@ constexpr const char* kExperiment = "LocalizationExperiment";
 constexpr const char* kPrefix = "sigloc.";
 constexpr const char* kMatcher = "sigloc.matcher";
 constexpr const char* kTracker = "sigloc.tracker";
+constexpr const char* kParticles = "sigloc.particles";
 constexpr const char* kFeatures = "sigloc.features";
 constexpr const char* kMap = "sigloc.map";
 constexpr const char* kReport = "sigloc.localize";
-constexpr std::array<const char*, 5> kSections = {kMatcher, kTracker, kFeatures, kMap, kReport};
+constexpr std::array<const char*, 6> kSections = {kMatcher,  kTracker, kParticles,
+                                                  kFeatures, kMap,     kReport};
 
 /// Throws std::runtime_error naming the path for anything that is not a text file.
 std::string readText(const fs::path& path)
@@ -54,6 +56,7 @@ void readSections(const CConfigFileMemory& ini, LocalizationSetup& setup)
   }
   setup.matcher = loadOptions<MatcherOptions>(ini, kMatcher);
   setup.tracker = loadOptions<TrackerOptions>(ini, kTracker);
+  setup.particles = loadOptions<ParticleOptions>(ini, kParticles);
   setup.features = loadOptions<FeatureExtractorOptions>(ini, kFeatures);
   setup.map = loadOptions<MapBuildingOptions>(ini, kMap);
   setup.report = loadOptions<ReportOptions>(ini, kReport);
@@ -109,6 +112,18 @@ std::optional<PoseRegion> readPrior(const CConfigFileMemory& ini)
   return region;
 }
 
+/// Whether MRPT's particle filter is to follow the robot instead of our own tracker.
+bool readTracker(const CConfigFileMemory& ini)
+{
+  const std::string name = ini.read_string_first_word(kExperiment, "tracker", "gaussians");
+  if (name != "gaussians" && name != "particles")
+  {
+    throw std::runtime_error(std::string("[") + kExperiment + "]: 'tracker' is '" + name +
+                             "', neither gaussians nor particles");
+  }
+  return name == "particles";
+}
+
 /// Finds a file that an ini names: beside the ini, then from the current folder.
 fs::path findFile(const fs::path& named, const fs::path& ini, const char* key)
 {
@@ -137,6 +152,7 @@ void readExperiment(const CConfigFileMemory& ini, const fs::path& path, const fs
   setup.scene_frequency = readCount(ini, "3DSceneFrequency", 0);
   setup.repetitions = std::max(1U, readCount(ini, "experimentRepetitions", 1));
   setup.prior = readPrior(ini);
+  setup.use_particles = readTracker(ini);
 }
 
 /// Runs `read` on the parsed ini and puts the path before whatever it throws.
@@ -189,6 +205,7 @@ std::string defaultOptionSections()
   const LocalizationSetup setup;
   saveOptions(setup.matcher, ini, kMatcher);
   saveOptions(setup.tracker, ini, kTracker);
+  saveOptions(setup.particles, ini, kParticles);
   saveOptions(setup.features, ini, kFeatures);
   saveOptions(setup.map, ini, kMap);
   saveOptions(setup.report, ini, kReport);

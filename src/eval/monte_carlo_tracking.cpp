@@ -71,7 +71,8 @@ class MonteCarloTracking : public TrackingMethod
                      std::uint32_t seed)
       : settings_(settings)
   {
-    mrpt::random::getRandomGenerator().randomize(seed);
+    // Its own randomize() would keep a Gaussian drawn before.
+    mrpt::random::getRandomGenerator() = mrpt::random::CRandomGenerator(seed);
     filter_.options.metricMap = grid;
     filter_.options.KLD_params.KLD_binSize_PHI = 10 * M_PI / 180;
     filter_.options.KLD_params.KLD_binSize_XY = 0.10;

@@ -23,8 +23,9 @@ constexpr const char* kDefinitions = R"(
 * **wrong**: runs with a step that is confident and more than 1 m or 20 degrees off; steps and
   unbroken episodes of it counted as well.
 * **noticed**: after a kidnapping, runs in which the method stopped being sure of a wrong place.
-* Confident: for `signature` the verdict `localized`; for MRPT's filter a position sd below 0.5 m
+* Confident: for `signature` and `signature-mcl` the verdict `localized`; for MRPT's filter a position sd below 0.5 m
   and a heading sd below 10 degrees over 5 steps.
+* `signature-mcl`: MRPT's filter with 500 particles, drawn where signatures find a lost robot.
 * `mcl`: pf-localization's shipped options (KLD, 40 000 particles at first). `mcl-fixed`: 40 000
   throughout. `mcl-tuned`: 200 particles per free square metre, between 40 000 and 500 000, KLD
   down to 1 000, motion noise halved. One thread each.

@@ -4,6 +4,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "sigloc/bridge/ParticleTracker.h"
 #include "sigloc/eval/TrackingMethod.h"
 #include "sigloc/features/FeatureExtractor.h"
 #include "sigloc/tracking/HypothesisTracker.h"
@@ -50,40 +51,67 @@ class SignatureTracking : public TrackingMethod
 
   TrackClaim step(const RawlogStep& step) override
   {
-    const Belief& belief = tracker_.step(step.motion, observeScene(step.scans));
-    return claimOf(belief);
+    return claimOf(tracker_.step(step.motion, observeScene(step.scans)));
   }
 
  private:
   HypothesisTracker tracker_;
 };
 
+/// MRPT's particle filter with a few hundred particles, started and recovered by signatures.
+class ParticleTracking : public TrackingMethod
+{
+ public:
+  ParticleTracking(std::shared_ptr<const SignatureMap> map,
+                   std::shared_ptr<const SignatureMatcher> matcher,
+                   const std::optional<PoseRegion>& region, std::uint32_t seed)
+      : tracker_(std::move(map), std::move(matcher), {}, {}, seed)
+  {
+    tracker_.reset(region);
+  }
+
+  TrackClaim step(const RawlogStep& step) override { return claimOf(tracker_.step(step)); }
+
+ private:
+  ParticleTracker tracker_;
+};
+
 class SignatureTrackingFactory : public TrackingMethodFactory
 {
  public:
-  SignatureTrackingFactory(const EvaluationMap& map, const RelocationMethodOptions& options)
+  SignatureTrackingFactory(const EvaluationMap& map, const RelocationMethodOptions& options,
+                           bool particles)
       : region_(options.region)
   {
+    if (particles) particle_map_ = std::make_shared<const SignatureMap>(FeatureMap(*map.features));
     MatcherOptions matching;
     matching.seed = options.seed;
     matching.use_dense_field = options.use_dense_field;
     matcher_ = std::make_shared<const SignatureMatcher>(map.features, matching);
   }
 
-  std::unique_ptr<TrackingMethod> start(std::uint32_t /*seed*/) const override
+  std::unique_ptr<TrackingMethod> start(std::uint32_t seed) const override
   {
+    if (particle_map_)
+    {
+      return std::make_unique<ParticleTracking>(particle_map_, matcher_, region_, seed);
+    }
     return std::make_unique<SignatureTracking>(matcher_, region_);
   }
 
+  // MRPT's random generator is one for all runs.
+  bool needsOwnProcess() const override { return particle_map_ != nullptr; }
+
  private:
   std::shared_ptr<const SignatureMatcher> matcher_;
+  std::shared_ptr<const SignatureMap> particle_map_;  // null: our own tracker
   std::optional<PoseRegion> region_;
 };
 }  // namespace
 
 std::vector<std::string> trackingMethodNames()
 {
-  return {"signature", "mcl", "mcl-fixed", "mcl-tuned"};
+  return {"signature", "signature-mcl", "mcl", "mcl-fixed", "mcl-tuned"};
 }
 
 void checkTrackingMethods(const std::vector<std::string>& names)
@@ -117,7 +145,10 @@ std::unique_ptr<TrackingMethodFactory> makeTrackingMethod(const std::string& nam
                                                           const EvaluationMap& map,
                                                           const RelocationMethodOptions& options)
 {
-  if (name == "signature") return std::make_unique<SignatureTrackingFactory>(map, options);
+  if (name == "signature" || name == "signature-mcl")
+  {
+    return std::make_unique<SignatureTrackingFactory>(map, options, name != "signature");
+  }
   if (name.rfind("mcl", 0) == 0) return detail::makeMonteCarlo(name, map, options);
   throw std::invalid_argument("unknown method '" + name + "'");
 }

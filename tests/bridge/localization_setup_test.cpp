@@ -53,6 +53,16 @@ TEST(LocalizationSetup, readsTheKeysOfPfLocalization)
   EXPECT_NEAR(setup.prior->heading_tolerance, M_PI / 4, 1e-9);
 }
 
+TEST(LocalizationSetup, choosesTheTracker)
+{
+  const TemporaryFolder folder;
+  EXPECT_FALSE(read(folder, "").use_particles);
+  EXPECT_FALSE(read(folder, "tracker = gaussians\n").use_particles);
+  const auto setup = read(folder, "tracker = particles\n[sigloc.particles]\nparticles = 70\n");
+  EXPECT_TRUE(setup.use_particles);
+  EXPECT_EQ(setup.particles.particles, 70U);
+}
+
 TEST(LocalizationSetup, namesTheIniAndTheReason)
 {
   const TemporaryFolder folder;
@@ -62,6 +72,7 @@ TEST(LocalizationSetup, namesTheIniAndTheReason)
             std::string::npos);
   EXPECT_NE(reason("rawlog_offset=-1\n").find("rawlog_offset"), std::string::npos);
   EXPECT_NE(reason("ground_truth_path_file=gone.txt\n").find("gone.txt"), std::string::npos);
+  EXPECT_NE(reason("tracker=kalman\n").find("neither gaussians nor particles"), std::string::npos);
   EXPECT_NE(reason("[sigloc.matcher]\nmode=9\n").find("mode"), std::string::npos);
 }
 

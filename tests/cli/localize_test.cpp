@@ -113,6 +113,25 @@ TEST(Localize, endsRightInTheLab)
   EXPECT_EQ(summary["confidently_wrong_steps"], 0);
 }
 
+TEST(Localize, tracksWithParticlesWhenAsked)
+{
+  const TemporaryFolder folder;
+  writeText(folder / "run.ini", "[LocalizationExperiment]\nmap_file = " + kLabMap.string() +
+                                    "\nrawlog_file = " + kLabLog.string() +
+                                    "\ntracker = particles // MRPT's filter\n"
+                                    "[sigloc.particles]\nparticles = 200\n"
+                                    "[sigloc.localize]\npictures = false\nuse_final_truth = true\n"
+                                    "final_truth_x = 15.90\nfinal_truth_y = -10.01\n"
+                                    "final_truth_phi_deg = 4.9\n");
+  ASSERT_EQ(localize(folder).exit_code, 0);
+  const json summary = summaryOf(folder);
+  EXPECT_EQ(summary["final_verdict"], "localized");
+  EXPECT_LT(summary["final_error_m"], 0.5);
+  const std::string path = readBytes(folder / "out/path.tum");
+  ASSERT_EQ(localize(folder).exit_code, 0);
+  EXPECT_EQ(readBytes(folder / "out/path.tum"), path) << "a function of the seed";
+}
+
 TEST(Localize, annotatesLogsOfActionsAndFrames)
 {
   const TemporaryFolder folder;

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "sigloc/bridge/ParticleTracker.h"
 #include "sigloc/config/option_fields.h"
 #include "sigloc/features/FeatureExtractor.h"
 #include "sigloc/map/map_building.h"
@@ -60,8 +61,10 @@ struct LocalizationSetup
   std::uint32_t scene_frequency = 0;  ///< a scene and a picture every so many steps; 0: key moments
   std::uint32_t repetitions = 1;
   std::optional<PoseRegion> prior;
+  bool use_particles = false;  ///< `tracker = particles`: SignatureMonteCarlo2D does the tracking
   MatcherOptions matcher;
   TrackerOptions tracker;
+  ParticleOptions particles;
   FeatureExtractorOptions features;
   MapBuildingOptions map;
   ReportOptions report;
@@ -71,12 +74,12 @@ struct LocalizationSetup
 };
 
 /// Reads a pf-localization ini: [LocalizationExperiment] (map_file, rawlog_file, rawlog_offset,
-/// ground_truth_path_file, logOutput_dir, 3DSceneFrequency, experimentRepetitions, init_PDF_*) and
-/// our [sigloc.*] sections. What belongs to the particle filter is accepted and ignored.
-/// A file name is looked up in the ini's folder, then in the current one; logOutput_dir is relative
-/// to the current folder. `rawlog` replaces rawlog_file when given.
-/// Throws std::runtime_error naming the ini and the reason: unreadable, no such section, a named
-/// file that does not exist, an unknown [sigloc.*] section or key, a bad value.
+/// ground_truth_path_file, logOutput_dir, 3DSceneFrequency, experimentRepetitions, init_PDF_*, and
+/// `tracker` = gaussians or particles) and our [sigloc.*] sections. What belongs to the particle
+/// filter is accepted and ignored. A file name is looked up in the ini's folder, then in the
+/// current one; logOutput_dir is relative to the current folder. `rawlog` replaces rawlog_file when
+/// given. Throws std::runtime_error naming the ini and the reason: unreadable, no such section, a
+/// named file that does not exist, an unknown [sigloc.*] section or key, a bad value.
 LocalizationSetup readLocalizationSetup(const std::filesystem::path& ini,
                                         const std::filesystem::path& rawlog = {});
 

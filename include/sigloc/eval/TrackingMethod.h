@@ -54,7 +54,8 @@ class TrackingMethodFactory
   virtual bool needsOwnProcess() const { return false; }
 };
 
-/// Names that `makeTrackingMethod` knows: `signature` and `mcl` in three settings.
+/// Names that `makeTrackingMethod` knows: `signature`, `signature-mcl` (MRPT's filter, started and
+/// recovered by signatures) and `mcl` in three settings.
 std::vector<std::string> trackingMethodNames();
 
 /// Throws std::invalid_argument for a name that `makeTrackingMethod` does not know.

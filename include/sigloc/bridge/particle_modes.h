@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mrpt/poses/CPosePDFParticles.h>
+
+#include <cstddef>
+#include <vector>
+
+#include "sigloc/geometry/GaussianPose.h"
+
+namespace sigloc
+{
+/// A place where particles have gathered.
+struct ParticleMode
+{
+  GaussianPose pose;  ///< mean and covariance of its particles
+  double weight = 0;  ///< share of all particles' weight
+};
+
+/// Returns where the particles are, heaviest place first and at most `max_modes` of them: the
+/// particles within 0.75 m and 20 degrees of a mean of their own. Weights are normalised over all
+/// particles, so a scattered set gives modes that sum to less than one.
+std::vector<ParticleMode> modesOf(const mrpt::poses::CPosePDFParticles& particles,
+                                  std::size_t max_modes);
+
+/// Returns the share of the particles' weight within 0.5 m and 17 degrees of a pose.
+double weightNear(const mrpt::poses::CPosePDFParticles& particles, const mrpt::math::TPose2D& pose);
+}  // namespace sigloc
