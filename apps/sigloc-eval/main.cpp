@@ -28,6 +28,7 @@ constexpr std::array kCommands = {
     Command{"sweep", "relocation in simulated worlds under conditions that are varied",
             sigloc::setUpSweep},
     Command{"track", "wake up lost and drive on, method by method", sigloc::setUpTrack},
+    Command{"merge", "pool what several runs wrote", sigloc::setUpMerge},
 };
 
 std::string commandLine(int argc, char** argv)

@@ -43,7 +43,7 @@ nlohmann::ordered_json toJson(const Provenance& provenance)
   json["version"] = SIGLOC_VERSION;
   json["mrpt"] = mrpt::system::MRPT_getVersion();
   json["command"] = provenance.command;
-  json["seed"] = provenance.seed;
+  if (provenance.seed) json["seed"] = *provenance.seed;
   json["processor"] = processorName();
   json["processors"] = std::thread::hardware_concurrency();
   json["compiler"] = __VERSION__;

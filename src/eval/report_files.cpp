@@ -71,6 +71,7 @@ void addProportion(nlohmann::ordered_json& object, const std::string& name,
                    const Proportion& proportion)
 {
   object[name] = proportion.value();
+  object[name + "_counts"] = {proportion.count, proportion.cases};
   object[name + "_interval"] = nullptr;
   if (proportion.cases > 0)
   {

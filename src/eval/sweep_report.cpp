@@ -63,6 +63,7 @@ nlohmann::ordered_json summaryJson(const SweepReport& report,
 {
   nlohmann::ordered_json json;
   json["over"] = report.over;
+  json["label"] = report.label;
   for (const std::string& method : methodsOf(report))
   {
     std::vector<SweepRecord> all;
@@ -201,7 +202,7 @@ std::string sweepTable(const SweepReport& report)
   return markdownTable(rows);
 }
 
-void writeSweepReport(const SweepReport& report, const std::filesystem::path& folder)
+RunReport sweepRunReport(const SweepReport& report)
 {
   const std::vector<SummarizedRow> rows = summarizeRows(report);
   RunReport files;
@@ -216,6 +217,11 @@ void writeSweepReport(const SweepReport& report, const std::filesystem::path& fo
       {"time_ratio.png", timeRatioPlot(report, rows)}};
   files.notes = relocationDefinitions() + kNotes;
   files.provenance = report.provenance;
-  writeRunReport(files, folder);
+  return files;
+}
+
+void writeSweepReport(const SweepReport& report, const std::filesystem::path& folder)
+{
+  writeRunReport(sweepRunReport(report), folder);
 }
 }  // namespace sigloc

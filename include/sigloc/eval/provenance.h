@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,7 @@ namespace sigloc
 struct Provenance
 {
   std::string command;  ///< the whole command line
-  std::uint64_t seed = 1;
+  std::optional<std::uint64_t> seed = 1;  ///< none: of several runs
   std::vector<std::filesystem::path> data_files;
 };
 

@@ -23,7 +23,8 @@ std::string withInterval(const Proportion& proportion);
 /// {"median", "p95", "mean"}.
 nlohmann::ordered_json toJson(const Quantiles& quantiles);
 
-/// Adds `name` and `name_interval` ([low, high], 95 %) to an object; null without cases.
+/// Adds `name`, `name_counts` ([count, cases]) and `name_interval` ([low, high], 95 %) to an
+/// object; share and interval are null without cases.
 void addProportion(nlohmann::ordered_json& object, const std::string& name,
                    const Proportion& proportion);
 

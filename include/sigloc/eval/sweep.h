@@ -11,6 +11,7 @@
 #include "sigloc/eval/provenance.h"
 #include "sigloc/eval/relocation_scoring.h"
 #include "sigloc/eval/RelocationMethod.h"
+#include "sigloc/eval/report_files.h"
 #include "sigloc/eval/world_generators.h"
 
 namespace sigloc
@@ -69,6 +70,9 @@ std::string sweptValueText(double value);
 
 /// The table of the report, a line a value and method.
 std::string sweepTable(const SweepReport& report);
+
+/// All that the report of a sweep holds.
+RunReport sweepRunReport(const SweepReport& report);
 
 /// Writes summary.json, results.csv, report.md and the plots into a folder.
 /// Throws std::runtime_error ("path: reason").

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "command_line.h"
+
+namespace sigloc
+{
+namespace
+{
+using namespace sigloc::test;
+const std::string kEval = std::string(SIGLOC_BIN_FOLDER) + "/sigloc-eval";
+
+int shell(const TemporaryFolder& folder, const std::string& command)
+{
+  const std::string line = "cd " + quoted(folder.path().string()) + " && " + command +
+                           " </dev/null >parallel.out 2>parallel.err";
+  return std::system(line.c_str());
+}
+
+// docs/many-logs.md, with one machine playing two: its `ssh HOST -- COMMAND` runs the command here.
+TEST(ManyRuns, GnuParallelSpreadsThemAndMergePoolsThem)
+{
+  const TemporaryFolder folder;
+  writeText(folder / "ssh", "#!/bin/sh\nshift\n[ \"$1\" = -- ] && shift\nexec sh -c \"$*\"\n");
+  std::filesystem::permissions(folder / "ssh", std::filesystem::perms::owner_all);
+  const int status =
+      shell(folder, "parallel --will-cite --ssh ./ssh --sshlogin 1/one,1/two --workdir . " +
+                        quoted(kEval) +
+                        " sweep --over noise --values 0.02,0.05 --world corridor --worlds-per-kind "
+                        "1 --queries 3 --method signature --seed {} --quiet --out runs/{} ::: 1 2");
+  ASSERT_EQ(status, 0) << readBytes(folder / "parallel.err");
+
+  const auto merged = run(folder, "sigloc-eval", {"merge", "runs/1", "runs/2", "--out", "all"});
+  ASSERT_EQ(merged.exit_code, 0) << merged.errors;
+  const auto json = nlohmann::json::parse(readBytes(folder / "all" / "summary.json"));
+  const auto& method = json.at("methods").at("signature");
+  EXPECT_EQ(method.at("queries"), 12);
+  ASSERT_EQ(method.at("rows").size(), 2U);
+  EXPECT_EQ(method.at("rows").at(0).at("recall_at_1_counts").at(1), 6);
+  EXPECT_EQ(json.at("provenance").at("data").size(), 2U);
+  EXPECT_TRUE(std::filesystem::exists(folder / "all" / "recall.png"));
+}
+
+TEST(ManyRuns, WhatCannotBePooledIsRefused)
+{
+  const TemporaryFolder folder;
+  const auto before = listing(folder);
+  const auto result = run(folder, "sigloc-eval", {"merge", "no", "such", "--out", "all"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(countLines(result.errors), 1) << result.errors;
+  EXPECT_NE(result.errors.find("no/summary.json"), std::string::npos) << result.errors;
+  EXPECT_EQ(listing(folder), before);
+}
+}  // namespace
+}  // namespace sigloc

@@ -1,0 +1,169 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sigloc/eval/merge.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "bridge/rawlog_files.h"
+#include "sigloc/eval/relocate.h"
+#include "sigloc/eval/sweep.h"
+
+namespace sigloc
+{
+namespace
+{
+using test::readBytes;
+using test::TemporaryFolder;
+using test::writeText;
+
+/// A run of `relocate` in which `right` of `queries` robots are found, in half of the cases surely.
+void writeRelocations(const std::filesystem::path& folder, std::size_t right, std::size_t queries,
+                      const std::string& method = "signature")
+{
+  RelocateReport report;
+  report.methods.emplace_back();
+  report.methods.back().name = method;
+  for (std::size_t i = 0; i < queries; ++i)
+  {
+    RelocationRecord record;
+    record.query = std::to_string(i);
+    record.truth = mrpt::math::TPose2D(1, 2, 0.5);
+    record.first = mrpt::math::TPose2D(1.25, 2, 0.5);
+    record.error = {0.25, 0};
+    record.valid_beams = i == 0 ? 3 : 181;  // the first one saw nothing
+    record.rank_of_right = i < right ? 1 : 0;
+    record.claims_verdict = true;
+    record.proposed = true;
+    record.claim = i % 2 == 0 ? Claim::none : (i < right ? Claim::right : Claim::wrong);
+    record.time_ms = static_cast<double>(queries);
+    report.methods.back().records.push_back(record);
+  }
+  report.methods.back().summary = summarize(report.methods.back().records, {});
+  writeRelocateReport(report, folder);
+}
+
+TEST(Merge, EveryQueryOfAllRunsWeighsTheSame)
+{
+  const TemporaryFolder folder;
+  writeRelocations(folder / "small", 2, 11);
+  writeRelocations(folder / "large", 90, 101);
+  const MergedRuns merged = mergeRuns({folder / "small", folder / "large"}, "test");
+  const auto& method = merged.report.summary.at("methods").at("signature");
+  EXPECT_EQ(method.at("queries"), 112);
+  EXPECT_EQ(method.at("saw_nothing"), 2);
+  EXPECT_EQ(method.at("confident"), 55);
+  EXPECT_EQ(method.at("confident_right"), 46);
+  EXPECT_EQ(method.at("confidently_wrong"), 9);
+  const Proportion recall{90, 110};
+  EXPECT_DOUBLE_EQ(method.at("recall_at_1").get<double>(), recall.value());
+  EXPECT_DOUBLE_EQ(method.at("recall_at_1_interval").at(0).get<double>(), recall.low());
+  EXPECT_DOUBLE_EQ(method.at("recall_at_1_interval").at(1).get<double>(), recall.high());
+  EXPECT_DOUBLE_EQ(method.at("median_error_m").get<double>(), 0.25);
+  // Quantiles are of all queries, not means of the runs' own.
+  EXPECT_DOUBLE_EQ(method.at("time_ms").at("median").get<double>(), 101);
+  EXPECT_TRUE(merged.complete);
+}
+
+TEST(Merge, OfTwoSweepsIsTheSweepOverBothSeeds)
+{
+  const TemporaryFolder folder;
+  SweepOptions options;
+  options.over = "clutter";
+  options.values = {0, 0.4};
+  options.worlds = {WorldKind::corridor};
+  options.worlds_per_kind = 1;
+  options.queries_per_world = 4;
+  options.methods = {"signature"};
+  std::vector<std::size_t> right(2, 0);
+  for (const std::uint32_t seed : {1U, 2U})
+  {
+    options.seed = seed;
+    const SweepReport report = runSweep(options);
+    for (std::size_t i = 0; i < report.rows.size(); ++i)
+    {
+      for (const SweepRecord& record : report.rows[i].records)
+      {
+        right[i] += record.answer.rank_of_right == 1 ? 1 : 0;
+      }
+    }
+    writeSweepReport(report, folder / std::to_string(seed));
+  }
+  const MergedRuns merged = mergeRuns({folder / "2", folder / "1"}, "test");
+  const auto& rows = merged.report.summary.at("methods").at("signature").at("rows");
+  ASSERT_EQ(rows.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i)
+  {
+    EXPECT_EQ(rows.at(i).at("value"), options.values[i]);
+    EXPECT_EQ(rows.at(i).at("recall_at_1_counts").at(0), right[i]);
+    EXPECT_EQ(rows.at(i).at("recall_at_1_counts").at(1), 8);
+  }
+  EXPECT_EQ(merged.report.plots.size(), 4U);
+  // What was merged merges on; the same queries twice do not.
+  writeRunReport(merged.report, folder / "both");
+  EXPECT_THROW(mergeRuns({folder / "both", folder / "1"}, "test"), std::runtime_error);
+}
+
+TEST(Merge, SumsTheCountsOfDrives)
+{
+  const TemporaryFolder folder;
+  for (const std::string run : {"a", "b"})
+  {
+    RunReport report;
+    auto& method = report.summary["methods"]["signature"];
+    method["queries"] = 20U;
+    method["confidently_wrong"] = run == "a" ? 1U : 2U;
+    addProportion(method, "right_at_end", {run == "a" ? 19U : 10U, 20});
+    report.results = "method,start,step,travelled_m,kidnapped\nsignature,0,0,0,0\n";
+    report.summary["complete"] = run == "a";
+    writeRunReport(report, folder / run);
+  }
+  const MergedRuns merged = mergeRuns({folder / "a", folder / "b"}, "test");
+  const auto& method = merged.report.summary.at("methods").at("signature");
+  EXPECT_EQ(method.at("queries"), 40);
+  EXPECT_EQ(method.at("confidently_wrong"), 3);
+  EXPECT_DOUBLE_EQ(method.at("right_at_end").get<double>(), 29.0 / 40);
+  EXPECT_FALSE(merged.complete);
+  EXPECT_NE(merged.report.text.find("0.725"), std::string::npos) << merged.report.text;
+}
+
+/// What `mergeRuns` says against the runs.
+std::string complaint(const std::vector<std::filesystem::path>& runs)
+{
+  try
+  {
+    mergeRuns(runs, "test");
+  }
+  catch (const std::runtime_error& error)
+  {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Merge, RefusesWhatCannotBePooled)
+{
+  const TemporaryFolder folder;
+  writeRelocations(folder / "a", 2, 5);
+  writeRelocations(folder / "other", 2, 5, "lattice");
+  writeRelocations(folder / "broken", 2, 5);
+  const std::string csv = readBytes(folder / "broken" / "results.csv");
+  EXPECT_THROW(mergeRuns({folder / "a"}, "test"), std::invalid_argument);
+  EXPECT_NE(complaint({folder / "a", folder / "." / "a"}).find("given twice"), std::string::npos);
+  EXPECT_NE(complaint({folder / "a", folder / "other"}).find("other: has other methods"),
+            std::string::npos);
+  EXPECT_NE(complaint({folder / "a", folder / "none"}).find("summary.json: cannot be opened"),
+            std::string::npos);
+  writeText(folder / "broken" / "results.csv", csv.substr(0, csv.size() - 9));
+  EXPECT_NE(complaint({folder / "a", folder / "broken"}).find("results.csv: line 6"),
+            std::string::npos);
+  writeText(folder / "broken" / "results.csv", csv + "signature,x\n");
+  EXPECT_NE(complaint({folder / "a", folder / "broken"}).find("results.csv: line 7"),
+            std::string::npos);
+  writeText(folder / "broken" / "results.csv", "");
+  EXPECT_NE(complaint({folder / "a", folder / "broken"}).find("results.csv: holds no rows"),
+            std::string::npos);
+}
+}  // namespace
+}  // namespace sigloc
