@@ -2,11 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // sigloc-localize: finds and follows a lost robot in a known map, from a recorded log.
+#include <mrpt/core/format.h>
+
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <optional>
+#include <vector>
 
 #include "console.h"
+#include "sigloc/bridge/pf_localization_files.h"
 #include "StepPictures.h"
 
 namespace
@@ -26,13 +30,14 @@ struct Arguments
 {
   fs::path config;
   fs::path rawlog;
-  fs::path output;
+  std::optional<fs::path> output;
   std::optional<std::uint32_t> seed;
   bool quiet = false;
 };
 
-/// Runs once; returns the exit code.
-int localize(const sigloc::LocalizationSetup& setup, bool quiet)
+/// Runs once, adding to `outcomes`; returns the exit code.
+int localize(const sigloc::LocalizationSetup& setup, bool quiet,
+             std::vector<sigloc::ExperimentOutcome>& outcomes)
 {
   std::optional<sigloc::RunWriter> writer;
   if (!setup.output_folder.empty()) writer.emplace(setup.output_folder);
@@ -49,6 +54,7 @@ int localize(const sigloc::LocalizationSetup& setup, bool quiet)
   }
   progress.finish();
   if (writer) writer->finish(run);
+  outcomes.push_back(sigloc::outcomeOf(run));
   std::cout << sigloc::summaryTable(run);
   if (writer) std::cout << "written to              " << setup.output_folder.string() << '\n';
   if (!run.summary().truncated) return 0;
@@ -57,23 +63,44 @@ int localize(const sigloc::LocalizationSetup& setup, bool quiet)
   return kTruncatedInput;
 }
 
+/// The folder of one run: pf-localization's name for it where there are several.
+fs::path runFolder(const sigloc::LocalizationSetup& setup, bool several, std::uint32_t repetition)
+{
+  if (setup.output_folder.empty() || !several) return setup.output_folder;
+  std::string name = setup.output_folder.string() + mrpt::format("_%03u", repetition);
+  if (setup.use_particles) name += mrpt::format("_%07u", setup.particles.particles);
+  return name;
+}
+
+/// Every number of particles is an experiment; its repetitions share nothing but the map's cache.
 int runAll(const Arguments& arguments)
 {
   sigloc::LocalizationSetup setup =
       sigloc::readLocalizationSetup(arguments.config, arguments.rawlog);
-  if (!arguments.output.empty()) setup.output_folder = arguments.output;
+  if (arguments.output) setup.output_folder = *arguments.output;
   if (arguments.seed) setup.matcher.seed = *arguments.seed;
-  if (setup.repetitions == 1) return localize(setup, arguments.quiet);
+  if (!setup.output_folder.empty()) sigloc::experimentSummaryFile(setup.output_folder);
+  const std::uint32_t first_seed = setup.matcher.seed;
+  std::vector<std::uint32_t> counts = setup.particle_counts;
+  if (counts.empty()) counts.push_back(setup.particles.particles);
+  const bool several = setup.repetitions > 1 || counts.size() > 1;
 
   int exit_code = 0;
-  const fs::path folder = setup.output_folder;
-  const std::uint32_t first_seed = setup.matcher.seed;
-  for (std::uint32_t i = 0; i < setup.repetitions; ++i)
+  std::string summary;
+  for (const std::uint32_t count : counts)
   {
-    setup.matcher.seed = first_seed + i;
-    if (!folder.empty()) setup.output_folder = folder.string() + "_" + std::to_string(i);
-    exit_code = std::max(exit_code, localize(setup, arguments.quiet));
+    setup.particles.particles = count;
+    std::vector<sigloc::ExperimentOutcome> outcomes;
+    for (std::uint32_t i = 0; i < setup.repetitions; ++i)
+    {
+      sigloc::LocalizationSetup run = setup;
+      run.matcher.seed = first_seed + i;
+      run.output_folder = runFolder(setup, several, i);
+      exit_code = std::max(exit_code, localize(run, arguments.quiet, outcomes));
+    }
+    summary += sigloc::experimentSummary(outcomes, setup.confidence_share);
   }
+  if (!setup.output_folder.empty()) sigloc::writeExperimentSummary(setup.output_folder, summary);
   return exit_code;
 }
 }  // namespace
@@ -103,6 +130,7 @@ int main(int argc, char** argv)
       return 0;
     }
     if (config->count() == 0) throw std::runtime_error("CONFIG.ini is missing; see --help");
+    if (arguments.output && arguments.output->empty()) throw std::runtime_error("--out is empty");
     return runAll(arguments);
   }
   catch (const CLI::ParseError& error)

@@ -12,6 +12,7 @@
 
 #include "sigloc/bridge/GroundTruth.h"
 #include "sigloc/bridge/map_sources.h"
+#include "sigloc/bridge/pose_pdf.h"
 #include "sigloc/bridge/RawlogReader.h"
 
 namespace sigloc
@@ -87,6 +88,16 @@ CachedMap makeMap(const LocalizationSetup& setup, const fs::path& cache)
   }
   return made;
 }
+/// pf-localization's test: one pose, not far from the truth.
+bool hasConverged(const StepRecord& step)
+{
+  constexpr double kConvergedVolume = 2;  // sqrt of the covariance's determinant
+  constexpr double kConvergedDistance = 2;  // [m]
+  if (!step.truth || step.belief.hypotheses.empty()) return false;
+  const GaussianPose pose = momentsOf(step.belief);
+  return std::sqrt(std::max(0.0, pose.covariance.det())) < kConvergedVolume &&
+         errorBetween(pose.mean, *step.truth).distance < kConvergedDistance;
+}
 }  // namespace
 
 PoseError errorBetween(const TPose2D& pose, const TPose2D& truth)
@@ -141,7 +152,9 @@ const StepRecord* LocalizationRun::next()
 {
   if (!state_->pending) return nullptr;
   std::optional<RawlogStep> input = std::move(state_->pending);
-  state_->pending = state_->reader.next();  // one ahead: the last step may have a truth of its own
+  const std::size_t index = setup_.rawlog_offset + steps_.size();
+  // One ahead: the last step may have a truth of its own.
+  state_->pending = setup_.convergence_test_step == index ? std::nullopt : state_->reader.next();
   const bool last = !state_->pending && !state_->reader.truncated();
 
   StepRecord step;
@@ -151,7 +164,12 @@ const StepRecord* LocalizationRun::next()
   // How the robot came to the first step is motion in another run.
   if (steps_.empty()) input->motion.reset();
   step.travelled = steps_.empty() ? 0 : steps_.back().travelled;
-  if (input->motion) step.travelled += std::hypot(input->motion->mean.x, input->motion->mean.y);
+  step.odometry = steps_.empty() ? setup_.initial_odometry : steps_.back().odometry;
+  if (input->motion)
+  {
+    step.travelled += std::hypot(input->motion->mean.x, input->motion->mean.y);
+    step.odometry = step.odometry + input->motion->mean;
+  }
 
   const Stopwatch extraction;
   scene_ = observeScene(input->scans, setup_.features);
@@ -166,7 +184,7 @@ const StepRecord* LocalizationRun::next()
 
   if (state_->truth)
   {
-    step.truth = state_->truth->at(setup_.rawlog_offset + steps_.size(), step.time);
+    step.truth = state_->truth->at(index, step.time);
   }
   if (last && setup_.finalTruth()) step.truth = setup_.finalTruth();
   score(step);
@@ -234,6 +252,10 @@ RunSummary LocalizationRun::summary() const
   summary.step_ms_median = quantile(tracking_times, 0.5);
   summary.step_ms_p95 = quantile(tracking_times, 0.95);
   if (steps_.empty()) return summary;
+  if (setup_.convergence_test_step == setup_.rawlog_offset + steps_.size() - 1)
+  {
+    summary.converged = hasConverged(steps_.back());
+  }
   const StepRecord& last = steps_.back();
   summary.distance = last.travelled;
   summary.final_verdict = last.belief.verdict;

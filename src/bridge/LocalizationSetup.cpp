@@ -4,6 +4,7 @@
 
 #include <mrpt/config/CConfigFileMemory.h>
 #include <mrpt/core/bits_math.h>
+#include <mrpt/math/wrap2pi.h>
 
 #include <algorithm>
 #include <array>
@@ -95,21 +96,76 @@ std::uint32_t readCount(const CConfigFileMemory& ini, const char* key, std::uint
   return static_cast<std::uint32_t>(value);
 }
 
-/// The box that pf-localization spreads its particles over, in either init_PDF_mode.
+/// The box that pf-localization spreads its particles over, in either init_PDF_mode; a narrower one
+/// than a pose is told apart by is widened to that.
 std::optional<PoseRegion> readPrior(const CConfigFileMemory& ini)
 {
+  constexpr double kLeastHalfWidth = 0.5;  // [m]
+  constexpr double kLeastHalfTurn = 10 * M_PI / 180;
   PoseRegion region{readNumber(ini, "init_PDF_min_x", 0), readNumber(ini, "init_PDF_max_x", 0),
                     readNumber(ini, "init_PDF_min_y", 0), readNumber(ini, "init_PDF_max_y", 0)};
-  const bool has_box = region.x_min < region.x_max && region.y_min < region.y_max;
-  if (!has_box) return std::nullopt;
-  const double min_yaw = mrpt::DEG2RAD(readNumber(ini, "init_PDF_min_yaw_deg", -180));
-  const double max_yaw = mrpt::DEG2RAD(readNumber(ini, "init_PDF_max_yaw_deg", 180));
-  if (min_yaw <= max_yaw && max_yaw - min_yaw < 2 * M_PI - 1e-6)
+  if (region.x_min > region.x_max || region.y_min > region.y_max)
   {
-    region.heading = 0.5 * (min_yaw + max_yaw);
-    region.heading_tolerance = 0.5 * (max_yaw - min_yaw);
+    throw std::runtime_error(std::string("[") + kExperiment +
+                             "]: the box init_PDF_* ends before it begins");
+  }
+  const bool has_box = region.x_min < region.x_max || region.y_min < region.y_max ||
+                       ini.keyExists(kExperiment, "init_PDF_min_x");
+  if (!has_box) return std::nullopt;
+  const auto widen = [&](double& low, double& high)
+  {
+    const double missing = std::max(0.0, kLeastHalfWidth - 0.5 * (high - low));
+    low -= missing;
+    high += missing;
+  };
+  widen(region.x_min, region.x_max);
+  widen(region.y_min, region.y_max);
+  const double min_yaw = mrpt::DEG2RAD(readNumber(ini, "init_PDF_min_yaw_deg", -180));
+  double max_yaw = mrpt::DEG2RAD(readNumber(ini, "init_PDF_max_yaw_deg", 180));
+  if (max_yaw < min_yaw) max_yaw += 2 * M_PI;  // across the turn of the heading
+  if (max_yaw - min_yaw < 2 * M_PI - 1e-6)
+  {
+    region.heading = mrpt::math::wrapToPi(0.5 * (min_yaw + max_yaw));
+    region.heading_tolerance = std::max(kLeastHalfTurn, 0.5 * (max_yaw - min_yaw));
   }
   return region;
+}
+
+/// Numbers of particles, one experiment each.
+std::vector<std::uint32_t> readParticleCounts(const CConfigFileMemory& ini)
+{
+  std::vector<std::uint32_t> counts;
+  std::istringstream words(ini.read_string(kExperiment, "particles_count", ""));
+  for (std::string word; words >> word;)
+  {
+    const auto count = detail::parseValue<std::uint32_t>(word);
+    if (!count || *count == 0)
+    {
+      throw std::runtime_error(std::string("[") + kExperiment + "]: bad value '" + word +
+                               "' for 'particles_count'");
+    }
+    counts.push_back(*count);
+  }
+  return counts;
+}
+
+/// Reads what pf-localization judges a run by.
+void readJudgement(const CConfigFileMemory& ini, LocalizationSetup& setup)
+{
+  // Below 0, the default there, means that the step is not tested for.
+  if (readNumber(ini, "experimentTestConvergenceAtStep", -1) >= 0)
+  {
+    setup.convergence_test_step = readCount(ini, "experimentTestConvergenceAtStep", 0);
+  }
+  setup.confidence_share = readNumber(ini, "STATS_CONF_INTERVAL", setup.confidence_share);
+  if (setup.confidence_share <= 0 || setup.confidence_share >= 1)
+  {
+    throw std::runtime_error(std::string("[") + kExperiment +
+                             "]: 'STATS_CONF_INTERVAL' is not between 0 and 1");
+  }
+  setup.initial_odometry = {readNumber(ini, "initial_odo_x", 0),
+                            readNumber(ini, "initial_odo_y", 0),
+                            readNumber(ini, "initial_odo_phi", 0)};
 }
 
 /// Whether MRPT's particle filter is to follow the robot instead of our own tracker.
@@ -151,8 +207,10 @@ void readExperiment(const CConfigFileMemory& ini, const fs::path& path, const fs
   setup.rawlog_offset = readCount(ini, "rawlog_offset", 0);
   setup.scene_frequency = readCount(ini, "3DSceneFrequency", 0);
   setup.repetitions = std::max(1U, readCount(ini, "experimentRepetitions", 1));
+  readJudgement(ini, setup);
   setup.prior = readPrior(ini);
   setup.use_particles = readTracker(ini);
+  if (setup.use_particles) setup.particle_counts = readParticleCounts(ini);
 }
 
 /// Runs `read` on the parsed ini and puts the path before whatever it throws.

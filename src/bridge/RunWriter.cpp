@@ -16,6 +16,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "sigloc/bridge/pf_localization_files.h"
 #include "sigloc/bridge/pose_pdf.h"
 
 namespace sigloc
@@ -26,6 +27,7 @@ namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
 constexpr const char* kSummaryFile = "summary.json";
+constexpr const char* kInnerWork = ".partial";  // work folder where none can be made beside
 
 [[noreturn]] void failToWrite(const fs::path& path)
 {
@@ -111,16 +113,26 @@ ordered_json orNull(const std::optional<T>& value)
 
 /// True when a folder, if it exists, holds nothing but what a run writes: only that may be
 /// replaced.
+// NOLINTNEXTLINE(misc-no-recursion): one level deep
 bool holdsOnlyARun(const fs::path& folder)
 {
   static const std::map<std::string, std::set<std::string>> kParts = {
-      {"belief", {".CPosePDFSOG", ".txt"}}, {"3D", {".3Dscene"}}, {"pictures", {".png"}}};
-  static const std::set<std::string> kFiles = {"path.tum", "steps.csv", "annotated.rawlog",
-                                               kSummaryFile};
-  if (!fs::exists(folder)) return true;
+      {"belief", {".CPosePDFSOG", ".txt"}},
+      {"3D", {".3Dscene"}},
+      {"pictures", {".png"}},
+      {"particles", {".txt"}}};
+  static const std::set<std::string> kFiles = []
+  {
+    std::set<std::string> names = {"path.tum", "steps.csv", "annotated.rawlog", kSummaryFile};
+    names.insert(pfLocalizationFiles().begin(), pfLocalizationFiles().end());
+    return names;
+  }();
+  std::error_code unnameable;
+  if (!fs::exists(folder, unnameable)) return true;
   if (!fs::is_directory(folder)) return false;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder))
   {
+    if (entry.path().filename() == kInnerWork && holdsOnlyARun(entry.path())) continue;
     const auto part = kParts.find(entry.path().filename().string());
     if (part == kParts.end() || !entry.is_directory())
     {
@@ -156,15 +168,48 @@ RunWriter::RunWriter(const fs::path& folder) : folder_(fs::absolute(folder).lexi
     throw std::runtime_error(replaced.string() +
                              ": holds something else than an earlier run; not overwritten");
   }
+  std::error_code error = makeWorkFolder();
+  if (error && exists)
+  {
+    work_ = folder_ / kInnerWork;
+    error = makeWorkFolder();
+  }
+  if (error) throw std::runtime_error(folder.string() + ": " + error.message());
+}
+
+/// Makes an empty work folder with the parts that every run has.
+std::error_code RunWriter::makeWorkFolder()
+{
   std::error_code error;
   fs::remove_all(work_, error);
   created_ = work_;
-  while (!fs::exists(created_.parent_path())) created_ = created_.parent_path();
+  std::error_code ignored;
+  while (!fs::exists(created_.parent_path(), ignored)) created_ = created_.parent_path();
   for (const char* const part : {"belief", "3D"})
   {
     if (!error) fs::create_directories(work_ / part, error);
   }
-  if (error) throw std::runtime_error(folder.string() + ": " + error.message());
+  return error;
+}
+
+/// Puts what was written in the place of an earlier run.
+void RunWriter::replaceFolder()
+{
+  if (work_.parent_path() != folder_)
+  {
+    fs::remove_all(folder_);  // an earlier run, or empty: checked at the start
+    fs::rename(work_, folder_);
+    return;
+  }
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder_))
+  {
+    if (entry.path() != work_) fs::remove_all(entry.path());
+  }
+  for (const fs::directory_entry& entry : fs::directory_iterator(work_))
+  {
+    fs::rename(entry.path(), folder_ / entry.path().filename());
+  }
+  fs::remove(work_);
 }
 
 RunWriter::~RunWriter()
@@ -175,8 +220,8 @@ RunWriter::~RunWriter()
 
 fs::path RunWriter::mapCache(const fs::path& map_file) const
 {
-  const std::string name = map_file.filename().string();
-  return folder_.parent_path() / (name.substr(0, name.find('.', 1)) + ".sigmap");
+  if (work_.parent_path() == folder_) return {};  // nothing can be written beside the folder
+  return folder_.parent_path() / (map_file.filename().string() + ".cache.sigmap");
 }
 
 void RunWriter::writeBelief(const StepRecord& step) const
@@ -206,11 +251,11 @@ void RunWriter::finish(const LocalizationRun& run)
   writePath(run.steps(), work_ / "path.tum");
   writeSteps(run.steps(), work_ / "steps.csv");
   writeAnnotatedRawlog(run.setup().rawlog_file, run.steps(), work_ / "annotated.rawlog");
+  writePfLocalizationFiles(run, work_);
   std::ofstream file = openText(work_ / kSummaryFile);
   file << toJson(run.summary()) << '\n';
   closeText(file, work_ / kSummaryFile);
-  fs::remove_all(folder_);  // an earlier run, or empty: checked at the start
-  fs::rename(work_, folder_);
+  replaceFolder();
   finished_ = true;
 }
 
@@ -252,6 +297,7 @@ std::string toJson(const RunSummary& summary)
   json["map_seconds"] = summary.map_seconds;
   json["seed"] = summary.seed;
   json["truncated"] = summary.truncated;
+  json["converged"] = orNull(summary.converged);
   return json.dump(2);
 }
 }  // namespace sigloc

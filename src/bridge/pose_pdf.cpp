@@ -11,6 +11,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "sigloc/geometry/pose_fusion.h"
+
 namespace sigloc
 {
 using mrpt::poses::CPose2D;
@@ -75,6 +77,19 @@ mrpt::poses::CPosePDFGaussian toGaussian(const Belief& belief)
 {
   const GaussianPose& pose = firstOf(belief).pose;
   return mrpt::poses::CPosePDFGaussian(toPose(pose.mean), pose.covariance);
+}
+
+GaussianPose momentsOf(const Belief& belief)
+{
+  const std::vector<double> weights = normalizedWeights(belief);
+  GaussianPose whole = firstOf(belief).pose;
+  double gathered = std::max(weights.front(), kSmallestWeight);
+  for (std::size_t i = 1; i < weights.size(); ++i)
+  {
+    whole = mergeByMoments(whole, gathered, belief.hypotheses[i].pose, weights[i]);
+    gathered += weights[i];
+  }
+  return whole;
 }
 
 mrpt::poses::CPosePDFParticles toParticles(const Belief& belief, std::size_t count,

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "bridge/rawlog_files.h"
 
 namespace sigloc
@@ -53,6 +55,36 @@ TEST(LocalizationSetup, readsTheKeysOfPfLocalization)
   EXPECT_NEAR(setup.prior->heading_tolerance, M_PI / 4, 1e-9);
 }
 
+TEST(LocalizationSetup, readsWhatPfLocalizationJudgesBy)
+{
+  const TemporaryFolder folder;
+  EXPECT_FALSE(read(folder, "").convergence_test_step);
+  EXPECT_FALSE(read(folder, "experimentTestConvergenceAtStep=-1\n").convergence_test_step);
+  const auto setup = read(folder,
+                          "experimentTestConvergenceAtStep=7\nSTATS_CONF_INTERVAL=0.1\n"
+                          "initial_odo_x=1\ninitial_odo_phi=0.5\ntracker=particles\n"
+                          "particles_count=100 200\n");
+  EXPECT_EQ(setup.convergence_test_step, 7U);
+  EXPECT_EQ(setup.confidence_share, 0.1);
+  EXPECT_EQ(setup.initial_odometry.x, 1);
+  EXPECT_EQ(setup.initial_odometry.phi, 0.5);
+  EXPECT_EQ(setup.particle_counts, (std::vector<std::uint32_t>{100, 200}));
+}
+
+TEST(LocalizationSetup, widensABoxThatIsAPose)
+{
+  const TemporaryFolder folder;
+  const auto setup = read(folder,
+                          "init_PDF_min_x=3\ninit_PDF_max_x=3\ninit_PDF_min_y=0\ninit_PDF_max_y=9\n"
+                          "init_PDF_min_yaw_deg=170\ninit_PDF_max_yaw_deg=-170\n");
+  ASSERT_TRUE(setup.prior);
+  EXPECT_EQ(setup.prior->x_min, 2.5);
+  EXPECT_EQ(setup.prior->x_max, 3.5);
+  EXPECT_EQ(setup.prior->y_max, 9);
+  EXPECT_NEAR(std::abs(setup.prior->heading), M_PI, 1e-9) << "across the turn of the heading";
+  EXPECT_NEAR(setup.prior->heading_tolerance, M_PI / 18, 1e-9);
+}
+
 TEST(LocalizationSetup, choosesTheTracker)
 {
   const TemporaryFolder folder;
@@ -72,6 +104,10 @@ TEST(LocalizationSetup, namesTheIniAndTheReason)
             std::string::npos);
   EXPECT_NE(reason("rawlog_offset=-1\n").find("rawlog_offset"), std::string::npos);
   EXPECT_NE(reason("ground_truth_path_file=gone.txt\n").find("gone.txt"), std::string::npos);
+  EXPECT_NE(reason("init_PDF_min_x=3\ninit_PDF_max_x=2\n").find("ends before it begins"),
+            std::string::npos);
+  EXPECT_NE(reason("tracker=particles\nparticles_count=many\n").find("'many'"), std::string::npos);
+  EXPECT_NE(reason("STATS_CONF_INTERVAL=2\n").find("between 0 and 1"), std::string::npos);
   EXPECT_NE(reason("tracker=kalman\n").find("neither gaussians nor particles"), std::string::npos);
   EXPECT_NE(reason("[sigloc.matcher]\nmode=9\n").find("mode"), std::string::npos);
 }

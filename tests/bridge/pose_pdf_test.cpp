@@ -54,6 +54,14 @@ TEST(PosePdf, GaussianIsTheFirstHypothesis)
   EXPECT_THROW(toRobotPoseObservation(Belief{}, 0), std::invalid_argument);
 }
 
+TEST(PosePdf, MomentsAreThoseOfAllHypotheses)
+{
+  const GaussianPose whole = momentsOf(twoPlaces());  // 0.75 at x = 1, 0.25 at x = 20
+  EXPECT_NEAR(whole.mean.x, 5.75, 1e-9);
+  EXPECT_NEAR(whole.covariance(0, 0), 0.04 + 0.75 * 0.25 * 19 * 19, 1e-9);
+  EXPECT_THROW(momentsOf(Belief{}), std::invalid_argument);
+}
+
 TEST(PosePdf, ParticlesHaveTheMomentsOfTheirHypotheses)
 {
   constexpr std::size_t kCount = 20000;

@@ -30,6 +30,7 @@ struct StepRecord
   std::size_t entry = 0;  ///< RawlogStep::entry
   double time = 0;  ///< [s]
   double travelled = 0;  ///< [m] by odometry, up to and with this step
+  mrpt::math::TPose2D odometry;  ///< dead reckoning from LocalizationSetup::initial_odometry
   Belief belief;
   bool relocated = false;
   std::optional<mrpt::math::TPose2D> truth;
@@ -52,6 +53,7 @@ struct RunSummary
   std::optional<PoseError> final_error;  ///< at the last step that has a truth
   Verdict final_verdict = Verdict::too_little_seen;
   std::optional<mrpt::math::TPose2D> final_pose;
+  std::optional<bool> converged;  ///< at the step where that was to be tested; none: not tested
   std::size_t confidently_wrong_steps = 0;
   std::size_t relocations = 0;
   double relocation_ms_median = 0;  ///< steps that relocated, extraction included

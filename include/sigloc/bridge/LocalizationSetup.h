@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "sigloc/bridge/ParticleTracker.h"
 #include "sigloc/config/option_fields.h"
@@ -60,6 +61,12 @@ struct LocalizationSetup
   std::uint32_t rawlog_offset = 0;  ///< steps skipped at the start of the log
   std::uint32_t scene_frequency = 0;  ///< a scene and a picture every so many steps; 0: key moments
   std::uint32_t repetitions = 1;
+  /// Whether the run converged is tested at this step of the log, counted from 0, which is its
+  /// last.
+  std::optional<std::uint32_t> convergence_test_step;
+  double confidence_share = 0.2;  ///< error quantiles told: this one, and one minus it
+  mrpt::math::TPose2D initial_odometry;  ///< where dead reckoning starts
+  std::vector<std::uint32_t> particle_counts;  ///< with particles, one experiment each; empty: one
   std::optional<PoseRegion> prior;
   bool use_particles = false;  ///< `tracker = particles`: SignatureMonteCarlo2D does the tracking
   MatcherOptions matcher;
@@ -74,12 +81,14 @@ struct LocalizationSetup
 };
 
 /// Reads a pf-localization ini: [LocalizationExperiment] (map_file, rawlog_file, rawlog_offset,
-/// ground_truth_path_file, logOutput_dir, 3DSceneFrequency, experimentRepetitions, init_PDF_*, and
-/// `tracker` = gaussians or particles) and our [sigloc.*] sections. What belongs to the particle
-/// filter is accepted and ignored. A file name is looked up in the ini's folder, then in the
-/// current one; logOutput_dir is relative to the current folder. `rawlog` replaces rawlog_file when
-/// given. Throws std::runtime_error naming the ini and the reason: unreadable, no such section, a
-/// named file that does not exist, an unknown [sigloc.*] section or key, a bad value.
+/// ground_truth_path_file, logOutput_dir, 3DSceneFrequency, experimentRepetitions,
+/// experimentTestConvergenceAtStep, STATS_CONF_INTERVAL, initial_odo_*, init_PDF_*, and `tracker`,
+/// gaussians or particles; with particles, particles_count too) and our [sigloc.*] sections. What
+/// else belongs to the particle filter is accepted and ignored. A file name is looked up in the
+/// ini's folder, then in the current one; logOutput_dir is relative to the current folder. `rawlog`
+/// replaces rawlog_file when given. Throws std::runtime_error naming the ini and the reason:
+/// unreadable, no such section, a named file that does not exist, an unknown [sigloc.*] section or
+/// key, a bad value.
 LocalizationSetup readLocalizationSetup(const std::filesystem::path& ini,
                                         const std::filesystem::path& rawlog = {});
 

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "sigloc/bridge/LocalizationRun.h"
@@ -12,7 +13,8 @@
 namespace sigloc
 {
 /// Writes the output folder of a run, all or nothing: into `<folder>.partial` first, which takes
-/// the folder's name in finish().
+/// the folder's name in finish(). Where nothing can be made beside an existing folder, it is
+/// `<folder>/.partial`, and there is no map cache.
 ///
 /// * `belief/step_00001.CPosePDFSOG`: the belief after step 1 as an MRPT object; `.txt`: as rows
 ///   `weight x y phi C11 C22 C33 C12 C13 C23`
@@ -21,6 +23,7 @@ namespace sigloc
 /// * `steps.csv`: one row a step
 /// * `annotated.rawlog`: the log with a CObservationRobotPose "sigloc" a step
 /// * `summary.json`: the figures of RunSummary
+/// * what pf-localization's log folder holds, see writePfLocalizationFiles()
 class RunWriter
 {
  public:
@@ -44,6 +47,9 @@ class RunWriter
   void finish(const LocalizationRun& run);
 
  private:
+  std::error_code makeWorkFolder();
+  void replaceFolder();
+
   std::filesystem::path folder_;
   std::filesystem::path work_;
   std::filesystem::path created_;  // the topmost folder that did not exist before

@@ -21,6 +21,10 @@ mrpt::poses::CPosePDFSOG toSumOfGaussians(const Belief& belief);
 /// The first hypothesis. Throws std::invalid_argument for an empty belief.
 mrpt::poses::CPosePDFGaussian toGaussian(const Belief& belief);
 
+/// Mean and covariance of all hypotheses together, headings wrapped. Throws std::invalid_argument
+/// for an empty belief.
+GaussianPose momentsOf(const Belief& belief);
+
 /// `count` equally weighted samples of the hypotheses, from `seed` (our own sampling: MRPT 2.5.8's
 /// throws). Throws std::invalid_argument for an empty belief.
 mrpt::poses::CPosePDFParticles toParticles(const Belief& belief, std::size_t count,
