@@ -53,6 +53,10 @@ std::function<int()> setUpLandmarks(CLI::App& command, const std::string& comman
       .add_option("--visited-share", options.visited_share,
                   "dlr: a query is a later visit when more than this share of its discs is mapped")
       ->check(CLI::Range(0.0, 1.0));
+  command
+      .add_option("--visited-distance", options.visited_distance,
+                  "dlr: and when a pose of the first half is so near, m")
+      ->check(CLI::PositiveNumber);
   command.add_option("--max-travel", options.max_travel, "m, longest local map")
       ->check(CLI::PositiveNumber);
   command.add_option("--stride", options.query_stride, "every so many steps is a query")

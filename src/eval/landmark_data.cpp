@@ -243,7 +243,6 @@ std::vector<Feature> mapFromSteps(const LandmarkData& data, std::size_t count)
   std::vector<Feature> map;
   for (const auto& [identity, sum] : sums)
   {
-    if (sum.sightings < 2) continue;
     const double share = 1.0 / sum.sightings;
     Feature feature = placeAt(FeatureType::point, sum.position.x * share, sum.position.y * share,
                               sum.covariance.xx * share * share, sum.covariance.xy * share * share,

@@ -79,8 +79,7 @@ LocalMap gather(const LandmarkData& data, std::size_t step, std::size_t count)
   return local;
 }
 
-/// DLR: steps of the second half of the path at places that the first half has been to: most discs
-/// that the longest local map holds, by their true identities, were seen then.
+/// DLR: steps of the second half of the path at places that the first half has been to.
 std::vector<std::size_t> laterVisits(const LandmarkData& data, const LandmarksOptions& options)
 {
   const std::size_t half = data.steps.size() / 2;
@@ -102,8 +101,15 @@ std::vector<std::size_t> laterVisits(const LandmarkData& data, const LandmarksOp
     seen.erase(-1);
     const auto known = std::count_if(seen.begin(), seen.end(),
                                      [&](int identity) { return mapped.count(identity) > 0; });
-    const bool visited =
-        static_cast<double>(known) > options.visited_share * static_cast<double>(seen.size());
+    const mrpt::math::TPose2D& truth = data.steps[step].truth;
+    const bool near =
+        std::any_of(data.steps.begin(), data.steps.begin() + static_cast<std::ptrdiff_t>(half),
+                    [&](const LandmarkStep& then) {
+                      return std::hypot(then.truth.x - truth.x, then.truth.y - truth.y) <=
+                             options.visited_distance;
+                    });
+    const bool visited = near && static_cast<double>(known) >
+                                     options.visited_share * static_cast<double>(seen.size());
     if (!options.first_half_map || visited) queries.push_back(step);
   }
   return queries;

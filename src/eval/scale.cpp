@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sigloc/eval/scale.h"
 
+#include <malloc.h>
 #include <mrpt/math/wrap2pi.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <sstream>
 #include <stdexcept>
 
@@ -26,15 +26,11 @@ bool isRightPose(const FeatureHypothesis& hypothesis, const mrpt::math::TPose2D&
          std::abs(mrpt::math::wrapToPi(mean.phi - truth.phi)) <= options.right_angle;
 }
 
-/// Memory of this process that is in use now [bytes], 0 where the system does not tell.
-double residentBytes()
+/// Memory that this process has allocated and not freed [bytes].
+double heapBytes()
 {
-  std::ifstream statm("/proc/self/statm");
-  double total = 0;
-  double resident = 0;
-  statm >> total >> resident;
-  constexpr double kPage = 4096;
-  return kPage * resident;
+  const struct mallinfo2 heap = mallinfo2();
+  return static_cast<double>(heap.uordblks + heap.hblkhd);
 }
 
 ScaleRow runRow(const std::string& method, const FeatureWorld& world, const FeatureMap& map,
@@ -44,12 +40,12 @@ ScaleRow runRow(const std::string& method, const FeatureWorld& world, const Feat
   row.method = method;
   row.map_features = map.features().size();
   row.wanted = wanted;
-  const double memory_before = residentBytes();
+  const double memory_before = heapBytes();
   const double start = threadCpuSeconds();
   const auto generator = makeFeatureMethod(method, map, options.generator);
   row.build_seconds = threadCpuSeconds() - start;
   row.bytes_per_feature =
-      (residentBytes() - memory_before) / static_cast<double>(row.map_features) + sizeof(Feature);
+      (heapBytes() - memory_before) / static_cast<double>(row.map_features) + sizeof(Feature);
 
   Random random(options.seed, 1000 + wanted);
   const std::size_t poses = isLinearMethod(method) ? options.slow_poses : options.poses;

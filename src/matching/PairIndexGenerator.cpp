@@ -110,6 +110,24 @@ void PairIndexGenerator::tryLookup(const PreparedScene& scene, const Lookup& loo
                });
 }
 
+std::vector<PairIndexGenerator::Lookup> PairIndexGenerator::lookupsOfAll(
+    const PreparedScene& scene) const
+{
+  const GeneratorOptions& options = verifier_->options();
+  std::vector<std::uint32_t> everything(scene.size());
+  std::iota(everything.begin(), everything.end(), 0U);
+  const std::uint32_t draws =
+      drawsNeeded(options.failure_probability, std::pow(options.good_share, 2));
+  return rankedLookups(scene, everything, draws);
+}
+
+std::uint64_t PairIndexGenerator::basesFor(const PreparedScene& scene) const
+{
+  std::uint64_t bases = 0;
+  for (const Lookup& lookup : lookupsOfAll(scene)) bases += lookup.runs.pairs();
+  return bases;
+}
+
 void PairIndexGenerator::search(const PreparedScene& scene, HypothesisSet& found,
                                 FeatureVerifier::Workspace& workspace, MatchingCounters& counters,
                                 std::uint64_t budget) const
@@ -127,11 +145,7 @@ void PairIndexGenerator::search(const PreparedScene& scene, HypothesisSet& found
   };
 
   // 1. Rare, long pairs of all features, until an answer is significant.
-  std::vector<std::uint32_t> everything(scene.size());
-  std::iota(everything.begin(), everything.end(), 0U);
-  const std::uint32_t draws =
-      drawsNeeded(options.failure_probability, std::pow(options.good_share, 2));
-  for (const Lookup& lookup : rankedLookups(scene, everything, draws))
+  for (const Lookup& lookup : lookupsOfAll(scene))
   {
     if (counters.hypotheses >= limit) return;
     tryLookup(scene, lookup, found, workspace, counters, limit);
@@ -141,7 +155,8 @@ void PairIndexGenerator::search(const PreparedScene& scene, HypothesisSet& found
 
   // 2. Pairs of what the answer explains: places that look alike share most of it.
   const std::vector<std::uint32_t> explained = observedOf(*found.best());
-  const std::uint32_t rivals = drawsNeeded(options.failure_probability, std::pow(kRivalShare, 2));
+  const std::uint32_t rivals =
+      drawsNeeded(options.failure_probability, rivalShare(explained.size(), 2));
   for (const Lookup& lookup : rankedLookups(scene, explained, rivals))
   {
     tryLookup(scene, lookup, found, workspace, counters, limit);

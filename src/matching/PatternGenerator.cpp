@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sigloc
 {
@@ -18,7 +19,14 @@ namespace
 // Share of the patterns of mapped features around a robot that the index holds: not those whose
 // members are no near neighbours of each other in the map.
 constexpr double kIndexedShare = 0.5;
-// A hundred more draws cost a thousandth of a fall-back to pairs: they may fail this much less.
+// And of those around a robot that found none: where the map is sparse, the neighbours of what is
+// seen are out of sight.
+constexpr double kSparselyIndexedShare = 0.05;
+// The second look may fail this much less: how much of a place is indexed varies from place to
+// place.
+constexpr double kLookAgain = 0.1;
+// A hundred more draws cost little beside finding nothing, or trying smaller bases next: before
+// that they may fail this much less.
 constexpr double kDrawsAreCheap = 0.01;
 // Share of the gate within which an order is taken to be undecided: every further order is a
 // further look-up, and an order missed costs one draw of many.
@@ -32,6 +40,7 @@ struct PatternGenerator::Query
 
   SplitMix random;
   PatternMembers members{};
+  double map_variance = 0;  ///< [m^2], of a mapped place, each coordinate
   double variance = 0;  ///< [m^2], of a member against its mapped place, each coordinate
   PatternIndex::Gate gate;
   std::vector<std::uint32_t> near;
@@ -50,8 +59,26 @@ PatternGenerator::PatternGenerator(std::shared_ptr<const FeatureVerifier> verifi
 {
 }
 
+/// Every pattern is gated by its own members' variance: one vague feature must not make the others'
+/// patterns match anything.
+void PatternGenerator::gatePattern(const PreparedScene& scene, Query& query) const
+{
+  const std::size_t size = index_.patternSize();
+  double trace = 0;
+  for (std::size_t k = 0; k < size; ++k)
+  {
+    const auto& p = scene.views[query.members[k]].feature->position_covariance;
+    trace = std::max(trace, p(0, 0) + p(1, 1));
+  }
+  const int residuals = std::max(1, 2 * static_cast<int>(size) - 3);
+  query.variance = 0.5 * trace + query.map_variance;
+  query.gate.residual =
+      query.variance * chiSquareGate(verifier_->options().gate_probability, residuals);
+  query.gate.tolerance = std::sqrt(2 * verifier_->gates().scalar * query.variance);
+}
+
 bool PatternGenerator::drawPattern(const PreparedScene& scene, const std::vector<bool>& among,
-                                   std::uint32_t root, Query& query) const
+                                   std::uint32_t root, std::size_t most_orders, Query& query) const
 {
   const std::size_t size = index_.patternSize();
   // The neighbours that the map's patterns are made of, and a few more: spurious ones push the
@@ -77,6 +104,12 @@ bool PatternGenerator::drawPattern(const PreparedScene& scene, const std::vector
   {
     return false;
   }
+  gatePattern(scene, query);
+  std::array<TPoint2D, kLargestPattern> places;
+  for (std::size_t k = 0; k < size; ++k) places[k] = scene.views[query.members[k]].position();
+  query.orders.clear();
+  possibleOrders(places.data(), size, kOrderShare * query.gate.tolerance, query.orders);
+  if (query.orders.size() > most_orders) return false;
   query.tried.push_back(query.members);
   return true;
 }
@@ -108,18 +141,14 @@ void PatternGenerator::tryPattern(const PreparedScene& scene, Query& query, Hypo
 {
   const std::size_t size = index_.patternSize();
   const PreparedMap& map = verifier_->map();
-  std::array<TPoint2D, kLargestPattern> places;
-  for (std::size_t k = 0; k < size; ++k) places[k] = scene.views[query.members[k]].position();
-  query.orders.clear();
-  possibleOrders(places.data(), size, kOrderShare * query.gate.tolerance, query.orders);
   for (const PatternOrder& order : query.orders)
   {
     std::array<TPoint2D, kLargestPattern> ordered;
     PatternMembers observed{};
     for (std::size_t k = 0; k < size; ++k)
     {
-      ordered[k] = places[order[k]];
       observed[k] = query.members[order[k]];
+      ordered[k] = scene.views[observed[k]].position();
     }
     // Three passes, so that the memory of one hit is fetched while others are worked on.
     ++counters.signature_pairs;
@@ -177,28 +206,38 @@ bool PatternGenerator::search(const PreparedScene& scene, Query& query, Hypothes
            FeatureVerifier::expectedByChance(scene, best->support, size,
                                              counters.hypotheses - before) < options.significance;
   };
-  // Every draw starts at another feature. Draws that find no fresh pattern are made up for, up to
-  // a point: few features hold few patterns.
+  // Every draw starts at another feature. Patterns that could be written in many orders wait until
+  // others are used up. Draws that find no fresh pattern are made up for, up to a point: few
+  // features hold few patterns.
   const auto draw =
       [&](const std::vector<std::uint32_t>& roots, std::uint32_t wanted, bool until_significant)
   {
     std::vector<bool> among(scene.size(), false);
     for (const std::uint32_t root : roots) among[root] = true;
     constexpr std::uint32_t kPatience = 3;
+    constexpr std::size_t kFewOrders = 2;
     std::uint32_t fresh = 0;
-    for (std::uint32_t d = 0; d < kPatience * wanted && fresh < wanted; ++d)
+    for (const std::size_t most_orders : {kFewOrders, std::numeric_limits<std::size_t>::max()})
     {
-      if (!drawPattern(scene, among, roots[d % roots.size()], query)) continue;
-      ++fresh;
-      const std::uint64_t hypotheses = counters.hypotheses;
-      tryPattern(scene, query, found, workspace, counters);
-      if (until_significant && counters.hypotheses > hypotheses && significant()) return;
+      for (std::uint32_t d = 0; d < kPatience * wanted && fresh < wanted; ++d)
+      {
+        if (!drawPattern(scene, among, roots[d % roots.size()], most_orders, query)) continue;
+        ++fresh;
+        const std::uint64_t hypotheses = counters.hypotheses;
+        tryPattern(scene, query, found, workspace, counters);
+        if (until_significant && counters.hypotheses > hypotheses && significant()) return;
+      }
     }
   };
 
   // 1. Patterns of all features, until an answer is significant.
   const double good = kIndexedShare * std::pow(options.good_share, size);
-  draw(places, drawsNeeded(kDrawsAreCheap * options.failure_probability, good), true);
+  const double failure = options.failure_probability;
+  draw(places, drawsNeeded(failure, good), true);
+  if (!found.best() || (!significant() && smallerBasesMayTell(scene, query, found)))
+  {
+    draw(places, drawsNeeded(kDrawsAreCheap, good), true);
+  }
   const FeatureHypothesis* best = found.best();
   if (!best) return false;
   // An answer that explains its share of the features is no better found by smaller bases, even
@@ -216,9 +255,54 @@ bool PatternGenerator::search(const PreparedScene& scene, Query& query, Hypothes
     if (isPointLike(scene.views[i].type())) explained.push_back(i);
   }
   if (explained.empty()) return true;
-  const double shared = kIndexedShare * std::pow(kRivalShare, size);
-  draw(explained, drawsNeeded(options.failure_probability, shared), false);
+  const double shared = kIndexedShare * rivalShare(explained.size(), size);
+  const auto patterns = static_cast<std::uint32_t>(combinations(explained.size(), size));
+  draw(explained, std::min(patterns, drawsNeeded(kLookAgain * failure, shared)), false);
   return true;
+}
+
+/// Smaller bases find what shares too few features with the map for patterns. They are worth their
+/// cost where the budget holds all of them, and where such a hypothesis, of a support that the
+/// draws so far may have missed, could beat what is found, and chance.
+bool PatternGenerator::smallerBasesMayTell(const PreparedScene& scene, const Query& query,
+                                           const HypothesisSet& found) const
+{
+  const GeneratorOptions& options = verifier_->options();
+  const auto n = static_cast<std::uint32_t>(scene.size());
+  const std::uint64_t bases = pairs_.basesFor(scene);
+  if (bases > options.fall_back_hypotheses) return false;
+  const double indexed = found.best() ? kIndexedShare : kSparselyIndexedShare;
+  for (std::uint32_t support = std::max(found.bestSupport() + 1, options.min_support); support <= n;
+       ++support)
+  {
+    const double good = indexed * shareOfPatterns(scene, support);
+    const double missed = std::pow(1 - good, static_cast<double>(query.tried.size()));
+    if (missed > options.failure_probability &&
+        FeatureVerifier::expectedByChance(scene, support, 2, bases) < options.significance)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Of the patterns of all places seen, the share that consists of mapped ones if `support` features
+/// are.
+double PatternGenerator::shareOfPatterns(const PreparedScene& scene, std::uint32_t support) const
+{
+  const std::size_t size = index_.patternSize();
+  const auto places = static_cast<double>(std::count_if(scene.views.begin(), scene.views.end(),
+                                                        [](const DirectedFeature& view)
+                                                        { return isPointLike(view.type()); }));
+  if (size == 0 || places < static_cast<double>(size)) return 0;
+  const double supporting = places * support / static_cast<double>(scene.size());
+  double share = 1;
+  for (std::size_t k = 0; k < size; ++k)
+  {
+    const auto taken = static_cast<double>(k);
+    share *= std::max(0.0, supporting - taken) / (places - taken);
+  }
+  return share;
 }
 
 std::vector<FeatureHypothesis> PatternGenerator::generate(const std::vector<Feature>& observed,
@@ -231,27 +315,18 @@ std::vector<FeatureHypothesis> PatternGenerator::generate(const std::vector<Feat
   Query query(options.seed);
   const std::uint64_t before = counters.hypotheses;
 
-  double trace = 0;
-  for (const DirectedFeature& view : scene.views)
-  {
-    const auto& p = view.feature->position_covariance;
-    if (isPointLike(view.type())) trace = std::max(trace, p(0, 0) + p(1, 1));
-  }
   double mapped = 0;
   for (std::size_t t = 0; t < kFeatureTypes; ++t)
   {
     const auto type = static_cast<FeatureType>(t);
     if (isPointLike(type))
-      mapped = std::max(mapped, verifier_->map().largestPositionVariance(type));
+      mapped = std::max(mapped, verifier_->map().typicalPositionVariance(type));
   }
-  query.variance = 0.5 * trace + mapped + scene.relative_sigma * scene.relative_sigma + 1e-12;
-  const int residuals = std::max(1, 2 * static_cast<int>(index_.patternSize()) - 3);
-  query.gate.residual = query.variance * chiSquareGate(options.gate_probability, residuals);
-  query.gate.tolerance = std::sqrt(2 * verifier_->gates().scalar * query.variance);
+  query.map_variance = mapped + scene.relative_sigma * scene.relative_sigma + 1e-12;
 
-  const bool significant = search(scene, query, found, workspace, counters);
+  const bool settled = search(scene, query, found, workspace, counters);
   const auto base_size = static_cast<std::uint32_t>(index_.patternSize());
-  if (significant)
+  if (settled || !smallerBasesMayTell(scene, query, found))
   {
     return rankedHypotheses(scene, *verifier_, found, base_size, counters.hypotheses - before);
   }

@@ -8,6 +8,7 @@
 
 #include "sigloc/geometry/chi_square.h"
 #include "sigloc/matching/pattern_order.h"
+#include "sigloc/matching/sampling.h"
 
 namespace sigloc
 {
@@ -130,16 +131,6 @@ void visitSets(const NearestPlaces& nearest, std::uint32_t root, std::size_t siz
     for (std::size_t k = moving; k < chosen; ++k) at[k] = at[k - 1] + 1;
   }
 }
-
-double combinations(std::size_t n, std::size_t k)
-{
-  double product = 1;
-  for (std::size_t i = 0; i < k; ++i)
-  {
-    product *= static_cast<double>(n - i) / static_cast<double>(i + 1);
-  }
-  return product;
-}
 }  // namespace
 
 /// Patterns in the order they are found, before they are sorted into slots.
@@ -176,7 +167,7 @@ void PatternIndex::chooseSize(const PreparedMap& map, const GeneratorOptions& op
   for (std::size_t t = 0; t < kFeatureTypes; ++t)
   {
     const auto type = static_cast<FeatureType>(t);
-    if (!isSegment(type)) variance = std::max(variance, map.largestPositionVariance(type));
+    if (!isSegment(type)) variance = std::max(variance, map.typicalPositionVariance(type));
   }
   const double spread = kTypicalSigma * kTypicalSigma + variance + relative * relative;
   cell_ = options.pattern_cell > 0 ? options.pattern_cell : 2 * std::sqrt(2 * gate * spread);

@@ -41,6 +41,7 @@ PreparedMap::PreparedMap(const FeatureMap& map) : map_(&map), grid_(map.features
   const std::vector<Feature>& features = map.features();
   area_ = std::max(1.0, map.area());
   views_.reserve(features.size());
+  std::array<double, kFeatureTypes> count{};
   for (std::size_t k = 0; k < features.size(); ++k)
   {
     DirectedFeature view = directed(features[k]);
@@ -61,12 +62,16 @@ PreparedMap::PreparedMap(const FeatureMap& map) : map_(&map), grid_(map.features
     const double largest =
         0.5 * (p(0, 0) + p(1, 1)) + std::hypot(0.5 * (p(0, 0) - p(1, 1)), p(0, 1));
     position_variance_[type] = std::max(position_variance_[type], largest);
-    direction_variance_[type] = std::max(direction_variance_[type], features[k].direction_variance);
+    typical_position_variance_[type] += largest;
+    typical_direction_variance_[type] += features[k].direction_variance;
+    count[type] += 1;
     clutter_[type] += isSegment(features[k].type) ? features[k].size + kTypicalPiece : 1.0;
   }
   for (std::size_t t = 0; t < kFeatureTypes; ++t)
   {
     const auto type = static_cast<FeatureType>(t);
+    typical_position_variance_[t] /= std::max(1.0, count[t]);
+    typical_direction_variance_[t] /= std::max(1.0, count[t]);
     const bool directional = isSegment(type) || hasBearing(type);
     clutter_[t] = std::max(clutter_[t], 1.0) / area_;
     if (directional) clutter_[t] *= directionConcentration(features, type) / kTwoPi;

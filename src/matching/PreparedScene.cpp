@@ -18,9 +18,9 @@ double gateVolume(const DirectedFeature& view, const PreparedMap& map, double re
 {
   const Feature& feature = *view.feature;
   const double place =
-      map.largestPositionVariance(feature.type) + relative_sigma * relative_sigma + 1e-12;
+      map.typicalPositionVariance(feature.type) + relative_sigma * relative_sigma + 1e-12;
   const double angle =
-      feature.direction_variance + map.largestDirectionVariance(feature.type) + 1e-12;
+      feature.direction_variance + map.typicalDirectionVariance(feature.type) + 1e-12;
   constexpr double kPoseShare = 2;
   if (isSegment(feature.type))
   {

@@ -147,6 +147,28 @@ TEST(Scale, ExponentOfAPowerLaw)
   EXPECT_NEAR(fit.low, fit.high, 1e-6);
 }
 
+TEST(Landmarks, TheMapHoldsWhatHasAnIdentityEvenIfSeenOnce)
+{
+  LandmarkData data;
+  for (int k = 0; k < 3; ++k)
+  {
+    LandmarkStep step;
+    step.truth = {static_cast<double>(k), 0, 0};
+    Feature disc;
+    disc.position = {1.0 + 0.1 * k, 0};
+    disc.position_covariance.setIdentity();
+    step.observed = {disc, disc, disc};
+    step.identities = {7, 10 + k, -1};
+    data.steps.push_back(step);
+  }
+  const std::vector<Feature> map = mapFromSteps(data, 2);
+  ASSERT_EQ(map.size(), 3U);  // 7, 10 and 11; neither -1 nor what came later
+  EXPECT_EQ(map[0].sightings, 2U);
+  EXPECT_NEAR(map[0].position.x, 0.5 * (1.0 + 2.1), 1e-9);
+  EXPECT_NEAR(map[0].position_covariance(0, 0), 0.5, 1e-9);
+  EXPECT_EQ(map[1].sightings, 1U);
+}
+
 TEST(Landmarks, MissingFilesAndUnknownSetsAreNamed)
 {
   LandmarksOptions options;

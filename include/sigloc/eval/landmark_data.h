@@ -40,6 +40,7 @@ LandmarkData readDlr(const std::filesystem::path& folder);
 /// Throws std::runtime_error ("path: reason").
 LandmarkData readVictoriaPark(const std::filesystem::path& folder);
 
-/// The map of what steps [0, count) saw, by true poses and identities: features seen twice or more.
+/// The map of what steps [0, count) saw, by true poses and identities. What has an identity is
+/// real, so one sighting is enough.
 std::vector<Feature> mapFromSteps(const LandmarkData& data, std::size_t count);
 }  // namespace sigloc

@@ -48,7 +48,7 @@ struct ScaleRow
   double checks = 0;
   std::uint64_t cut_short = 0;  ///< queries that ended at the method's budget
   double build_seconds = 0;
-  double bytes_per_feature = 0;  ///< of the map and its index, by the process' resident memory
+  double bytes_per_feature = 0;  ///< of the map and its index, as allocated
 
   double operations() const { return signature_pairs + hypotheses + checks; }
 };

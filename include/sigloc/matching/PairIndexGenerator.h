@@ -23,8 +23,12 @@ class PairIndexGenerator : public FeatureHypothesisGenerator
               FeatureVerifier::Workspace& workspace, MatchingCounters& counters,
               std::uint64_t budget) const;
 
+  /// How many bases a search would retrieve at most, without retrieving them.
+  std::uint64_t basesFor(const PreparedScene& scene) const;
+
  private:
   struct Lookup;
+  std::vector<Lookup> lookupsOfAll(const PreparedScene& scene) const;
   std::vector<Lookup> rankedLookups(const PreparedScene& scene,
                                     const std::vector<std::uint32_t>& among,
                                     std::uint32_t count) const;

@@ -11,7 +11,7 @@ namespace sigloc
 {
 /// Mode (d): observed patterns of three to five places, looked up in a hash of all mapped ones.
 /// What a look-up returns hardly grows with the map. Falls back to pairs, then to anchors, when no
-/// answer is significant.
+/// answer is significant and theirs could be.
 class PatternGenerator : public FeatureHypothesisGenerator
 {
  public:
@@ -26,13 +26,17 @@ class PatternGenerator : public FeatureHypothesisGenerator
  private:
   struct Query;
   bool drawPattern(const PreparedScene& scene, const std::vector<bool>& among, std::uint32_t root,
-                   Query& query) const;
+                   std::size_t most_orders, Query& query) const;
+  void gatePattern(const PreparedScene& scene, Query& query) const;
   void tryPattern(const PreparedScene& scene, Query& query, HypothesisSet& found,
                   FeatureVerifier::Workspace& workspace, MatchingCounters& counters) const;
   bool fitPattern(const PreparedScene& scene, const Query& query, const PatternMembers& observed,
                   const std::uint32_t* mapped, PoseEstimate& pose) const;
   bool search(const PreparedScene& scene, Query& query, HypothesisSet& found,
               FeatureVerifier::Workspace& workspace, MatchingCounters& counters) const;
+  bool smallerBasesMayTell(const PreparedScene& scene, const Query& query,
+                           const HypothesisSet& found) const;
+  double shareOfPatterns(const PreparedScene& scene, std::uint32_t support) const;
 
   std::shared_ptr<const FeatureVerifier> verifier_;
   PatternIndex index_;

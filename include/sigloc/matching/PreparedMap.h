@@ -41,9 +41,15 @@ class PreparedMap
   {
     return position_variance_[typeIndex(type)];
   }
-  double largestDirectionVariance(FeatureType type) const
+  /// Mean over the features of the type of their largest variance along any direction [m^2], and of
+  /// their directions' [rad^2]: what to expect, where the largest is what must not be missed.
+  double typicalPositionVariance(FeatureType type) const
   {
-    return direction_variance_[typeIndex(type)];
+    return typical_position_variance_[typeIndex(type)];
+  }
+  double typicalDirectionVariance(FeatureType type) const
+  {
+    return typical_direction_variance_[typeIndex(type)];
   }
 
   /// Share of a stretch, in metres along feature k's tangent from its position, that lies on the
@@ -59,6 +65,7 @@ class PreparedMap
   double area_ = 1;
   std::array<double, kFeatureTypes> clutter_{};
   std::array<double, kFeatureTypes> position_variance_{};
-  std::array<double, kFeatureTypes> direction_variance_{};
+  std::array<double, kFeatureTypes> typical_position_variance_{};
+  std::array<double, kFeatureTypes> typical_direction_variance_{};
 };
 }  // namespace sigloc
