@@ -28,6 +28,8 @@ constexpr std::array kCommands = {
     Command{"sweep", "relocation in simulated worlds under conditions that are varied",
             sigloc::setUpSweep},
     Command{"track", "wake up lost and drive on, method by method", sigloc::setUpTrack},
+    Command{"reference", "truth for a log of which only the last pose is known",
+            sigloc::setUpReference},
     Command{"merge", "pool what several runs wrote", sigloc::setUpMerge},
 };
 

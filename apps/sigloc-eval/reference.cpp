@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <iostream>
+
+#include "commands.h"
+#include "sigloc/eval/reference_path.h"
+
+namespace sigloc
+{
+namespace
+{
+struct ReferenceFlags
+{
+  std::filesystem::path map;
+  std::filesystem::path rawlog;
+  std::vector<double> last;
+  std::filesystem::path out;
+
+  int run() const
+  {
+    const ReferencePath reference = referencePath(map, rawlog, poseOfFlag(last));
+    writeReferencePath(reference, out);
+    std::cout << reference.poses.size() << " poses; the worst scan has "
+              << static_cast<int>(100 * reference.worst_goodness) << " % of its points paired\n";
+    return 0;
+  }
+};
+}  // namespace
+
+std::function<int()> setUpReference(CLI::App& command, const std::string& /*command_line*/)
+{
+  const auto flags = std::make_shared<ReferenceFlags>();
+  command.add_option("--map", flags->map, "a map of scans, as sigloc-map build takes")->required();
+  command.add_option("--rawlog", flags->rawlog, "with odometry")->required();
+  command.add_option("--last", flags->last, "x,y,deg: the known pose at the end of the log")
+      ->delimiter(',')
+      ->expected(3)
+      ->required();
+  command.add_option("--out", flags->out, "file for the rows `time x y phi`")->required();
+  return [flags] { return flags->run(); };
+}
+}  // namespace sigloc

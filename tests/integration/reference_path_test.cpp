@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sigloc/eval/reference_path.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "bridge/rawlog_files.h"
+#include "sigloc/bridge/GroundTruth.h"
+#include "sigloc/bridge/RawlogReader.h"
+#include "sigloc/eval/relocation_scoring.h"
+
+namespace sigloc
+{
+namespace
+{
+const std::filesystem::path kSource = SIGLOC_SOURCE_DIR;
+const std::filesystem::path kMap = kSource / "maps" / "office.simplemap";
+const std::filesystem::path kRawlog = kSource / "rawlogs" / "office.rawlog";
+
+TEST(ReferencePath, FollowsTheTruthBackFromTheEnd)
+{
+  const GroundTruth truth = GroundTruth::read(kSource / "rawlogs" / "office-truth.txt");
+  RawlogReader log(kRawlog);
+  double end = 0;
+  std::size_t steps = 0;
+  for (; const auto step = log.next(); ++steps) end = step->time;
+  const auto known = truth.at(steps - 1, end);
+  ASSERT_TRUE(known);
+
+  // Known to a decimetre only.
+  const ReferencePath found =
+      referencePath(kMap, kRawlog, {known->x + 0.1, known->y - 0.05, known->phi + 0.03});
+  ASSERT_EQ(found.poses.size(), steps);
+  EXPECT_GT(found.worst_goodness, 0.6);
+  for (std::size_t i = 0; i < found.poses.size(); ++i)
+  {
+    const PoseError error =
+        poseError(found.poses[i].map_from_robot, *truth.at(i, found.poses[i].time));
+    EXPECT_LT(error.distance, 0.1) << "step " << i;
+    EXPECT_LT(error.angle_deg, 2) << "step " << i;
+  }
+
+  const test::TemporaryFolder folder;
+  writeReferencePath(found, folder / "truth.txt");
+  const auto read = GroundTruth::read(folder / "truth.txt").at(3, found.poses[3].time);
+  ASSERT_TRUE(read);
+  EXPECT_NEAR(read->x, found.poses[3].map_from_robot.x, 1e-3);
+}
+
+TEST(ReferencePath, RefusesWhatItCannotFollow)
+{
+  EXPECT_THROW(referencePath(kSource / "maps" / "office.gridmap.gz", kRawlog, {}),
+               std::runtime_error);
+  EXPECT_THROW(referencePath(kMap, kSource / "none.rawlog", {}), std::runtime_error);
+}
+}  // namespace
+}  // namespace sigloc
