@@ -304,15 +304,25 @@ void checkScan(const LaserScan& scan)
     throw std::invalid_argument("observeScene: the angle step must be positive");
   }
 }
+/// The thresholds that noise must not cross by itself, for a laser as noisy as it says: 3 sigma off
+/// a line, 4.2 sigma (6 of one range) between two returns. Up to 2 cm they stay as configured.
+FeatureExtractorOptions thresholdsFor(double range_sigma, FeatureExtractorOptions options)
+{
+  options.split_distance = std::max(options.split_distance, 3 * range_sigma);
+  options.break_distance = std::max(options.break_distance, 6 * range_sigma);
+  options.wall_end_jump = std::max(options.wall_end_jump, 6 * range_sigma);
+  return options;
+}
 }  // namespace
 
 ObservedScene observeScene(const std::vector<LaserScan>& scans,
-                           const FeatureExtractorOptions& options)
+                           const FeatureExtractorOptions& configured)
 {
   ObservedScene scene;
   for (const LaserScan& scan : scans)
   {
     checkScan(scan);
+    const FeatureExtractorOptions options = thresholdsFor(scan.range_sigma, configured);
     ScanPoints points = validPoints(scan, options);
     startAtBreak(points, options);
 

@@ -313,6 +313,26 @@ TEST(FeatureExtractor, NoisyRoomKeepsItsWalls)
   }
 }
 
+TEST(FeatureExtractor, AVeryNoisyRoomKeepsItsWalls)
+{
+  std::mt19937_64 random(78);
+  for (int k = 0; k < 20; ++k)
+  {
+    Scanner scanner;
+    scanner.sigma = 0.1;
+    const ObservedScene scene =
+        observeScene({scanByHand(closedRoom(), {0.5, 0.2, 0.1 * k}, scanner, &random)});
+    expectWellFormed(scene);
+    const std::vector<Feature> walls = ofType(scene, FeatureType::segment);
+    double length = 0;
+    for (const Feature& wall : walls) length += wall.size;
+    EXPECT_GT(length, 17.0);
+    EXPECT_LT(length, 23.0);
+    EXPECT_LE(walls.size(), 16U);
+    EXPECT_LE(ofType(scene, FeatureType::wall_end).size(), 1U);
+  }
+}
+
 TEST(FeatureExtractor, BrokenBeamsAreSkipped)
 {
   LaserScan scan = scanByHand(closedRoom(), {0, 0, 0});
