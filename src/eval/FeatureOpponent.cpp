@@ -39,7 +39,7 @@ FeatureOpponent::FeatureOpponent(const FeatureMap& map, const GeneratorOptions& 
 std::vector<FeatureHypothesis> FeatureOpponent::generate(const std::vector<Feature>& observed,
                                                          MatchingCounters& counters) const
 {
-  const PreparedScene scene(observed, map_, options_);
+  const PreparedScene scene(observed, map_, options_, gates_);
   if (scene.size() < 2 || map_.size() == 0) return {};
   const std::uint64_t before = counters.hypotheses;
   Query query{scene, counters, HypothesisSet(scene.size()),

@@ -120,6 +120,34 @@ std::string exponentText(const Curve& curve)
   return fixedNumber(fit.slope, 2) + " (" + fixedNumber(fit.low, 2) + " to " +
          fixedNumber(fit.high, 2) + ")";
 }
+/// Time and operations over the sizes of the map and of the scene, as far as they were varied.
+std::vector<std::pair<std::string, Plot>> growthPlots(const ScaleReport& report)
+{
+  const struct
+  {
+    const char* file;
+    const char* x;
+    const char* y;
+    bool over_observed;
+    double (*value)(const ScaleRow&);
+  } figures[] = {
+      {"time.png", "map features", "median time [ms]", false, medianOf},
+      {"operations.png", "map features", "operations", false, operationsOf},
+      {"time-observed.png", "observed features", "median time [ms]", true, medianOf},
+      {"operations-observed.png", "observed features", "operations", true, operationsOf}};
+  std::vector<std::pair<std::string, Plot>> plots;
+  for (const auto& figure : figures)
+  {
+    Plot plot{"Growth", figure.x, figure.y, true, true, {}};
+    for (const std::string& method : methodsOf(report))
+    {
+      const Curve curve = curveOf(report, method, figure.over_observed, figure.value);
+      if (curve.size() > 1) plot.series.push_back({method, curve, true, {}});
+    }
+    if (!plot.series.empty()) plots.emplace_back(figure.file, plot);
+  }
+  return plots;
+}
 }  // namespace
 
 FittedExponent fitExponent(const Curve& points)
@@ -244,7 +272,6 @@ void writeScaleReport(const ScaleReport& report, const std::filesystem::path& fo
     entry["bytes_per_feature"] = row.bytes_per_feature;
     json["methods"][row.method]["rows"].push_back(entry);
   }
-  Plot plot{"Growth with the map", "map features", "median time [ms]", true, true, {}};
   for (const std::string& method : methodsOf(report))
   {
     const Curve operations = curveOf(report, method, false, operationsOf);
@@ -259,11 +286,10 @@ void writeScaleReport(const ScaleReport& report, const std::filesystem::path& fo
     {
       json["methods"][method]["operations_exponent_in_n"] = fitExponent(over_observed).slope;
     }
-    plot.series.push_back({method, time, true, {}});
   }
   files.results = csv.str();
   files.text = "# Growth\n\n" + scaleTable(report);
-  files.plots = {{"time.png", plot}};
+  files.plots = growthPlots(report);
   files.provenance = report.provenance;
   writeRunReport(files, folder);
 }

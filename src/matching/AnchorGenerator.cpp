@@ -89,7 +89,7 @@ void AnchorGenerator::search(const PreparedScene& scene, HypothesisSet& found,
 std::vector<FeatureHypothesis> AnchorGenerator::generate(const std::vector<Feature>& observed,
                                                          MatchingCounters& counters) const
 {
-  const PreparedScene scene(observed, verifier_->map(), verifier_->options());
+  const PreparedScene scene(observed, verifier_->map(), verifier_->options(), verifier_->gates());
   HypothesisSet found(scene.size());
   FeatureVerifier::Workspace workspace;
   const std::uint64_t before = counters.hypotheses;

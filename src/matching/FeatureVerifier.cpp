@@ -365,12 +365,15 @@ double FeatureVerifier::expectedByChance(const PreparedScene& scene, std::uint32
   const double needed = static_cast<double>(support) - base_size;
   const double retrieved = static_cast<double>(std::max<std::uint64_t>(1, bases));
   if (needed <= 0 || trials <= 0) return retrieved;
+  const double odds = p / (1 - p);
+  double term = std::exp(std::lgamma(trials + 1) - std::lgamma(needed + 1) -
+                         std::lgamma(trials - needed + 1) + needed * std::log(p) +
+                         (trials - needed) * std::log1p(-p));
   double tail = 0;
   for (double hits = needed; hits <= trials; ++hits)
   {
-    tail +=
-        std::exp(std::lgamma(trials + 1) - std::lgamma(hits + 1) - std::lgamma(trials - hits + 1) +
-                 hits * std::log(p) + (trials - hits) * std::log1p(-p));
+    tail += term;
+    term *= odds * (trials - hits) / (hits + 1);
   }
   return retrieved * tail;
 }

@@ -166,7 +166,7 @@ void PairIndexGenerator::search(const PreparedScene& scene, HypothesisSet& found
 std::vector<FeatureHypothesis> PairIndexGenerator::generate(const std::vector<Feature>& observed,
                                                             MatchingCounters& counters) const
 {
-  const PreparedScene scene(observed, verifier_->map(), verifier_->options());
+  const PreparedScene scene(observed, verifier_->map(), verifier_->options(), verifier_->gates());
   HypothesisSet found(scene.size());
   FeatureVerifier::Workspace workspace;
   const std::uint64_t before = counters.hypotheses;

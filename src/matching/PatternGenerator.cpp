@@ -54,6 +54,8 @@ PatternGenerator::PatternGenerator(std::shared_ptr<const FeatureVerifier> verifi
                                    std::shared_ptr<const PairLists> lists)
     : verifier_(verifier),
       index_(verifier->map(), verifier->options()),
+      residual_gate_(chiSquareGate(verifier->options().gate_probability,
+                                   std::max(1, 2 * static_cast<int>(index_.patternSize()) - 3))),
       pairs_(verifier, lists),
       anchors_(verifier, lists)
 {
@@ -70,10 +72,8 @@ void PatternGenerator::gatePattern(const PreparedScene& scene, Query& query) con
     const auto& p = scene.views[query.members[k]].feature->position_covariance;
     trace = std::max(trace, p(0, 0) + p(1, 1));
   }
-  const int residuals = std::max(1, 2 * static_cast<int>(size) - 3);
   query.variance = 0.5 * trace + query.map_variance;
-  query.gate.residual =
-      query.variance * chiSquareGate(verifier_->options().gate_probability, residuals);
+  query.gate.residual = query.variance * residual_gate_;
   query.gate.tolerance = std::sqrt(2 * verifier_->gates().scalar * query.variance);
 }
 
@@ -309,7 +309,7 @@ std::vector<FeatureHypothesis> PatternGenerator::generate(const std::vector<Feat
                                                           MatchingCounters& counters) const
 {
   const GeneratorOptions& options = verifier_->options();
-  const PreparedScene scene(observed, verifier_->map(), options);
+  const PreparedScene scene(observed, verifier_->map(), options, verifier_->gates());
   HypothesisSet found(scene.size());
   FeatureVerifier::Workspace workspace;
   Query query(options.seed);

@@ -241,6 +241,14 @@ void PatternIndex::sortIntoSlots(const Draft& draft)
   std::size_t slots = 1;
   while (slots < draft.hashes.size()) slots *= 2;
   slot_mask_ = slots - 1;
+  constexpr std::size_t kBitsPerSlot = 8;
+  occupied_mask_ = kBitsPerSlot * slots - 1;
+  occupied_.assign(kBitsPerSlot * slots / 64 + 1, 0);
+  for (const std::uint64_t hash : draft.hashes)
+  {
+    const std::uint64_t bit = (hash >> 20) & occupied_mask_;
+    occupied_[bit >> 6] |= 1ULL << (bit & 63);
+  }
   starts_.assign(slots + 1, 0);
   for (const std::uint64_t hash : draft.hashes) ++starts_[slotOf(hash) + 1];
   for (std::size_t s = 1; s < starts_.size(); ++s) starts_[s] += starts_[s - 1];
@@ -301,13 +309,17 @@ std::size_t PatternIndex::slotsNear(const PatternShape& shape, double tolerance,
     }
     count *= width;
   }
-  for (std::size_t k = 0; k < count; ++k) slots[k] = slotOf(hashes[k]);
-  return count;
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < count; ++k)
+  {
+    if (mayHold(hashes[k])) slots[kept++] = slotOf(hashes[k]);
+  }
+  return kept;
 }
 
 std::size_t PatternIndex::bytes() const
 {
-  return starts_.capacity() * sizeof(starts_[0]) + values_.capacity() * sizeof(values_[0]) +
-         members_.capacity() * sizeof(members_[0]);
+  return occupied_.capacity() * sizeof(occupied_[0]) + starts_.capacity() * sizeof(starts_[0]) +
+         values_.capacity() * sizeof(values_[0]) + members_.capacity() * sizeof(members_[0]);
 }
 }  // namespace sigloc

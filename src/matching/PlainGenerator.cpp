@@ -36,7 +36,7 @@ std::vector<FeatureHypothesis> PlainGenerator::generate(const std::vector<Featur
                                                         MatchingCounters& counters) const
 {
   const PreparedMap& map = verifier_->map();
-  const PreparedScene scene(observed, map, verifier_->options());
+  const PreparedScene scene(observed, map, verifier_->options(), verifier_->gates());
   const auto n = static_cast<std::uint32_t>(scene.size());
   const auto m = static_cast<std::uint32_t>(map.size());
   const std::uint32_t needed = std::min(verifier_->options().min_support, n);

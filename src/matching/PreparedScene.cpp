@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sigloc/matching/PreparedScene.h"
 
-#include "sigloc/geometry/chi_square.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -36,7 +34,7 @@ double gateVolume(const DirectedFeature& view, const PreparedMap& map, double re
 }  // namespace
 
 PreparedScene::PreparedScene(const std::vector<Feature>& observed, const PreparedMap& map,
-                             const GeneratorOptions& options)
+                             const GeneratorOptions& options, const BinaryGates& gates)
 {
   const std::size_t n = observed.size();
   views.reserve(n);
@@ -48,12 +46,10 @@ PreparedScene::PreparedScene(const std::vector<Feature>& observed, const Prepare
   }
   relative_sigma = map.map().error().relativeSigma(n > 0 ? range / static_cast<double>(n) : 0.0);
 
-  const double planar_gate = chiSquareGate(options.gate_probability, 2);
-  const double scalar_gate = chiSquareGate(options.gate_probability, 1);
   for (const DirectedFeature& view : views)
   {
     const double expected = map.clutterDensity(view.type()) *
-                            gateVolume(view, map, relative_sigma, planar_gate, scalar_gate);
+                            gateVolume(view, map, relative_sigma, gates.planar, gates.scalar);
     const double p = std::clamp(1 - std::exp(-expected), 1e-6, 0.5 * options.good_share);
     chance.push_back(p);
     hit_gain.push_back(std::log(options.good_share / p));

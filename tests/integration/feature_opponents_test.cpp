@@ -132,7 +132,7 @@ TEST_P(FeatureOpponents, TreeAndCliqueFindTheLargestInterpretationOfBruteForce)
     const SmallCase small = smallCase(seed, GetParam());
     const FeatureMap map(small.world.mapped);
     const PreparedMap prepared(map);
-    const PreparedScene scene(small.observed, prepared, {});
+    const PreparedScene scene(small.observed, prepared, {}, {});
     std::size_t largest = 0;
     std::vector<FeaturePairing> pairings;
     listInterpretations(scene, prepared, pairings, 0,
@@ -169,7 +169,7 @@ TEST_P(FeatureOpponents, EveryAnswerIsJointlyCompatibleByDefinition)
     const SmallCase small = smallCase(seed, GetParam());
     const FeatureMap map(small.world.mapped);
     const PreparedMap prepared(map);
-    const PreparedScene scene(small.observed, prepared, {});
+    const PreparedScene scene(small.observed, prepared, {}, {});
     const auto jcbb = ask<JcbbRelocation>(map, small.observed);
     const auto tree = ask<InterpretationTree>(map, small.observed);
     const auto cliques = ask<CliqueAssociation>(map, small.observed);

@@ -310,7 +310,7 @@ TEST(PlainGenerator, CountersStayBelowTheStatedComplexity)
   const auto verifier = std::make_shared<const FeatureVerifier>(map, GeneratorOptions{});
   const auto lists = std::make_shared<const PairLists>(*map, PairLists::kUncut);
   const std::vector<Feature> observed(lattice.begin(), lattice.begin() + 9);
-  const PreparedScene scene(observed, *map, {});
+  const PreparedScene scene(observed, *map, {}, {});
 
   // c as the square mean size of what a signature pair's lists hold together, over n.
   double squares = 0;

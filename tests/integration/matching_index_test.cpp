@@ -83,7 +83,7 @@ TEST(PairLists, BinarySearchEqualsBruteForce)
   const FeatureVerifier verifier(map, {});
   const PairLists lists(*map, PairLists::kUncut);
   const auto observed = observeFeatures(world, randomPose(world, options, random), options, random);
-  const PreparedScene scene(observed, *map, {});
+  const PreparedScene scene(observed, *map, {}, {});
   std::vector<std::uint32_t> candidates;
   std::size_t total = 0;
   for (std::uint32_t i = 0; i < scene.size(); ++i)

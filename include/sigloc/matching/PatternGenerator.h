@@ -40,6 +40,7 @@ class PatternGenerator : public FeatureHypothesisGenerator
 
   std::shared_ptr<const FeatureVerifier> verifier_;
   PatternIndex index_;
+  double residual_gate_;  ///< of a pattern's residuals, after the best alignment
   PairIndexGenerator pairs_;
   AnchorGenerator anchors_;
 };

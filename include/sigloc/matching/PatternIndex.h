@@ -63,8 +63,8 @@ class PatternIndex
   static PatternShape shapeOf(const mrpt::math::TPoint2D* places, std::size_t count);
 
  private:
-  static constexpr std::size_t kHashedValues = 5;
-  static constexpr std::size_t kMostCells = 1024;
+  static constexpr std::size_t kHashedValues = 6;
+  static constexpr std::size_t kMostCells = 4096;
 
   std::size_t valueCount() const { return 2 * size_ - 3; }
   std::size_t hashedCount() const { return std::min(kHashedValues, valueCount()); }
@@ -78,6 +78,12 @@ class PatternIndex
     return hash ^ (hash >> 29);
   }
   std::size_t slotOf(std::uint64_t hash) const { return (hash >> 7) & slot_mask_; }
+  /// False for most cells that hold no pattern; small enough to stay in the cache.
+  bool mayHold(std::uint64_t hash) const
+  {
+    const std::uint64_t bit = (hash >> 20) & occupied_mask_;
+    return (occupied_[bit >> 6] >> (bit & 63) & 1) != 0;
+  }
   /// Lays observed shapes onto stored ones; \cite algorithm eq. (4.7).
   struct Alignment
   {
@@ -100,6 +106,8 @@ class PatternIndex
   double cell_ = 0.4;
   double unit_ = 1e-3;  ///< [m] of a stored value
   std::size_t slot_mask_ = 0;
+  std::uint64_t occupied_mask_ = 0;
+  std::vector<std::uint64_t> occupied_;  ///< a bit for the hash of every cell that holds patterns
   std::vector<std::uint32_t> starts_;
   std::vector<std::int16_t> values_;  ///< valueCount() a pattern
   std::vector<std::uint32_t> members_;  ///< size_ a pattern

@@ -4,6 +4,7 @@
 
 #include "sigloc/matching/GeneratorOptions.h"
 #include "sigloc/matching/PreparedMap.h"
+#include "sigloc/signature/binary_constraint.h"
 
 #include <cstdint>
 #include <vector>
@@ -15,7 +16,7 @@ namespace sigloc
 struct PreparedScene
 {
   PreparedScene(const std::vector<Feature>& observed, const PreparedMap& map,
-                const GeneratorOptions& options);
+                const GeneratorOptions& options, const BinaryGates& gates);
 
   std::size_t size() const { return views.size(); }
 
