@@ -25,8 +25,8 @@ constexpr double kSparselyIndexedShare = 0.05;
 // The second look may fail this much less: how much of a place is indexed varies from place to
 // place.
 constexpr double kLookAgain = 0.1;
-// A hundred more draws cost little beside finding nothing, or trying smaller bases next: before
-// that they may fail this much less.
+// A hundred more draws cost little beside answering nothing sure, or trying smaller bases next:
+// before that they may fail this much less.
 constexpr double kDrawsAreCheap = 0.01;
 // Share of the gate within which an order is taken to be undecided: every further order is a
 // further look-up, and an order missed costs one draw of many.
@@ -234,19 +234,20 @@ bool PatternGenerator::search(const PreparedScene& scene, Query& query, Hypothes
   const double good = kIndexedShare * std::pow(options.good_share, size);
   const double failure = options.failure_probability;
   draw(places, drawsNeeded(failure, good), true);
-  if (!found.best() || (!significant() && smallerBasesMayTell(scene, query, found)))
+  // An answer that explains its share of the features is no better found by more or smaller bases,
+  // even where too few features were seen to be sure of it.
+  const auto settled = [&]
   {
-    draw(places, drawsNeeded(kDrawsAreCheap, good), true);
-  }
-  const FeatureHypothesis* best = found.best();
-  if (!best) return false;
-  // An answer that explains its share of the features is no better found by smaller bases, even
-  // where too few features were seen to be sure of it.
-  const double chance =
-      FeatureVerifier::expectedByChance(scene, best->support, size, counters.hypotheses - before);
-  const bool explains_enough =
-      best->support >= options.good_share * static_cast<double>(scene.size());
-  if (!(chance < options.significance || (explains_enough && chance < 0.5))) return false;
+    const FeatureHypothesis* best = found.best();
+    if (!best) return false;
+    const double chance =
+        FeatureVerifier::expectedByChance(scene, best->support, size, counters.hypotheses - before);
+    const bool explains_enough =
+        best->support >= options.good_share * static_cast<double>(scene.size());
+    return chance < options.significance || (explains_enough && chance < 0.5);
+  };
+  if (!settled()) draw(places, drawsNeeded(kDrawsAreCheap, good), true);
+  if (!settled()) return false;
 
   // 2. Patterns of what the answer explains: places that look alike share most of it.
   std::vector<std::uint32_t> explained;
