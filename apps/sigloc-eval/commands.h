@@ -19,6 +19,7 @@ using CommandSetup = std::function<int()> (*)(CLI::App& command, const std::stri
 std::function<int()> setUpRelocate(CLI::App& command, const std::string& command_line);
 std::function<int()> setUpMerge(CLI::App& command, const std::string& command_line);
 std::function<int()> setUpReference(CLI::App& command, const std::string& command_line);
+std::function<int()> setUpReliability(CLI::App& command, const std::string& command_line);
 std::function<int()> setUpScale(CLI::App& command, const std::string& command_line);
 std::function<int()> setUpLandmarks(CLI::App& command, const std::string& command_line);
 std::function<int()> setUpSweep(CLI::App& command, const std::string& command_line);

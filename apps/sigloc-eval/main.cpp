@@ -30,6 +30,8 @@ constexpr std::array kCommands = {
     Command{"track", "wake up lost and drive on, method by method", sigloc::setUpTrack},
     Command{"reference", "truth for a log of which only the last pose is known",
             sigloc::setUpReference},
+    Command{"reliability", "does one look tell right poses from wrong ones?",
+            sigloc::setUpReliability},
     Command{"merge", "pool what several runs wrote", sigloc::setUpMerge},
 };
 

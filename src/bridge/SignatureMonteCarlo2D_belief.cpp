@@ -126,7 +126,10 @@ void SignatureMonteCarlo2D::weighElsewhere(const ObservedScene& scene, double tr
   const DenseVerifier* const verifier = matcher_->verifier();
   if (modes_.empty() || verifier == nullptr || scene.beams.empty()) return;
   const TrackedHypothesis& first = modes_.front().hypothesis;
-  score_ = verifier->evaluate(makeDenseScan(scene, kScoreBeams), first.pose.mean).score;
+  const DenseEvidence evidence =
+      verifier->evaluate(makeDenseScan(scene, kScoreBeams), first.pose.mean);
+  score_ = evidence.score;
+  reliability_ = reliabilityOf(evidence);
   const bool fresh = first.age < 2;
   mean_score_ = fresh ? score_ : kScoreMemory * mean_score_ + (1 - kScoreMemory) * score_;
   const double share = std::min(1.0, travel / tracking_.lost_distance);
@@ -235,9 +238,7 @@ void SignatureMonteCarlo2D::publish(bool blind)
     return;
   }
   const TrackedHypothesis& first = belief_.hypotheses.front();
-  belief_.reliability =
-      1.0 /
-      (1.0 + std::exp(logLikelihoodOfScore(tracking_.lost_score) - logLikelihoodOfScore(score_)));
+  belief_.reliability = reliability_;
   const bool open = largestPositionSigma(first.pose) >= kMaxOpenSigma;
   const bool confirmed = modes_.front().confirmed >= tracking_.confirmation;
   if (first.weight >= tracking_.localized_probability && confirmed && !open)

@@ -61,6 +61,13 @@ double logLikelihoodOfScore(double score)
   return kScoreSlope * score - kMisfitPower * std::log(misfit);
 }
 
+double reliabilityOf(const DenseEvidence& evidence)
+{
+  constexpr double kLeastSeen = 0.25;  // share of the returns that must be left to judge by
+  const double seen = std::max(kLeastSeen, 1.0 - evidence.in_free);
+  return std::clamp((evidence.fine - 0.5 * evidence.through_wall) / seen, 0.0, 1.0);
+}
+
 double hereLogOdds(double best_score, double rival_score)
 {
   return kHereSlope * best_score + logLikelihoodOfScore(best_score) -

@@ -51,6 +51,7 @@ struct HypothesisTracker::State
   void relocate(const ObservedScene& scene);
   void confirm(const RelocationResult& result, double fresh_share);
   GaussianPose withCommonError(GaussianPose pose, int sign) const;
+  void judgeFirst(const ObservedScene& scene);
   void publish(const ObservedScene& scene);
 
   std::shared_ptr<const SignatureMatcher> matcher;
@@ -62,6 +63,7 @@ struct HypothesisTracker::State
   double travel_since_relocation = 0;  // [m]
   bool first_step = true;
   bool relocated = false;
+  double reliability = 0;  // of the first hypothesis when enough was last seen
   std::uint64_t seen_id = 0;  // of the track that was heaviest when the robot last moved
   mrpt::math::TPose2D seen_pose;  // where it was then
   Belief belief;
@@ -110,6 +112,7 @@ const Belief& HypothesisTracker::step(const std::optional<MotionIncrement>& moti
     s.set.weigh(travel);
     if (s.wantsRelocation()) s.relocate(scene);
     s.set.mergeAndPrune();
+    s.judgeFirst(scene);
     s.first_step = false;
   }
   else
@@ -251,6 +254,15 @@ GaussianPose HypothesisTracker::State::withCommonError(GaussianPose pose, int si
   return pose;
 }
 
+void HypothesisTracker::State::judgeFirst(const ObservedScene& scene)
+{
+  reliability = 0;
+  if (set.tracks.empty()) return;
+  const mrpt::math::TPose2D& first = set.tracks.front().hypothesis.pose.mean;
+  reliability =
+      reliabilityOf(matcher->verifier()->evaluate(makeDenseScan(scene, kUpdateBeams), first));
+}
+
 void HypothesisTracker::State::publish(const ObservedScene& scene)
 {
   belief = {};
@@ -269,8 +281,7 @@ void HypothesisTracker::State::publish(const ObservedScene& scene)
     return;
   }
   const TrackedHypothesis& first = belief.hypotheses.front();
-  belief.reliability = 1.0 / (1.0 + std::exp(logLikelihoodOfScore(options.lost_score) -
-                                             logLikelihoodOfScore(set.tracks.front().score)));
+  belief.reliability = reliability;
   const bool open = largestPositionSigma(first.pose) >= kMaxOpenSigma;
   const bool confirmed = set.tracks.front().confirmed >= options.confirmation;
   if (first.weight >= options.localized_probability && confirmed && !open)

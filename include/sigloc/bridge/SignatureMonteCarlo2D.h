@@ -99,6 +99,7 @@ class SignatureMonteCarlo2D : public mrpt::slam::CMonteCarloLocalization2D
   std::uint64_t next_id_ = 1;
   double score_ = 0;  // of the heaviest mode, dense
   double mean_score_ = 0;  // running mean
+  double reliability_ = 0;  // of the heaviest mode
   std::optional<mrpt::math::TPose2D> seen_;  // heaviest mode when the robot last moved
   bool motion_known_ = true;
   double travel_since_relocation_ = 0;  // [m]

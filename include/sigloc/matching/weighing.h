@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "sigloc/matching/DenseVerifier.h"
 #include "sigloc/matching/SignatureMatcher.h"
 
 namespace sigloc
@@ -11,6 +12,10 @@ namespace sigloc
 /// Returns the tempered log-likelihood of a dense score in about [-1, 1]: what a score says about a
 /// pose once the correlation of neighbouring beams is allowed for. \cite algorithm eq. (7.1)
 double logLikelihoodOfScore(double score);
+
+/// Returns how well a pose explains what is seen, in [0, 1]: of the returns that nothing unmapped
+/// cut short, the share on walls, less what came through walls. \cite algorithm eq. (8.11)
+double reliabilityOf(const DenseEvidence& evidence);
 
 /// Returns the log-odds of the robot standing at the best pose known rather than somewhere else,
 /// from that pose's score and that of the best rival. \cite algorithm eq. (7.2)

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sigloc/eval/reliability.h"
+
+#include <iostream>
+
+#include "commands.h"
+
+namespace sigloc
+{
+namespace
+{
+struct ReliabilityFlags
+{
+  CommonOptions common;
+  ReliabilityOptions options;
+
+  int run(const std::string& command_line)
+  {
+    options.seed = common.seed;
+    options.threads = common.threads;
+    options.command = command_line;
+    options.progress = progressBar(common.quiet);
+    const ReliabilityReport report = runReliability(options);
+    writeReliabilityReport(report, common.out);
+    if (!common.quiet) std::cout << reliabilityTable(report);
+    return 0;
+  }
+};
+}  // namespace
+
+std::function<int()> setUpReliability(CLI::App& command, const std::string& command_line)
+{
+  const auto flags = std::make_shared<ReliabilityFlags>();
+  ReliabilityOptions& options = flags->options;
+  command.add_option("--worlds", options.worlds, "simulated buildings")->capture_default_str();
+  command.add_option("--poses", options.poses, "scans a building")->capture_default_str();
+  command.add_option("--clutter", options.clutter, "shares of beams that end too early")
+      ->delimiter(',')
+      ->check(CLI::Range(0.0, 1.0));
+  flags->common.declare(command);
+  return [flags, command_line] { return flags->run(command_line); };
+}
+}  // namespace sigloc
