@@ -22,6 +22,8 @@ constexpr double kIndexedShare = 0.5;
 // And of those around a robot that found none: where the map is sparse, the neighbours of what is
 // seen are out of sight.
 constexpr double kSparselyIndexedShare = 0.05;
+constexpr double kUnlikely = 0.5;  // hypotheses as good by chance: an answer that explains enough
+constexpr double kBetterThanChance = 1;  // hypotheses as good expected by chance
 // The second look may fail this much less: how much of a place is indexed varies from place to
 // place.
 constexpr double kLookAgain = 0.1;
@@ -184,6 +186,21 @@ void PatternGenerator::tryPattern(const PreparedScene& scene, Query& query, Hypo
   }
 }
 
+/// True when chance is refuted, or when the best explains its share of the features: more or
+/// smaller bases find no better answer then, even where too few features were seen to be sure of
+/// it.
+bool PatternGenerator::settles(const PreparedScene& scene, const HypothesisSet& found,
+                               std::uint32_t base_size, std::uint64_t bases) const
+{
+  const GeneratorOptions& options = verifier_->options();
+  const FeatureHypothesis* best = found.best();
+  if (!best) return false;
+  const double chance = FeatureVerifier::expectedByChance(scene, best->support, base_size, bases);
+  const bool explains_enough =
+      best->support >= options.good_share * static_cast<double>(scene.size());
+  return chance < options.significance || (explains_enough && chance < kUnlikely);
+}
+
 bool PatternGenerator::search(const PreparedScene& scene, Query& query, HypothesisSet& found,
                               FeatureVerifier::Workspace& workspace,
                               MatchingCounters& counters) const
@@ -234,18 +251,7 @@ bool PatternGenerator::search(const PreparedScene& scene, Query& query, Hypothes
   const double good = kIndexedShare * std::pow(options.good_share, size);
   const double failure = options.failure_probability;
   draw(places, drawsNeeded(failure, good), true);
-  // An answer that explains its share of the features is no better found by more or smaller bases,
-  // even where too few features were seen to be sure of it.
-  const auto settled = [&]
-  {
-    const FeatureHypothesis* best = found.best();
-    if (!best) return false;
-    const double chance =
-        FeatureVerifier::expectedByChance(scene, best->support, size, counters.hypotheses - before);
-    const bool explains_enough =
-        best->support >= options.good_share * static_cast<double>(scene.size());
-    return chance < options.significance || (explains_enough && chance < 0.5);
-  };
+  const auto settled = [&] { return settles(scene, found, size, counters.hypotheses - before); };
   if (!settled()) draw(places, drawsNeeded(kDrawsAreCheap, good), true);
   if (!settled()) return false;
 
@@ -279,7 +285,7 @@ bool PatternGenerator::smallerBasesMayTell(const PreparedScene& scene, const Que
     const double good = indexed * shareOfPatterns(scene, support);
     const double missed = std::pow(1 - good, static_cast<double>(query.tried.size()));
     if (missed > options.failure_probability &&
-        FeatureVerifier::expectedByChance(scene, support, 2, bases) < options.significance)
+        FeatureVerifier::expectedByChance(scene, support, 2, bases) < kBetterThanChance)
     {
       return true;
     }
@@ -332,15 +338,8 @@ std::vector<FeatureHypothesis> PatternGenerator::generate(const std::vector<Feat
     return rankedHypotheses(scene, *verifier_, found, base_size, counters.hypotheses - before);
   }
   // Nothing sure: smaller bases find what shares few features with the map.
-  const auto refuted = [&]
-  {
-    const FeatureHypothesis* best = found.best();
-    return !best ||
-           FeatureVerifier::expectedByChance(scene, best->support, 2,
-                                             counters.hypotheses - before) >= options.significance;
-  };
   pairs_.search(scene, found, workspace, counters, options.fall_back_hypotheses);
-  if (refuted())
+  if (!settles(scene, found, 2, counters.hypotheses - before))
   {
     anchors_.search(scene, found, workspace, counters, options.fall_back_hypotheses);
   }
