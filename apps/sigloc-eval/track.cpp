@@ -118,6 +118,10 @@ std::function<int()> setUpTrack(CLI::App& command, const std::string& command_li
   command.add_option("--travel", options.travel, "[m] driven after each")->capture_default_str();
   command.add_option("--start-from", options.start_from,
                      "simplemap: wake up only where its key frames were taken");
+  command
+      .add_option("--particles", options.method.particles,
+                  "of the particle filters, instead of their own number")
+      ->check(CLI::PositiveNumber);
   command.add_flag("--kidnap", options.kidnap, "half-way, carry the robot to another start");
   command
       .add_option("--map-from-truth", flags->map_from_truth,

@@ -146,6 +146,11 @@ std::unique_ptr<TrackingMethodFactory> detail::makeMonteCarlo(
   {
     throw std::invalid_argument("unknown method '" + name + "'");
   }
+  if (options.particles)
+  {
+    settings.particles = *options.particles;
+    settings.kld_maximum = std::max(settings.kld_maximum, *options.particles);
+  }
   return std::make_unique<MonteCarloFactory>(raster, settings);
 }
 }  // namespace sigloc

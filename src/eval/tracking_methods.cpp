@@ -64,8 +64,9 @@ class ParticleTracking : public TrackingMethod
  public:
   ParticleTracking(std::shared_ptr<const SignatureMap> map,
                    std::shared_ptr<const SignatureMatcher> matcher,
-                   const std::optional<PoseRegion>& region, std::uint32_t seed)
-      : tracker_(std::move(map), std::move(matcher), {}, {}, seed)
+                   const std::optional<PoseRegion>& region, const ParticleOptions& particles,
+                   std::uint32_t seed)
+      : tracker_(std::move(map), std::move(matcher), {}, particles, seed)
   {
     tracker_.reset(region);
   }
@@ -84,6 +85,7 @@ class SignatureTrackingFactory : public TrackingMethodFactory
       : region_(options.region)
   {
     if (particles) particle_map_ = std::make_shared<const SignatureMap>(FeatureMap(*map.features));
+    if (options.particles) particles_.particles = *options.particles;
     MatcherOptions matching;
     matching.seed = options.seed;
     matching.use_dense_field = options.use_dense_field;
@@ -94,7 +96,7 @@ class SignatureTrackingFactory : public TrackingMethodFactory
   {
     if (particle_map_)
     {
-      return std::make_unique<ParticleTracking>(particle_map_, matcher_, region_, seed);
+      return std::make_unique<ParticleTracking>(particle_map_, matcher_, region_, particles_, seed);
     }
     return std::make_unique<SignatureTracking>(matcher_, region_);
   }
@@ -105,6 +107,7 @@ class SignatureTrackingFactory : public TrackingMethodFactory
  private:
   std::shared_ptr<const SignatureMatcher> matcher_;
   std::shared_ptr<const SignatureMap> particle_map_;  // null: our own tracker
+  ParticleOptions particles_;
   std::optional<PoseRegion> region_;
 };
 }  // namespace

@@ -106,6 +106,23 @@ TEST(Track, FindsTheRobotOfTheOffice)
   }
 }
 
+TEST(Track, RunsParticleFiltersWithTheNumberAskedFor)
+{
+  TrackOptions options = officeOptions();
+  options.methods = {"signature-mcl", "mcl"};
+  options.starts = 1;
+  options.method.particles = 200;
+  const TrackReport few = runTrack(options);
+  EXPECT_TRUE(few.methods[0].runs.front().right_at_end) << "200 started by signatures do";
+  options.method.particles = 4000;
+  const TrackReport more = runTrack(options);
+  for (std::size_t m = 0; m < 2; ++m)
+  {
+    EXPECT_NE(few.methods[m].runs.front().steps.back().claim.pose,
+              more.methods[m].runs.front().steps.back().claim.pose);
+  }
+}
+
 TEST(Track, RefusesALogThatIsTooShort)
 {
   TrackOptions options = officeOptions();

@@ -44,6 +44,7 @@ struct RelocationMethodOptions
   std::optional<PoseRegion> region;
   bool use_dense_field = true;  ///< for the signature methods
   std::uint32_t seed = 1;
+  std::optional<std::uint32_t> particles;  ///< of the particle filters, instead of their own number
 };
 
 /// Names that `makeRelocationMethod` knows, in the order of the documentation.
