@@ -20,7 +20,7 @@ namespace
 // The whole file is one gzip member, whose own checksum covers every byte of it.
 constexpr char kMagic[] = "sigloc-map\n";
 constexpr std::size_t kMagicSize = sizeof(kMagic) - 1;
-constexpr std::uint8_t kBodyVersion = 1;
+constexpr std::uint8_t kBodyVersion = 2;
 constexpr std::size_t kBlockCells = 1U << 16U;
 constexpr std::size_t kFirstReserve = 1U << 14U;
 constexpr std::uint64_t kMostCells = 1ULL << 31U;
@@ -131,9 +131,11 @@ FeatureMap readFeatureMap(CArchive& in)
 {
   std::uint8_t version = 0;
   in >> version;
-  if (version == 0 || version > kBodyVersion)
+  if (version != kBodyVersion)
   {
-    throw std::runtime_error("feature map of unknown version " + std::to_string(version));
+    throw std::runtime_error("feature map of version " + std::to_string(version) +
+                             ", this sigloc reads version " + std::to_string(kBodyVersion) +
+                             ": build it again");
   }
   MapProvenance provenance;
   in >> provenance.source_path >> provenance.source_checksum >> provenance.options_digest;
@@ -176,7 +178,7 @@ FeatureMap loadSigmap(const std::filesystem::path& path)
   catch (const std::exception& error)
   {
     const std::string what = error.what();
-    if (what.find("unknown version") != std::string::npos) reason = what;
+    if (what.find("feature map of version") != std::string::npos) reason = what;
   }
   fail(path, reason);
 }

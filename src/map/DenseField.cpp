@@ -9,8 +9,14 @@
 
 namespace sigloc
 {
+using mrpt::math::TPoint2D;
+using mrpt::math::TPoint2Df;
+
 namespace
 {
+constexpr double kRidgeRadius = 0.1;  // [m] of wall cells whose middle is a wall's ridge
+constexpr double kRidgeSigma = 0.1;  // [m], of their weights
+constexpr double kSolidWeight = 2.0;  // of a solid wall cell beside a wall cell
 constexpr std::int32_t kNone = std::numeric_limits<std::int16_t>::max();
 
 /// The truncation radius [cells]: what fits both the distance byte and the offset bytes.
@@ -32,6 +38,12 @@ void checkRaster(const OccupancyRaster& raster)
   {
     throw std::invalid_argument("buildDenseField: cell count disagrees with the frame");
   }
+}
+
+std::int8_t offsetByte(double metres)
+{
+  const double units = std::round(metres / DenseField::kOffsetUnit);
+  return static_cast<std::int8_t>(std::clamp(units, -127.0, 127.0));
 }
 
 /// For every cell the signed offset to the nearest wall cell of its column, or kNone.
@@ -68,6 +80,44 @@ std::vector<std::int16_t> columnOffsets(const OccupancyRaster& raster, std::int3
     }
   }
   return offsets;
+}
+
+/// For every wall cell the vector [m] from its middle to the ridge of its wall, the centroid of the
+/// wall cells around: noise makes mapped walls several cells thick, and returns belong in the
+/// middle of them.
+std::vector<TPoint2Df> wallRidges(const OccupancyRaster& raster)
+{
+  const double resolution = raster.frame.resolution;
+  const auto width = static_cast<std::int32_t>(raster.frame.width);
+  const auto height = static_cast<std::int32_t>(raster.frame.height);
+  const auto radius = static_cast<std::int32_t>(std::lround(kRidgeRadius / resolution));
+  const auto at = [&](std::int32_t x, std::int32_t y)
+  { return static_cast<std::size_t>(y) * raster.frame.width + static_cast<std::size_t>(x); };
+  const double falloff = 0.5 * resolution * resolution / (kRidgeSigma * kRidgeSigma);
+  std::vector<TPoint2Df> ridges(raster.cells.size());
+  for (std::int32_t y = 0; y < height; ++y)
+  {
+    for (std::int32_t x = 0; x < width; ++x)
+    {
+      if (!isWall(raster.cells[at(x, y)])) continue;
+      double sum = 0;
+      TPoint2D moment(0, 0);
+      for (std::int32_t j = std::max(-radius, -y); j <= std::min(radius, height - 1 - y); ++j)
+      {
+        for (std::int32_t i = std::max(-radius, -x); i <= std::min(radius, width - 1 - x); ++i)
+        {
+          const CellState state = raster.cells[at(x + i, y + j)];
+          if (!isWall(state)) continue;
+          const double weight = std::exp(-falloff * (i * i + j * j)) *
+                                (state == CellState::solid_wall ? kSolidWeight : 1.0);
+          sum += weight;
+          moment += TPoint2D(i, j) * weight;
+        }
+      }
+      ridges[at(x, y)] = TPoint2Df(moment * (resolution / sum));
+    }
+  }
+  return ridges;
 }
 
 /// Lower envelope of parabolas over one row: the exact nearest wall cell within the radius.
@@ -141,6 +191,7 @@ DenseField buildDenseField(const OccupancyRaster& raster)
   field.cells.resize(raster.cells.size());
 
   const std::vector<std::int16_t> offsets = columnOffsets(raster, radius);
+  const std::vector<TPoint2Df> ridges = wallRidges(raster);
   RowEnvelope envelope(raster.frame.width);
   std::vector<std::int32_t> nearest(raster.frame.width);
   std::size_t free_cells = 0;
@@ -161,8 +212,11 @@ DenseField buildDenseField(const OccupancyRaster& raster)
       if (dx * dx + dy * dy > radius * radius) continue;
       const double distance = resolution * std::sqrt(static_cast<double>(dx * dx + dy * dy));
       cell.distance = static_cast<std::uint8_t>(std::lround(distance / DenseField::kDistanceUnit));
-      cell.dx = static_cast<std::int8_t>(dx);
-      cell.dy = static_cast<std::int8_t>(dy);
+      const TPoint2Df& ridge =
+          ridges[static_cast<std::size_t>(static_cast<std::int32_t>(y) + dy) * raster.frame.width +
+                 static_cast<std::size_t>(nearest[column])];
+      cell.dx = offsetByte(dx * resolution + static_cast<double>(ridge.x));
+      cell.dy = offsetByte(dy * resolution + static_cast<double>(ridge.y));
     }
   }
   field.free_area = static_cast<double>(free_cells) * resolution * resolution;

@@ -18,11 +18,11 @@ constexpr double kParallel = 0.35;  // [rad], walls closer than this tell the sa
 constexpr double kMinPairDistance = 0.8;  // [m], shorter pairs give poor headings
 constexpr double kRadiusTolerance = 0.3;  // [m], an observed radius is good to this only
 
-/// The pose that turns by `phi` and carries a point of the robot frame to one of the map.
-PoseProposal poseCarrying(const TPoint2D& in_robot, const TPoint2D& in_map, double phi)
+/// The pose that turns by `phi`, with cosine `c` and sine `s`, and carries a point of the robot
+/// frame to one of the map.
+PoseProposal poseCarrying(const TPoint2D& in_robot, const TPoint2D& in_map, double phi, double c,
+                          double s)
 {
-  const double c = std::cos(phi);
-  const double s = std::sin(phi);
   return {static_cast<float>(in_map.x - c * in_robot.x + s * in_robot.y),
           static_cast<float>(in_map.y - s * in_robot.x - c * in_robot.y), static_cast<float>(phi)};
 }
@@ -39,17 +39,16 @@ BaseProposer::BaseProposer(const FeatureMap& map, const BaseProposerOptions& opt
     const Feature& feature = features[k];
     if (feature.type == FeatureType::wall_end)
     {
-      wall_ends_[static_cast<std::size_t>(feature.side)].push_back(k);
+      wall_ends_[static_cast<std::size_t>(feature.side)].push_back(
+          {feature.position, feature.size, feature.direction, std::cos(feature.direction),
+           std::sin(feature.direction)});
     }
     if (feature.type == FeatureType::circle) circles.push_back(k);
   }
   for (auto& ends : wall_ends_)
   {
-    std::sort(ends.begin(), ends.end(),
-              [&](std::uint32_t a, std::uint32_t b) {
-                return features[a].size != features[b].size ? features[a].size > features[b].size
-                                                            : a < b;
-              });
+    std::stable_sort(ends.begin(), ends.end(),
+                     [](const MappedEnd& a, const MappedEnd& b) { return a.length > b.length; });
   }
   for (const WallLine& line : map.lines())
   {
@@ -71,9 +70,10 @@ BaseProposer::BaseProposer(const FeatureMap& map, const BaseProposerOptions& opt
     for (const std::uint32_t b : circles)
     {
       if (a == b) continue;
-      const double distance = (features[a].position - features[b].position).norm();
+      const TPoint2D d = features[b].position - features[a].position;
+      const double distance = d.norm();
       if (distance < kMinPairDistance || distance > options.pair_range) continue;
-      pairs_.push_back({distance, a, b});
+      pairs_.push_back({distance, a, b, std::atan2(d.y, d.x), d.x / distance, d.y / distance});
     }
   }
   std::sort(pairs_.begin(), pairs_.end(),
@@ -104,12 +104,13 @@ void BaseProposer::proposeWallEnds(const std::vector<Feature>& observed,
   for (const Feature& end : observed)
   {
     if (end.type != FeatureType::wall_end) continue;
-    for (const std::uint32_t k : wall_ends_[static_cast<std::size_t>(end.side)])
+    const double c = std::cos(end.direction);
+    const double s = std::sin(end.direction);
+    for (const MappedEnd& mapped : wall_ends_[static_cast<std::size_t>(end.side)])
     {
-      const Feature& mapped = map_.features()[k];
-      if (mapped.size + options_.length_tolerance < end.size * (1.0 - options_.overhang)) break;
-      const double phi = wrapToPi(mapped.direction - end.direction);
-      out.push_back(poseCarrying(end.position, mapped.position, phi));
+      if (mapped.length + options_.length_tolerance < end.size * (1.0 - options_.overhang)) break;
+      out.push_back(poseCarrying(end.position, mapped.position, mapped.direction - end.direction,
+                                 mapped.c * c + mapped.s * s, mapped.s * c - mapped.c * s));
     }
   }
 }
@@ -142,7 +143,9 @@ void BaseProposer::proposeSlidWalls(const std::vector<Feature>& observed, std::s
     for (const MappedWall& mapped : walls_)
     {
       if (mapped.length + options_.length_tolerance < wall->size * (1.0 - options_.overhang)) break;
-      const double phi = wrapToPi(mapped.direction - wall->direction);
+      const double phi = mapped.direction - wall->direction;
+      const double c = std::cos(phi);
+      const double s = std::sin(phi);
       const TPoint2D tangent(std::sin(mapped.direction), -std::cos(mapped.direction));
       const double low = std::min(inside, 0.5 * mapped.length);
       const double high = std::max(mapped.length - inside, 0.5 * mapped.length);
@@ -150,7 +153,7 @@ void BaseProposer::proposeSlidWalls(const std::vector<Feature>& observed, std::s
       for (int k = 0; k <= steps; ++k)
       {
         const double along = steps == 0 ? low : low + (high - low) * k / steps;
-        out.push_back(poseCarrying(wall->position, mapped.start + tangent * along, phi));
+        out.push_back(poseCarrying(wall->position, mapped.start + tangent * along, phi, c, s));
       }
     }
   }
@@ -191,6 +194,9 @@ void BaseProposer::proposeCirclePairs(const std::vector<Feature>& observed, std:
   {
     const TPoint2D seen = choice.b->position - choice.a->position;
     const double bearing = std::atan2(seen.y, seen.x);
+    const double c = std::cos(bearing);
+    const double s = std::sin(bearing);
+    const TPoint2D middle_seen = (choice.a->position + choice.b->position) * 0.5;
     for (auto pair = choice.first; pair != choice.last; ++pair)
     {
       const Feature& from = map_.features()[pair->from];
@@ -200,10 +206,9 @@ void BaseProposer::proposeCirclePairs(const std::vector<Feature>& observed, std:
       {
         continue;
       }
-      const TPoint2D mapped = to.position - from.position;
-      const double phi = wrapToPi(std::atan2(mapped.y, mapped.x) - bearing);
-      const TPoint2D middle_seen = (choice.a->position + choice.b->position) * 0.5;
-      out.push_back(poseCarrying(middle_seen, (from.position + to.position) * 0.5, phi));
+      out.push_back(poseCarrying(middle_seen, (from.position + to.position) * 0.5,
+                                 pair->bearing - bearing, pair->c * c + pair->s * s,
+                                 pair->s * c - pair->c * s));
     }
   }
 }

@@ -38,8 +38,8 @@ class CellView
     return cells_[static_cast<std::size_t>(fy) * width_ + static_cast<std::size_t>(fx)];
   }
 
-  /// The vector from the middle of the nearest wall cell to (x, y) [m]; false when there is none
-  /// within the field's reach.
+  /// The vector from the ridge of the nearest wall to (x, y) [m]; false when there is none within
+  /// the field's reach.
   bool offsetToWall(float x, float y, float& ex, float& ey) const
   {
     const float fx = (x - x0_) * scale_;
@@ -53,8 +53,9 @@ class CellView
     const auto iy = static_cast<std::int32_t>(fy);
     const DenseCell& cell =
         cells_[static_cast<std::size_t>(iy) * width_ + static_cast<std::size_t>(ix)];
-    ex = (fx - static_cast<float>(ix + cell.dx) - 0.5F) * resolution_;
-    ey = (fy - static_cast<float>(iy + cell.dy) - 0.5F) * resolution_;
+    constexpr auto kUnit = static_cast<float>(DenseField::kOffsetUnit);
+    ex = (fx - static_cast<float>(ix) - 0.5F) * resolution_ - static_cast<float>(cell.dx) * kUnit;
+    ey = (fy - static_cast<float>(iy) - 0.5F) * resolution_ - static_cast<float>(cell.dy) * kUnit;
     return cell.distance != 255;
   }
 

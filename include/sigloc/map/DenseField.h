@@ -47,7 +47,9 @@ struct DenseCell
 {
   std::uint8_t distance =
       255;  ///< to the nearest wall cell, in units of DenseField::kDistanceUnit; 255: farther
-  std::int8_t dx = 0;  ///< offset to the nearest wall cell [cells], meaningful where distance < 255
+  /// From the middle of the cell to the ridge of the nearest wall, in units of
+  /// DenseField::kOffsetUnit; meaningful where distance < 255.
+  std::int8_t dx = 0;
   std::int8_t dy = 0;
   CellState state = CellState::unknown;
 };
@@ -57,6 +59,7 @@ struct DenseCell
 struct DenseField
 {
   static constexpr double kDistanceUnit = 0.005;  ///< [m] per unit of DenseCell::distance
+  static constexpr double kOffsetUnit = 0.01;  ///< [m] per unit of DenseCell::dx and dy
   RasterFrame frame;
   std::vector<DenseCell> cells;  ///< width * height
   double free_area = 0;  ///< [m^2] known to be free

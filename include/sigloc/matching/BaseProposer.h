@@ -77,6 +77,13 @@ class BaseProposer
                                     Effort effort = Effort::usual) const;
 
  private:
+  struct MappedEnd
+  {
+    mrpt::math::TPoint2D position;  // [m]
+    double length;  // [m] of its wall
+    double direction;  // of its wall [rad]
+    double c, s;  // cosine and sine of it
+  };
   struct MappedWall
   {
     double direction;  // normal [rad]
@@ -87,6 +94,8 @@ class BaseProposer
   {
     double distance;
     std::uint32_t from, to;
+    double bearing;  // of `to` from `from` [rad]
+    double c, s;  // cosine and sine of it
   };
 
   void proposeWallEnds(const std::vector<Feature>& observed, std::vector<PoseProposal>& out) const;
@@ -97,7 +106,7 @@ class BaseProposer
 
   const FeatureMap& map_;
   BaseProposerOptions options_;
-  std::array<std::vector<std::uint32_t>, 2> wall_ends_;  // by side, longest wall first
+  std::array<std::vector<MappedEnd>, 2> wall_ends_;  // by side, longest wall first
   std::vector<MappedWall> walls_;  // longest first
   std::vector<CirclePair> pairs_;  // by distance
 };

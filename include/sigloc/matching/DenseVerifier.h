@@ -5,7 +5,7 @@
 #include <mrpt/math/TPose2D.h>
 
 #include <cstdint>
-#include <optional>
+#include <memory>
 #include <vector>
 
 #include "sigloc/features/ObservedScene.h"
@@ -34,7 +34,7 @@ struct PoseProposal
 {
   float x = 0;  ///< [m]
   float y = 0;  ///< [m]
-  float phi = 0;  ///< [rad]
+  float phi = 0;  ///< [rad], not wrapped
 };
 
 /// What the dense field says of a pose; all shares are of the returns used.
@@ -55,6 +55,10 @@ struct RankedPose
   DenseEvidence evidence;
 };
 
+struct QuickLook;
+class QuickField;
+class SolidWalls;
+
 /// Judges poses by the dense field. Never searches: every pose comes from a proposal and is
 /// refined by at most 0.5 m and 10 degrees. Const and thread-safe. \cite algorithm section 6
 class DenseVerifier
@@ -63,6 +67,7 @@ class DenseVerifier
   /// Keeps a reference to the field, which must outlive the verifier. Throws std::invalid_argument
   /// for a field without cells.
   explicit DenseVerifier(const DenseField& field);
+  ~DenseVerifier();
 
   /// Returns at most `max_ranked` distinct poses (more than 0.5 m or 17 degrees apart), best first.
   /// `poses_scored` is increased by the number of poses looked up.
@@ -85,26 +90,16 @@ class DenseVerifier
   const DenseField& field() const { return field_; }
 
  private:
-  struct Scored
-  {
-    float score;
-    std::uint32_t index;
-  };
-  std::vector<Scored> firstLook(const DenseScan& scan,
-                                const std::vector<PoseProposal>& proposals) const;
   std::vector<RankedPose> refineBest(const DenseScan& scan,
                                      const std::vector<PoseProposal>& proposals,
-                                     const std::vector<Scored>& scored) const;
-  void markStanding(std::uint32_t x, std::uint32_t y);
-  bool canStand(float x, float y) const;
+                                     std::vector<QuickLook> best) const;
+  DenseEvidence evaluate(const DenseScan& scan, const mrpt::math::TPose2D& pose,
+                         std::size_t rays) const;
   double likelihood(const DenseScan& scan, const mrpt::math::TPose2D& pose,
                     std::size_t beams) const;
-  double throughWallShare(const DenseScan& scan, const mrpt::math::TPose2D& pose) const;
 
   const DenseField& field_;
-  RasterFrame quick_frame_;  ///< coarser raster of likelihoods for the first look
-  std::vector<std::uint8_t> quick_;  ///< likelihoods; element 0 stands for everything outside
-  RasterFrame standing_frame_;  ///< coarse raster of where a robot can be
-  std::vector<std::uint8_t> standing_;  ///< 1: free space in or beside the cell
+  std::unique_ptr<const QuickField> quick_;
+  std::unique_ptr<const SolidWalls> solid_walls_;
 };
 }  // namespace sigloc

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sigloc/map/DenseField.h"
+#include "sigloc/matching/DenseVerifier.h"
+
+namespace sigloc
+{
+/// A raster over the same area with cells of about `cell` [m], a whole number of the finer ones.
+RasterFrame coarserFrame(const RasterFrame& fine, double cell);
+
+/// A proposal's first look.
+struct QuickLook
+{
+  std::uint32_t score;  ///< sum of the likelihood bytes of the returns looked up
+  std::uint32_t index;  ///< of the proposal
+};
+
+/// The first look at many proposals: a few returns each, on a coarse raster of likelihoods, turned
+/// by a table of headings. Const and thread-safe. \cite algorithm section 6
+class QuickField
+{
+ public:
+  explicit QuickField(const DenseField& field);
+
+  /// Looks at every proposal that a robot could stand at, in their order.
+  std::vector<QuickLook> look(const DenseScan& scan, const std::vector<PoseProposal>& proposals) const;
+
+ private:
+  class TurnedReturns;
+  void markStanding(std::uint32_t x, std::uint32_t y);
+  bool canStand(float x, float y) const;
+
+  RasterFrame frame_;  ///< of the likelihoods, with a border around the map
+  std::vector<std::uint8_t> likelihoods_;
+  RasterFrame standing_frame_;
+  std::vector<std::uint8_t> standing_;  ///< not 0: free space in or beside the cell
+};
+}  // namespace sigloc
