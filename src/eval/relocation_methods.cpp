@@ -10,6 +10,7 @@
 #include "sigloc/eval/RelocationMethod.h"
 #include "sigloc/features/FeatureExtractor.h"
 #include "sigloc/matching/DenseVerifier.h"
+#include "sigloc/matching/judging.h"
 #include "sigloc/matching/weighing.h"
 
 namespace sigloc
@@ -115,14 +116,8 @@ class LatticeRelocation : public RelocationMethod
     RelocationResult result;
     if (scene.beams.empty()) return result;
     const DenseScan scan = makeDenseScan(scene, kMaxBeams);
-    for (const RankedPose& ranked :
-         verifier_.rank(scan, proposals_, kMaxRanked, result.counters.poses_scored))
-    {
-      Candidate candidate;
-      candidate.pose.mean = ranked.pose;
-      candidate.score = ranked.evidence.score;
-      result.candidates.push_back(candidate);
-    }
+    result.candidates = judgedCandidates(verifier_, scene, scan, proposals_, kMaxRanked,
+                                         result.counters.poses_scored);
     weighCandidates(result);
     return result;
   }

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "CellView.h"
+#include "likelihood_table.h"
 #include "QuickField.h"
 #include "SolidWalls.h"
-#include "likelihood_table.h"
 
 namespace sigloc
 {
@@ -74,16 +74,13 @@ void keepDistinct(std::vector<RankedPose>& poses, std::size_t count,
   poses = std::move(kept);
 }
 
-/// Key of the 0.4 m x 8 degree cell of poses that a proposal lies in.
-std::uint64_t poseCell(const PoseProposal& p)
+/// Whether two proposals are so near each other that one of them is enough to refine.
+bool near(const PoseProposal& a, const PoseProposal& b)
 {
-  const auto bin = [](float value, float size)
-  {
-    const auto index = static_cast<std::int64_t>(std::floor(value / size));
-    return static_cast<std::uint64_t>(index) & 0xFFFFFU;
-  };
-  const auto heading = static_cast<float>(wrapToPi(static_cast<double>(p.phi)));
-  return bin(p.x, 0.4F) << 40U | bin(p.y, 0.4F) << 20U | bin(heading, 0.14F);
+  constexpr float kReach = 0.25F;  // [m] along each axis
+  constexpr double kTurn = 4.5 * M_PI / 180.0;  // [rad]
+  return std::abs(a.x - b.x) < kReach && std::abs(a.y - b.y) < kReach &&
+         std::abs(wrapToPi(static_cast<double>(a.phi - b.phi))) < kTurn;
 }
 }  // namespace
 
@@ -152,14 +149,16 @@ std::vector<RankedPose> DenseVerifier::refineBest(const DenseScan& scan,
 
   std::vector<RankedPose> poses;
   poses.reserve(kQuickKept);
-  std::vector<std::uint64_t> taken;
+  // By distance, not by cells of the map: moving the map must not change which ones are refined.
+  std::vector<const PoseProposal*> taken;
   for (const QuickLook& look : best)
   {
     if (poses.size() == kQuickKept) break;
     const PoseProposal& p = proposals[look.index];
-    const std::uint64_t cell = poseCell(p);
-    if (std::find(taken.begin(), taken.end(), cell) != taken.end()) continue;
-    taken.push_back(cell);
+    const bool known = std::any_of(taken.begin(), taken.end(),
+                                   [&](const PoseProposal* other) { return near(p, *other); });
+    if (known) continue;
+    taken.push_back(&p);
     RankedPose pose;
     pose.pose = refine(scan, {p.x, p.y, p.phi}, kMiddleSteps, kMiddleBeams);
     pose.evidence.score = likelihood(scan, pose.pose, kMiddleScored);

@@ -162,7 +162,7 @@ bool QuickField::canStand(float x, float y) const
 }
 
 std::vector<QuickLook> QuickField::look(const DenseScan& scan,
-                                               const std::vector<PoseProposal>& proposals) const
+                                        const std::vector<PoseProposal>& proposals) const
 {
   const auto scale = static_cast<float>(1.0 / frame_.resolution);
   const auto origin_x = static_cast<float>(frame_.origin.x);

@@ -28,7 +28,8 @@ class QuickField
   explicit QuickField(const DenseField& field);
 
   /// Looks at every proposal that a robot could stand at, in their order.
-  std::vector<QuickLook> look(const DenseScan& scan, const std::vector<PoseProposal>& proposals) const;
+  std::vector<QuickLook> look(const DenseScan& scan,
+                              const std::vector<PoseProposal>& proposals) const;
 
  private:
   class TurnedReturns;

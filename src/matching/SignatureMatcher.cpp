@@ -12,6 +12,7 @@
 #include "sigloc/matching/DenseVerifier.h"
 #include "sigloc/matching/GeneratorOptions.h"
 #include "sigloc/matching/generators.h"
+#include "sigloc/matching/judging.h"
 #include "sigloc/matching/weighing.h"
 
 namespace sigloc
@@ -91,6 +92,7 @@ RelocationResult SignatureMatcher::localize(const ObservedScene& scene,
   // 2. Verify: by the dense field where the map has one and there are returns to look up.
   if (verifier_ && !scene.beams.empty())
   {
+    // 3. ... and weigh the rivals and "somewhere else"; decide.
     if (generator_)
     {
       verifyDensely(scene, proposalsOf(hypotheses), region, result);
@@ -99,8 +101,6 @@ RelocationResult SignatureMatcher::localize(const ObservedScene& scene,
     {
       verifyBases(scene, region, result);
     }
-    // 3. Weigh the rivals and "somewhere else"; decide.
-    weighCandidates(result);
     return result;
   }
   for (FeatureHypothesis& hypothesis : hypotheses)
@@ -149,25 +149,25 @@ void SignatureMatcher::verifyDensely(const ObservedScene& scene,
                                      const std::optional<PoseRegion>& region,
                                      RelocationResult& result) const
 {
-  if (region)
-  {
-    const auto outside = [&](const PoseProposal& p) {
-      return !region->contains({p.x, p.y, p.phi});
-    };
-    proposals.erase(std::remove_if(proposals.begin(), proposals.end(), outside), proposals.end());
-  }
   const DenseScan scan = makeDenseScan(scene, kMaxBeams);
-  for (const RankedPose& ranked :
-       verifier_->rank(scan, proposals, options_.max_candidates, result.counters.poses_scored))
+  const auto judged = [&](const std::vector<PoseProposal>& poses)
   {
-    Candidate candidate;
-    candidate.pose.mean = ranked.pose;
+    return judgedCandidates(*verifier_, scene, scan, poses, options_.max_candidates,
+                            result.counters.poses_scored);
+  };
+  const auto outside =
+      std::stable_partition(proposals.begin(), proposals.end(),
+                            [&](const PoseProposal& p) {
+                              return !region || region->contains({p.x, p.y, p.phi});
+                            });
+  const std::vector<Candidate> rivals = judged({outside, proposals.end()});
+  proposals.erase(outside, proposals.end());
+  result.candidates = judged(proposals);
+  for (Candidate& candidate : result.candidates)
+  {
     candidate.pose.covariance =
-        verifier_->covarianceAt(scan, ranked.pose, map_->error().common_sigma);
-    candidate.score = ranked.evidence.score;
-    candidate.explained = ranked.evidence.coarse;
-    candidate.through_wall = ranked.evidence.through_wall;
-    result.candidates.push_back(candidate);
+        verifier_->covarianceAt(scan, candidate.pose.mean, map_->error().common_sigma);
   }
+  weighCandidates(result, rivals);
 }
 }  // namespace sigloc

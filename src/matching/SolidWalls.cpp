@@ -73,8 +73,7 @@ SolidWalls::SolidWalls(const DenseField& field)
   spreadRings(clear_rings_, frame_.width, frame_.height);
 }
 
-double SolidWalls::throughShare(const DenseScan& scan, const TPose2D& pose,
-                                std::size_t beams) const
+double SolidWalls::throughShare(const DenseScan& scan, const TPose2D& pose, std::size_t beams) const
 {
   const std::size_t count = std::min(beams, scan.size());
   const Placement place(pose);

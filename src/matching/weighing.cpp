@@ -15,9 +15,15 @@ namespace
 constexpr double kScoreSlope = 15.0;  // of the log-likelihood per unit of score
 constexpr double kMisfitPower = 5.0;  // of the unexplained share
 constexpr double kMisfitFloor = 0.02;  // share that even the right pose leaves unexplained
-constexpr double kSharpening = 1.3;  // of rivals against each other
-constexpr double kHereSlope = 12.0;  // of the log-odds of being in the map, per unit of score
-constexpr double kHereOffset = 10.4;
+constexpr double kSharpening = 1.0;  // of rivals against each other
+// The log-odds of being in the map, fitted on simulated worlds too, section 7.
+constexpr double kExplainedSlope = 8.5;  // per share of what is no occlusion
+constexpr double kThroughSlope = 20.0;  // per share of beams through walls
+constexpr double kFactSlope = 0.3;  // per explained fact
+constexpr double kLeadSlope = 0.46;  // per unit of log-likelihood ahead of the best rival
+constexpr double kFitOffset = 11.2;
+constexpr double kPriorHere = 2.3;  // log-odds: one wake-up in eleven is off the map
+constexpr double kPriorOutside = 0.01;  // of a pose outside the region it is said to be in
 constexpr double kChanceScore = 0.4;  // what chance reaches where there is no runner-up
 constexpr double kFeatureTempering = 0.25;  // features of one scan share their errors
 constexpr double kPriorElsewhere =
@@ -68,28 +74,38 @@ double reliabilityOf(const DenseEvidence& evidence)
   return std::clamp((evidence.fine - 0.5 * evidence.through_wall) / seen, 0.0, 1.0);
 }
 
-double hereLogOdds(double best_score, double rival_score)
+double fitLogOdds(const Candidate& candidate)
 {
-  return kHereSlope * best_score + logLikelihoodOfScore(best_score) -
-         logLikelihoodOfScore(rival_score) - kHereOffset;
+  // A return in free space may be an occlusion: it speaks against the pose's rank, not against
+  // being in the map. The score already holds half of both shares.
+  const double explained = candidate.score + 0.5 * candidate.through_wall + 1.5 * candidate.in_free;
+  return kExplainedSlope * explained - kThroughSlope * candidate.through_wall +
+         kFactSlope * candidate.facts - kFitOffset + kPriorHere;
 }
 
-void weighCandidates(RelocationResult& result)
+double leadLogOdds(double score, double rival_score)
+{
+  return kLeadSlope * (logLikelihoodOfScore(score) - logLikelihoodOfScore(rival_score));
+}
+
+void weighCandidates(RelocationResult& result, const std::vector<Candidate>& outside)
 {
   std::vector<Candidate>& candidates = result.candidates;
   if (candidates.empty()) return decide(result);
   const double best = logLikelihoodOfScore(candidates.front().score);
-  const double runner_up = candidates.size() > 1 ? candidates[1].score : kChanceScore;
-  const double here = 1.0 / (1.0 + std::exp(-hereLogOdds(candidates.front().score, runner_up)));
-
+  const auto weight_of = [&](const Candidate& candidate)
+  { return std::exp(kSharpening * (logLikelihoodOfScore(candidate.score) - best)); };
   double sum = 0;
-  for (Candidate& candidate : candidates)
-  {
-    candidate.probability = std::exp(kSharpening * (logLikelihoodOfScore(candidate.score) - best));
-    sum += candidate.probability;
-  }
-  for (Candidate& candidate : candidates) candidate.probability *= here / sum;
-  result.elsewhere = 1.0 - here;
+  for (Candidate& candidate : candidates) sum += candidate.probability = weight_of(candidate);
+  double sum_outside = 0;
+  for (const Candidate& candidate : outside) sum_outside += kPriorOutside * weight_of(candidate);
+
+  const double runner_up = candidates.size() > 1 ? candidates[1].score : kChanceScore;
+  const double log_odds =
+      fitLogOdds(candidates.front()) + leadLogOdds(candidates.front().score, runner_up);
+  const double here = 1.0 / (1.0 + std::exp(-log_odds));
+  for (Candidate& candidate : candidates) candidate.probability *= here / (sum + sum_outside);
+  result.elsewhere = 1.0 - here * sum / (sum + sum_outside);
 
   decide(result);
 }

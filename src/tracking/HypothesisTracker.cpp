@@ -229,7 +229,8 @@ void HypothesisTracker::State::confirm(const RelocationResult& result, double fr
     if (track.confirmed >= options.confirmation && evidence < 0 && !far_better) evidence = 0;
     track.confirmed = std::min(kMaxConfirmed, track.confirmed + fresh_share * evidence);
   }
-  double here = std::clamp(hereLogOdds(best_tracked, best_untracked), -kMaxLost, kMaxLost);
+  const double fit = result.candidates.empty() ? 0 : fitLogOdds(result.candidates.front());
+  double here = std::clamp(fit + leadLogOdds(best_tracked, best_untracked), -kMaxLost, kMaxLost);
   const bool held =
       std::any_of(set.tracks.begin(), set.tracks.end(),
                   [&](const Track& track) { return track.confirmed >= options.confirmation; });

@@ -212,16 +212,14 @@ Tally askInAnotherMap(const MappedWorld& there, const SignatureMatcher& matcher,
 
 TEST(Localization, IsSeldomConfidentInAMirrorImageOrAForeignMap)
 {
-  // A single look at a plain corner of a rectangular room fits another building's room by chance:
-  // up to 4 % here. The tracker, which asks for more than one look, is held to none.
   const MappedWorld mirror(mirrored(officeWorld(kOfficeSeed)), kOfficeSeed);
   const Tally in_mirror = askInAnotherMap(office(), *mirror.matcher(), 100, 1004);
   std::cout << "mirrored: " << in_mirror << "\n";
-  EXPECT_LE(in_mirror.confident, 4);
+  EXPECT_LE(in_mirror.confident, 1);
   const MappedWorld foreign(officeWorld(kOfficeSeed + 100), kOfficeSeed);
   const Tally in_foreign = askInAnotherMap(office(), *foreign.matcher(), 100, 1005);
   std::cout << "foreign: " << in_foreign << "\n";
-  EXPECT_LE(in_foreign.confident, 4);
+  EXPECT_LE(in_foreign.confident, 1);
 }
 
 TEST(Localization, AnEmptyMapSaysNothing)

@@ -24,6 +24,8 @@ struct Candidate
   double probability = 0;  ///< of this pose being the right one; with `elsewhere` they sum to 1
   double explained = 0;  ///< share of the returns that end on mapped structure
   double through_wall = 0;  ///< share of the beams that pass through mapped walls
+  double in_free = 0;  ///< share of the returns that end in known free space
+  std::uint32_t facts = 0;  ///< what the map explains of the features seen; the first candidate's
   std::vector<FeaturePairing> pairings;
 };
 
@@ -93,7 +95,8 @@ class SignatureMatcher
   SignatureMatcher(const SignatureMatcher&) = delete;
   SignatureMatcher& operator=(const SignatureMatcher&) = delete;
 
-  /// Returns ranked candidates and a verdict; with a region only poses inside it are proposed.
+  /// Returns ranked candidates and a verdict. With a region the candidates are proposed inside it;
+  /// what fits outside counts, with a small prior, for standing elsewhere.
   RelocationResult localize(const ObservedScene& scene,
                             const std::optional<PoseRegion>& region = std::nullopt) const;
 

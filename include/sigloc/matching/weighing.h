@@ -17,14 +17,20 @@ double logLikelihoodOfScore(double score);
 /// cut short, the share on walls, less what came through walls. \cite algorithm eq. (8.11)
 double reliabilityOf(const DenseEvidence& evidence);
 
-/// Returns the log-odds of the robot standing at the best pose known rather than somewhere else,
-/// from that pose's score and that of the best rival. \cite algorithm eq. (7.2)
-double hereLogOdds(double best_score, double rival_score);
+/// Returns the log-odds of the robot standing at a pose rather than somewhere else, leaving its
+/// rivals aside: from how much of the scan it explains and how telling the scan is.
+/// \cite algorithm eq. (7.2)
+double fitLogOdds(const Candidate& candidate);
+
+/// Returns how much the log-odds of (7.2) gain from the lead of a score over the best rival's.
+/// \cite algorithm eq. (7.2)
+double leadLogOdds(double score, double rival_score);
 
 /// Distributes probability over candidates (best first, scores set) and "elsewhere", and fills the
-/// verdict. A candidate convinces by its own score and by its lead over the best rival: look-alikes
-/// share the weight, and the runner-up measures what chance reaches. \cite algorithm eq. (7.3)
-void weighCandidates(RelocationResult& result);
+/// verdict. A candidate convinces by what it explains and by its lead over the best rival:
+/// look-alikes share the weight, and the runner-up measures what chance reaches. Poses `outside` a
+/// prior region are rivals with a small prior that count as "elsewhere". \cite algorithm eq. (7.3)
+void weighCandidates(RelocationResult& result, const std::vector<Candidate>& outside = {});
 
 /// The same for candidates whose scores are log-odds against "all clutter" (maps without a dense
 /// field): the clutter hypothesis itself is what they compete with. \cite algorithm eq. (7.4)
