@@ -33,6 +33,23 @@ std::vector<std::uint32_t> interleavedOrder(std::uint32_t n)
   return order;
 }
 
+/// Whether no beam beside a return ends near it: a speck of clutter, or something thin and far.
+bool isIsolated(const std::vector<BeamEnd>& beams, std::size_t i)
+{
+  constexpr double kGap = 0.3;  // [m]
+  constexpr double kGapPerRange = 0.05;  // [m/m], beams fan out
+  const BeamEnd& beam = beams[i];
+  const double gap = kGap + kGapPerRange * beam.point.norm();
+  const std::size_t first = i < 2 ? 0 : i - 2;
+  const std::size_t last = std::min(beams.size() - 1, i + 2);
+  for (std::size_t k = first; k <= last; ++k)
+  {
+    if (k == i || beams[k].origin != beam.origin) continue;
+    if ((beams[k].point - beam.point).norm() < gap) return false;
+  }
+  return true;
+}
+
 /// The normal of the observed segment a return lies on, or (0, 0).
 TPoint2D normalAt(const std::vector<Feature>& features, const TPoint2D& point)
 {
@@ -55,6 +72,7 @@ DenseScan makeDenseScan(const ObservedScene& scene, std::size_t max_beams)
   DenseScan scan;
   scan.origins = scene.sensor_origins;
   for (auto* column : {&scan.x, &scan.y, &scan.nx, &scan.ny}) column->reserve(count);
+  scan.isolated.reserve(count);
   scan.origin.reserve(count);
   for (const std::uint32_t i : interleavedOrder(static_cast<std::uint32_t>(count)))
   {
@@ -64,6 +82,7 @@ DenseScan makeDenseScan(const ObservedScene& scene, std::size_t max_beams)
     scan.y.push_back(static_cast<float>(beam.point.y));
     scan.nx.push_back(static_cast<float>(normal.x));
     scan.ny.push_back(static_cast<float>(normal.y));
+    scan.isolated.push_back(isIsolated(scene.beams, i * total / count) ? 1 : 0);
     scan.origin.push_back(beam.origin);
   }
   return scan;

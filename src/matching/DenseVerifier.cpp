@@ -200,6 +200,7 @@ DenseEvidence DenseVerifier::evaluate(const DenseScan& scan, const TPose2D& pose
   float fine = 0;
   float coarse = 0;
   std::size_t in_free = 0;
+  std::size_t specks = 0;
   std::size_t unknown = 0;
   for (std::size_t i = 0; i < scan.size(); ++i)
   {
@@ -208,10 +209,11 @@ DenseEvidence DenseVerifier::evaluate(const DenseScan& scan, const TPose2D& pose
     fine += fineTable()[cell.distance];
     coarse += coarseTable()[cell.distance];
     if (cell.distance <= far_from_wall) continue;
-    if (cell.state == CellState::free) ++in_free;
+    if (cell.state == CellState::free) ++(scan.isolated[i] != 0 ? specks : in_free);
     if (cell.state == CellState::unknown) ++unknown;
   }
-  const auto n = static_cast<double>(scan.size());
+  // A lone return in free space is clutter, and says nothing.
+  const auto n = static_cast<double>(std::max<std::size_t>(1, scan.size() - specks));
   evidence.fine = static_cast<double>(fine) / n;
   evidence.coarse = static_cast<double>(coarse) / n;
   evidence.in_free = static_cast<double>(in_free) / n;

@@ -21,6 +21,7 @@ struct DenseScan
   std::vector<float> x, y;  ///< [m], robot frame
   std::vector<float> nx,
       ny;  ///< unit normal of the wall a return lies on, robot frame; (0, 0): none
+  std::vector<std::uint8_t> isolated;  ///< not 0: no beam beside it ends near it, may be clutter
   std::vector<std::uint32_t> origin;  ///< index into origins
   std::vector<mrpt::math::TPoint2D> origins;
   std::size_t size() const { return x.size(); }
