@@ -17,7 +17,6 @@
 
 namespace sigloc
 {
-using mrpt::bayes::CParticleFilter;
 using mrpt::math::TPose2D;
 using mrpt::obs::CActionCollection;
 using mrpt::obs::CSensoryFrame;

@@ -185,7 +185,7 @@ std::filesystem::path experimentSummaryFile(const std::filesystem::path& folder)
 {
   // "out/" is "out".
   const auto named = folder.has_filename() ? folder : folder.parent_path();
-  const std::filesystem::path path = named.string() + kSummaryEnding;
+  std::filesystem::path path = named.string() + kSummaryEnding;
   std::string first_word;
   std::ifstream(path) >> first_word;
   if (!first_word.empty() && first_word != "%")

@@ -92,7 +92,7 @@ std::string percentOf(double share)
 }
 }  // namespace
 
-AreaUnderCurve areaUnderCurve(std::vector<double> right, std::vector<double> wrong)
+AreaUnderCurve areaUnderCurve(const std::vector<double>& right, std::vector<double> wrong)
 {
   if (right.empty() || wrong.empty()) return {};
   std::sort(wrong.begin(), wrong.end());

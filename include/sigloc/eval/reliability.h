@@ -55,7 +55,7 @@ struct AreaUnderCurve
   double area = 0;
   double sigma = 0;
 };
-AreaUnderCurve areaUnderCurve(std::vector<double> right, std::vector<double> wrong);
+AreaUnderCurve areaUnderCurve(const std::vector<double>& right, std::vector<double> wrong);
 
 /// Writes summary.json, results.csv, report.md and roc-<clutter>.png into a folder.
 void writeReliabilityReport(const ReliabilityReport& report, const std::filesystem::path& folder);
