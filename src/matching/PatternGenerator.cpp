@@ -35,6 +35,15 @@ constexpr double kDrawsAreCheap = 0.01;
 constexpr double kOrderShare = 0.5;
 }  // namespace
 
+namespace
+{
+bool seesWalls(const PreparedScene& scene)
+{
+  return std::any_of(scene.views.begin(), scene.views.end(),
+                     [](const DirectedFeature& view) { return isSegment(view.type()); });
+}
+}  // namespace
+
 /// What one query carries along: random numbers, the pattern drawn last, buffers.
 struct PatternGenerator::Query
 {
@@ -186,6 +195,14 @@ void PatternGenerator::tryPattern(const PreparedScene& scene, Query& query, Hypo
   }
 }
 
+bool PatternGenerator::refutesChance(const PreparedScene& scene, const HypothesisSet& found,
+                                     std::uint32_t base_size, std::uint64_t bases) const
+{
+  const FeatureHypothesis* best = found.best();
+  return best && FeatureVerifier::expectedByChance(scene, best->support, base_size, bases) <
+                     verifier_->options().significance;
+}
+
 /// True when chance is refuted, or when the best explains its share of the features: more or
 /// smaller bases find no better answer then, even where too few features were seen to be sure of
 /// it.
@@ -217,12 +234,7 @@ bool PatternGenerator::search(const PreparedScene& scene, Query& query, Hypothes
 
   const std::uint64_t before = counters.hypotheses;
   const auto significant = [&]
-  {
-    const FeatureHypothesis* best = found.best();
-    return best &&
-           FeatureVerifier::expectedByChance(scene, best->support, size,
-                                             counters.hypotheses - before) < options.significance;
-  };
+  { return refutesChance(scene, found, size, counters.hypotheses - before); };
   // Every draw starts at another feature. Patterns that could be written in many orders wait until
   // others are used up. Draws that find no fresh pattern are made up for, up to a point: few
   // features hold few patterns.
@@ -276,6 +288,8 @@ bool PatternGenerator::smallerBasesMayTell(const PreparedScene& scene, const Que
 {
   const GeneratorOptions& options = verifier_->options();
   const auto n = static_cast<std::uint32_t>(scene.size());
+  // Patterns know nothing of walls, pairs do.
+  if (seesWalls(scene)) return true;
   const std::uint64_t bases = pairs_.basesFor(scene);
   if (bases > options.fall_back_hypotheses) return false;
   const double indexed = found.best() ? kIndexedShare : kSparselyIndexedShare;
@@ -339,7 +353,9 @@ std::vector<FeatureHypothesis> PatternGenerator::generate(const std::vector<Feat
   }
   // Nothing sure: smaller bases find what shares few features with the map.
   pairs_.search(scene, found, workspace, counters, options.fall_back_hypotheses);
-  if (!settles(scene, found, 2, counters.hypotheses - before))
+  const bool sure = seesWalls(scene) ? refutesChance(scene, found, 2, counters.hypotheses - before)
+                                     : settles(scene, found, 2, counters.hypotheses - before);
+  if (!sure)
   {
     anchors_.search(scene, found, workspace, counters, options.fall_back_hypotheses);
   }

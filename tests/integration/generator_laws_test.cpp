@@ -293,6 +293,28 @@ TEST(GeneratorRecall, SamplingModesFindTheSignificantPosesOfThePlainMode)
   for (const int count : missed) EXPECT_LE(count, 1);
 }
 
+TEST(PatternGenerator, FallsBackToPairsAmongWalls)
+{
+  // Patterns are of places alone; where mostly walls are seen, pairs must find the robot.
+  FeatureWorldOptions options = smallScenes(false);
+  options.type_weights = {0, 4, 0, 1, 0};
+  Random random(22);
+  const FeatureWorld world = makeFeatureWorld(150, options, random);
+  const FeatureMap map(world.mapped);
+  const auto generator = makeGenerator(GenerationMode::patterns, map);
+  int right = 0;
+  constexpr int kPoses = 20;
+  for (int k = 0; k < kPoses; ++k)
+  {
+    const TPose2D truth = randomPose(world, options, random);
+    MatchingCounters counters;
+    const auto found =
+        generator->generate(observeFeatures(world, truth, options, random, 10), counters);
+    right += !found.empty() && near(found[0].pose.mean, truth, 0.3, 0.06);
+  }
+  EXPECT_GE(right, kPoses - 2);
+}
+
 TEST(PlainGenerator, CountersStayBelowTheStatedComplexity)
 {
   // A repetitive worst case: a square lattice of points, where every distance recurs.

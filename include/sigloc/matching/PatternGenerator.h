@@ -34,6 +34,8 @@ class PatternGenerator : public FeatureHypothesisGenerator
                   const std::uint32_t* mapped, PoseEstimate& pose) const;
   bool search(const PreparedScene& scene, Query& query, HypothesisSet& found,
               FeatureVerifier::Workspace& workspace, MatchingCounters& counters) const;
+  bool refutesChance(const PreparedScene& scene, const HypothesisSet& found,
+                     std::uint32_t base_size, std::uint64_t bases) const;
   bool settles(const PreparedScene& scene, const HypothesisSet& found, std::uint32_t base_size,
                std::uint64_t bases) const;
   bool smallerBasesMayTell(const PreparedScene& scene, const Query& query,
