@@ -278,6 +278,7 @@ MergedRuns mergeRuns(const std::vector<fs::path>& folders, const std::string& co
   if (folders.size() < 2)
     throw std::invalid_argument("merge needs the folders of two runs or more");
   std::vector<Run> runs;
+  runs.reserve(folders.size());
   for (const fs::path& folder : folders) runs.push_back(readRun(folder));
   checkAlike(runs);
   MergedRuns merged;

@@ -19,6 +19,7 @@ right, and nothing is inaccurate. The errors of mapping scans' poses are indepen
 RelocationSummary summaryOf(const std::vector<SweepRecord>& records)
 {
   std::vector<RelocationRecord> answers;
+  answers.reserve(records.size());
   for (const SweepRecord& record : records) answers.push_back(record.answer);
   return summarize(answers, simulationGates());
 }
