@@ -324,6 +324,8 @@ ObservedScene observeScene(const std::vector<LaserScan>& scans,
     checkScan(scan);
     const FeatureExtractorOptions options = thresholdsFor(scan.range_sigma, configured);
     ScanPoints points = validPoints(scan, options);
+    // The second look sees what speckles had hidden from each other.
+    for (int look = 0; look < 2; ++look) dropSpeckles(points, options);
     startAtBreak(points, options);
 
     const auto origin = static_cast<std::uint32_t>(scene.sensor_origins.size());

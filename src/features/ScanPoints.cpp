@@ -56,6 +56,39 @@ ScanPoints validPoints(const LaserScan& scan, const FeatureExtractorOptions& opt
   return out;
 }
 
+void dropSpeckles(ScanPoints& scan, const FeatureExtractorOptions& options)
+{
+  constexpr std::size_t kReach = 2;  // returns to either side
+  constexpr std::size_t kFarther = 3;  // of those four
+  const std::size_t n = scan.points.size();
+  const auto is_speckle = [&](std::size_t i)
+  {
+    std::size_t farther = 0;
+    for (std::size_t step = 1; step <= kReach; ++step)
+    {
+      for (const std::size_t other : {(i + n - step) % n, (i + step) % n})
+      {
+        const bool across_seam = other > i ? other - i > kReach : i - other > kReach;
+        if (across_seam && !scan.closed) continue;
+        if (!breaksBetween(scan, i, other, options)) return false;
+        farther += scan.ranges[other] > scan.ranges[i];
+      }
+    }
+    return farther >= kFarther;
+  };
+  ScanPoints kept;
+  kept.beam_spacing = scan.beam_spacing;
+  kept.closed = scan.closed;
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    if (n > 2 * kReach && is_speckle(i)) continue;
+    kept.points.push_back(scan.points[i]);
+    kept.ranges.push_back(scan.ranges[i]);
+    kept.beams.push_back(scan.beams[i]);
+  }
+  scan = std::move(kept);
+}
+
 void startAtBreak(ScanPoints& scan, const FeatureExtractorOptions& options)
 {
   const std::size_t n = scan.points.size();

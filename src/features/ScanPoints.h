@@ -30,6 +30,10 @@ struct PointRange
 /// Returns the valid returns of a scan; out-of-range and broken beams are skipped.
 ScanPoints validPoints(const LaserScan& scan, const FeatureExtractorOptions& options);
 
+/// Drops returns that lie near none of the two before and the two after and are nearer than most of
+/// them: dust, rain, insects. They tell no place and tear walls apart. \cite algorithm eq. (2.8)
+void dropSpeckles(ScanPoints& scan, const FeatureExtractorOptions& options);
+
 /// Turns a full-circle scan so that no wall is cut by its seam: it starts at a break or, where the
 /// outline is closed, at the farthest return, which is a corner.
 void startAtBreak(ScanPoints& scan, const FeatureExtractorOptions& options);

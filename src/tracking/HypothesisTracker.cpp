@@ -23,17 +23,17 @@ constexpr std::size_t kUpdateBeams = 180;  // a track is updated with
 constexpr double kMaxOpenSigma = 0.5;  // [m], a wider pose is a line of poses
 constexpr double kNotHere = 0.98;
 constexpr double kMaxLost = 3.0;
-constexpr double kMaxConfirmed = 6.0;  // what was confirmed long ago can still be lost
+constexpr double kMaxConfirmed = 12.0;  // what was confirmed long ago can still be lost
+constexpr double kMinConfirmed = -1.0;  // what look-alikes hid for long can still be confirmed
+constexpr double kMaxAgainst = 2.0;  // log-odds a metre
 constexpr double kFarBetter = 4.0;  // log-likelihood
 constexpr double kSure = 0.9;  // a relocation that overrules all tracks
 
 /// What one relocation says of a pose it gives probability p, as clipped log-odds. Eq. (8.7)
 double confirmationOf(double p)
 {
-  constexpr double kAgainst = -2.0;
-  constexpr double kFor = 4.6;
   const double bounded = std::clamp(p, 1e-6, 1.0 - 1e-6);
-  return std::clamp(std::log(bounded / (1.0 - bounded)), kAgainst, kFor);
+  return std::clamp(std::log(bounded / (1.0 - bounded)), -kMaxAgainst, kMaxConfirmed);
 }
 
 }  // namespace
@@ -48,8 +48,10 @@ struct HypothesisTracker::State
   double travelSeen(double assumed);
   bool suspicious() const;
   bool wantsRelocation() const;
-  void relocate(const ObservedScene& scene);
-  void confirm(const RelocationResult& result, double fresh_share);
+  void relocate(const ObservedScene& scene, const DenseScan& scan);
+  void confirm(const RelocationResult& result, const DenseScan& scan, double fresh_share);
+  void weighElsewhere(const RelocationResult& result, double fresh_share);
+  void dealOut(const RelocationResult& result, const DenseScan& scan);
   GaussianPose withCommonError(GaussianPose pose, int sign) const;
   void judgeFirst(const ObservedScene& scene);
   void publish(const ObservedScene& scene);
@@ -61,6 +63,7 @@ struct HypothesisTracker::State
   std::uint64_t next_id = 1;
   double travel_step = 0;  // [m], turns included, of the last motion
   double travel_since_relocation = 0;  // [m]
+  double travelled = 0;  // [m] in all
   bool first_step = true;
   bool relocated = false;
   double reliability = 0;  // of the first hypothesis when enough was last seen
@@ -106,11 +109,13 @@ const Belief& HypothesisTracker::step(const std::optional<MotionIncrement>& moti
   const bool sees_enough = scene.beams.size() >= s.matcher->options().min_beams;
   if (sees_enough && s.matcher->verifier() != nullptr)
   {
-    s.set.update(makeDenseScan(scene, kUpdateBeams), *s.matcher->verifier());
+    const DenseScan scan = makeDenseScan(scene, kUpdateBeams);
+    s.set.update(scan, *s.matcher->verifier());
     if (!motion) travel = s.travelSeen(travel);
     s.travel_since_relocation += travel;
+    s.travelled += travel;
     s.set.weigh(travel);
-    if (s.wantsRelocation()) s.relocate(scene);
+    if (s.wantsRelocation()) s.relocate(scene, scan);
     s.set.mergeAndPrune();
     s.judgeFirst(scene);
     s.first_step = false;
@@ -160,10 +165,9 @@ bool HypothesisTracker::State::wantsRelocation() const
                                          : options.relocation_distance);
 }
 
-/// A relocation knows nothing of the tracks. Where it finds poses that no track holds, as good
-/// as theirs, "somewhere else" gains; the lost share of the belief is then dealt out as the
-/// relocation says: to tracks that it confirms, to new ones, and back to it. Eq. (8.8), (8.9)
-void HypothesisTracker::State::relocate(const ObservedScene& scene)
+/// A relocation knows nothing of the tracks, which makes it evidence: for a track, for "somewhere
+/// else", and for places that no track holds. Eq. (8.7) to (8.9)
+void HypothesisTracker::State::relocate(const ObservedScene& scene, const DenseScan& scan)
 {
   const double fresh_share =
       first_step ? 1.0 : std::min(1.0, travel_since_relocation / options.evidence_distance);
@@ -172,28 +176,46 @@ void HypothesisTracker::State::relocate(const ObservedScene& scene)
   travel_since_relocation = 0;
   if (result.verdict == Verdict::too_little_seen) return;
 
-  confirm(result, fresh_share);
-  const double lost = set.elsewhere;
-  set.elsewhere = lost * result.elsewhere;
-  for (const Candidate& candidate : result.candidates)
+  confirm(result, scan, fresh_share);
+  weighElsewhere(result, fresh_share);
+  dealOut(result, scan);
+}
+
+/// Evidence for a track counts as far as it rests on structure that is new to the track: another
+/// look at one room repeats the likeness of the first. Look-alikes that tracking has ruled out,
+/// but a blind relocation cannot, count against it no more than its own fit does. Eq. (8.7)
+void HypothesisTracker::State::confirm(const RelocationResult& result, const DenseScan& scan,
+                                       double fresh_share)
+{
+  for (Track& track : set.tracks)
   {
-    const double share = lost * candidate.probability;
-    if (Track* same = set.trackAt(candidate.pose.mean))
+    double probability = 0;
+    double rival = options.lost_score;
+    double fit = result.candidates.empty() ? 0 : fitLogOdds(result.candidates.front());
+    for (const Candidate& candidate : result.candidates)
     {
-      same->hypothesis.weight += share;
-      continue;
+      if (set.trackAt(candidate.pose.mean) == &track)
+      {
+        if (probability == 0) fit = fitLogOdds(candidate);
+        probability += candidate.probability;
+      }
+      else
+      {
+        rival = std::max(rival, candidate.score);
+      }
     }
-    Track fresh;
-    fresh.hypothesis.pose = withCommonError(candidate.pose, -1);
-    fresh.hypothesis.weight = share;
-    fresh.hypothesis.id = next_id++;
-    fresh.score = fresh.mean_score = candidate.score;
-    fresh.confirmed = confirmationOf(candidate.probability);
-    set.tracks.push_back(fresh);
+    const double novelty = track.seen.add(scan, track.hypothesis.pose.mean, travelled);
+    double evidence = confirmationOf(probability);
+    evidence = evidence > 0 ? novelty * evidence
+                            : fresh_share * std::clamp(fit + leadLogOdds(track.score, rival),
+                                                       -kMaxAgainst, 0.0);
+    track.confirmed = std::clamp(track.confirmed + evidence, kMinConfirmed, kMaxConfirmed);
   }
 }
 
-void HypothesisTracker::State::confirm(const RelocationResult& result, double fresh_share)
+/// Where a relocation finds poses that no track holds, as good as theirs, "somewhere else" gains.
+/// Eq. (8.8)
+void HypothesisTracker::State::weighElsewhere(const RelocationResult& result, double fresh_share)
 {
   if (set.tracks.empty()) return;
   double best_tracked = -1;
@@ -205,29 +227,6 @@ void HypothesisTracker::State::confirm(const RelocationResult& result, double fr
     {
       best_untracked = std::max(best_untracked, candidate.score);
     }
-  }
-  for (Track& track : set.tracks)
-  {
-    double probability = 0;
-    double rival = 0;
-    for (const Candidate& candidate : result.candidates)
-    {
-      if (set.trackAt(candidate.pose.mean) == &track)
-      {
-        probability += candidate.probability;
-      }
-      else
-      {
-        rival = std::max(rival, candidate.score);
-      }
-    }
-    double evidence = confirmationOf(probability);
-    // Look-alikes that a confirmed track has long ruled out don't count against it; a pose that
-    // explains the scan far better does.
-    const bool far_better =
-        logLikelihoodOfScore(rival) - logLikelihoodOfScore(track.score) > kFarBetter;
-    if (track.confirmed >= options.confirmation && evidence < 0 && !far_better) evidence = 0;
-    track.confirmed = std::min(kMaxConfirmed, track.confirmed + fresh_share * evidence);
   }
   const double fit = result.candidates.empty() ? 0 : fitLogOdds(result.candidates.front());
   double here = std::clamp(fit + leadLogOdds(best_tracked, best_untracked), -kMaxLost, kMaxLost);
@@ -243,6 +242,35 @@ void HypothesisTracker::State::confirm(const RelocationResult& result, double fr
                          set.trackAt(result.candidates.front().pose.mean) == nullptr;
   if (overruled) set.elsewhere = std::max(set.elsewhere, options.suspicion);
   set.normalise();
+}
+
+/// The lost share of the belief is dealt out as the relocation says: to the tracks that it
+/// confirms, to new ones, and back to "somewhere else". What is only the floor of "somewhere else"
+/// starts tracks but feeds none: else look-alikes would draw on it at every relocation. Eq. (8.9)
+void HypothesisTracker::State::dealOut(const RelocationResult& result, const DenseScan& scan)
+{
+  const double lost = set.elsewhere;
+  const double above_floor = std::max(0.0, lost - options.min_elsewhere);
+  set.elsewhere = lost;
+  for (const Candidate& candidate : result.candidates)
+  {
+    Track* same = set.trackAt(candidate.pose.mean);
+    const double share = (same != nullptr ? above_floor : lost) * candidate.probability;
+    set.elsewhere -= share;
+    if (same != nullptr)
+    {
+      same->hypothesis.weight += share;
+      continue;
+    }
+    Track fresh;
+    fresh.hypothesis.pose = withCommonError(candidate.pose, -1);
+    fresh.hypothesis.weight = share;
+    fresh.hypothesis.id = next_id++;
+    fresh.score = fresh.mean_score = candidate.score;
+    fresh.confirmed = confirmationOf(candidate.probability);
+    fresh.seen.add(scan, candidate.pose.mean, travelled);
+    set.tracks.push_back(std::move(fresh));
+  }
 }
 
 /// The error that moves a whole neighbourhood of the map belongs in what is told, once: within the
@@ -285,7 +313,8 @@ void HypothesisTracker::State::publish(const ObservedScene& scene)
   belief.reliability = reliability;
   const bool open = largestPositionSigma(first.pose) >= kMaxOpenSigma;
   const bool confirmed = set.tracks.front().confirmed >= options.confirmation;
-  if (first.weight >= options.localized_probability && confirmed && !open)
+  const bool doubtful = suspicious();
+  if (first.weight >= options.localized_probability && confirmed && !doubtful && !open)
   {
     belief.verdict = Verdict::localized;
     belief.probability = first.weight;
@@ -303,6 +332,7 @@ void HypothesisTracker::State::publish(const ObservedScene& scene)
     belief.probability = 1.0 - first.weight;
     belief.reason = open         ? "the position is open along a line"
                     : !confirmed ? "relocation has not confirmed the hypothesis yet"
+                    : doubtful   ? "the hypothesis explains much less than it used to"
                                  : std::to_string(set.tracks.size()) + " hypotheses remain";
   }
 }

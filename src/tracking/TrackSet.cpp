@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "sigloc/geometry/pose_fusion.h"
 #include "sigloc/matching/weighing.h"
@@ -26,7 +27,7 @@ constexpr double kMergeAngle = 10.0 * M_PI / 180.0;
 constexpr double kMaxRelative = 3.0;  // log-odds one unit of travel can tell at most
 constexpr double kMaxLost = 3.0;
 constexpr double kScoreMemory = 0.9;  // of the running mean of the score, per step
-constexpr double kCorrelation = 4.0;  // scans of neighbouring steps share their errors
+constexpr double kCorrelation = 25.0;  // scans of neighbouring steps share their errors
 constexpr double kMinSigma = 0.005;  // [m], floor of a step's motion
 constexpr double kMinTurnSigma = 0.002;  // [rad]
 
@@ -45,6 +46,7 @@ bool heavier(const Track& a, const Track& b)
 double TrackSet::predict(const std::optional<MotionIncrement>& motion)
 {
   MotionIncrement increment;
+  has_odometry_ = motion.has_value();
   if (motion)
   {
     increment = *motion;
@@ -75,6 +77,40 @@ void TrackSet::update(const DenseScan& scan, const DenseVerifier& verifier)
   for (Track& track : tracks) updatePose(track, scan, verifier);
 }
 
+/// Without odometry the robot may have turned or driven farther than a refinement reaches: along a
+/// corridor, returns stick to the wall beside the door frame they should follow. Other poses within
+/// the prior are tried too, and taken where they explain the scan better.
+TPose2D TrackSet::searchedPose(const TPose2D& predicted, const DenseScan& scan,
+                               const DenseVerifier& verifier) const
+{
+  constexpr double kTurn = 15.0 * M_PI / 180.0;  // between two tries, less than twice the reach
+  constexpr double kDrive = 0.2;  // [m]
+  constexpr double kBetter = 0.01;  // of the score
+  TPose2D best = verifier.refine(scan, predicted, kUpdateSteps, scan.size());
+  double best_score = verifier.evaluate(scan, best).score;
+  const auto attempt = [&](double drive, double turn)
+  {
+    const TPose2D start = predicted + TPose2D(drive, 0, turn);
+    const TPose2D pose = verifier.refine(scan, start, kUpdateSteps, scan.size());
+    const double score = verifier.evaluate(scan, pose).score;
+    if (score <= best_score + kBetter) return;
+    best = pose;
+    best_score = score;
+  };
+  const int turns = static_cast<int>(3.0 * options_.free_turn_sigma / kTurn);
+  for (int k = -turns; k <= turns; ++k)
+  {
+    if (k != 0) attempt(0, k * kTurn);
+  }
+  const int drives = static_cast<int>(2.0 * options_.free_motion_sigma / kDrive);
+  for (int k = -drives; k <= drives; ++k)
+  {
+    if (k != 0) attempt(k * kDrive, 0);
+  }
+  best.phi = wrapToPi(best.phi);
+  return best;
+}
+
 /// The returns' own estimate near the predicted pose, fused with the prediction. A refinement that
 /// the prediction excludes is taken only when it explains the scan clearly better: odometry slips.
 void TrackSet::updatePose(Track& track, const DenseScan& scan, const DenseVerifier& verifier) const
@@ -83,7 +119,8 @@ void TrackSet::updatePose(Track& track, const DenseScan& scan, const DenseVerifi
   GaussianPose& pose = track.hypothesis.pose;
   const double predicted_score = verifier.evaluate(scan, pose.mean).score;
   GaussianPose measured;
-  measured.mean = verifier.refine(scan, pose.mean, kUpdateSteps, scan.size());
+  measured.mean = has_odometry_ ? verifier.refine(scan, pose.mean, kUpdateSteps, scan.size())
+                                : searchedPose(pose.mean, scan, verifier);
   measured.covariance = verifier.covarianceAt(scan, measured.mean, 0.0);
   for (int r = 0; r < 3; ++r)
   {
@@ -151,7 +188,7 @@ void TrackSet::mergeAndPrune()
 {
   std::sort(tracks.begin(), tracks.end(), heavier);
   std::vector<Track> kept;
-  for (const Track& track : tracks)
+  for (Track& track : tracks)
   {
     const auto same =
         std::find_if(kept.begin(), kept.end(),
@@ -173,7 +210,7 @@ void TrackSet::mergeAndPrune()
     else if (kept.size() < options_.max_hypotheses &&
              track.hypothesis.weight >= options_.prune_weight)
     {
-      kept.push_back(track);
+      kept.push_back(std::move(track));
     }
   }
   tracks = std::move(kept);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "SeenStructure.h"
 #include "sigloc/geometry/GaussianPose.h"
 #include "sigloc/matching/DenseVerifier.h"
 #include "sigloc/tracking/Belief.h"
@@ -19,6 +20,7 @@ struct Track
   double score = 0;  // of the last scan
   double mean_score = 0;  // running mean
   double confirmed = 0;  // log-odds that relocations, each blind to the track, have given it
+  SeenStructure seen;  // what that evidence rests on
 };
 
 /// The hypotheses that are followed and the weight of "somewhere else"; all weights sum to one.
@@ -54,7 +56,10 @@ class TrackSet
 
  private:
   void updatePose(Track& track, const DenseScan& scan, const DenseVerifier& verifier) const;
+  mrpt::math::TPose2D searchedPose(const mrpt::math::TPose2D& predicted, const DenseScan& scan,
+                                   const DenseVerifier& verifier) const;
 
   TrackerOptions options_;
+  bool has_odometry_ = true;  // of the last prediction
 };
 }  // namespace sigloc

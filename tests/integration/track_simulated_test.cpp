@@ -86,6 +86,87 @@ TEST(SimulatedTrack, CarriesTheRobotToAnotherPlace)
   EXPECT_GE(run.steps.back().travelled, 1.9 * options.travel);
 }
 
+struct Outcome
+{
+  std::size_t right = 0;
+  std::size_t wrong = 0;  ///< drives with a wrong claim
+};
+
+Outcome outcomeOf(const SimulatedTrackOptions& options)
+{
+  Outcome outcome;
+  for (const TrackRun& run : runSimulatedTrack(options).methods.front().runs)
+  {
+    outcome.right += run.right_at_end;
+    outcome.wrong += run.wrong_steps > 0;
+  }
+  return outcome;
+}
+
+TEST(SimulatedTrack, IsSeldomConfidentInForeignMaps)
+{
+  SimulatedTrackOptions options = smallOptions();
+  options.drives = 36;
+  options.drives_per_world = 4;
+  options.travel = 10;
+  options.threads = 2;
+  options.foreign = true;
+  EXPECT_LE(outcomeOf(options).wrong, 1U);
+}
+
+TEST(SimulatedTrack, FindsTheRobotThroughClutter)
+{
+  SimulatedTrackOptions options = smallOptions();
+  options.kinds = {WorldKind::office, WorldKind::hall};
+  options.drives = 16;
+  options.drives_per_world = 4;
+  options.travel = 10;
+  options.threads = 2;
+  options.clutter_share = 0.3;
+  const Outcome outcome = outcomeOf(options);
+  EXPECT_GE(outcome.right, 14U);
+  EXPECT_EQ(outcome.wrong, 0U);
+}
+
+TEST(SimulatedTrack, FollowsARobotWithoutOdometryThroughItsTurns)
+{
+  SimulatedTrackOptions options = smallOptions();
+  // In a corridor without doors in view the drive itself is not seen: not asked here.
+  options.kinds = {WorldKind::office, WorldKind::hall};
+  options.drives = 16;
+  options.drives_per_world = 4;
+  options.travel = 10;
+  options.threads = 2;
+  options.odometry = false;
+  const Outcome outcome = outcomeOf(options);
+  EXPECT_GE(outcome.right, 15U);
+  EXPECT_EQ(outcome.wrong, 0U);
+}
+
+TEST(SimulatedTrack, ItsCovariancesAreHonest)
+{
+  SimulatedTrackOptions options = smallOptions();
+  options.drives = 36;
+  options.drives_per_world = 3;
+  options.travel = 8;
+  options.threads = 2;
+  options.map_sigma = 0;
+  double sum = 0;
+  std::size_t count = 0;
+  for (const TrackRun& run : runSimulatedTrack(options).methods.front().runs)
+  {
+    for (const TrackStepRecord& step : run.steps)
+    {
+      if (step.judged != Claim::right) continue;
+      sum += step.nees;
+      ++count;
+    }
+  }
+  ASSERT_GT(count, 500U);
+  EXPECT_GT(sum / static_cast<double>(count), 2.0);
+  EXPECT_LT(sum / static_cast<double>(count), 4.0);
+}
+
 TEST(SimulatedTrack, RefusesOptionsThatMakeNoSense)
 {
   SimulatedTrackOptions options = smallOptions();

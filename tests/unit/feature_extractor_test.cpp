@@ -358,6 +358,32 @@ TEST(FeatureExtractor, BrokenBeamsAreSkipped)
   EXPECT_TRUE(observeScene({scan}).beams.empty());
 }
 
+TEST(FeatureExtractor, SpecklesTearNoWallApart)
+{
+  const LaserScan clean = scanByHand(closedRoom(), {0, 0, 0});
+  const ObservedScene expected = observeScene({clean});
+  LaserScan dusty = clean;
+  std::size_t specks = 0;
+  for (std::size_t i = 5; i < dusty.ranges.size(); i += 7)
+  {
+    dusty.ranges[i] *= i % 2 == 0 ? 0.3F : 0.6F;
+    ++specks;
+  }
+  const ObservedScene scene = observeScene({dusty});
+  EXPECT_EQ(scene.beams.size() + specks, expected.beams.size());
+  EXPECT_EQ(ofType(scene, FeatureType::segment).size(), 4U);
+  EXPECT_TRUE(ofType(scene, FeatureType::wall_end).empty());
+}
+
+TEST(FeatureExtractor, LonelyReturnsThatAreFartherStay)
+{
+  // Seen through a gap: one beam gets through to a place behind the wall.
+  LaserScan scan = scanByHand(closedRoom(), {0, 0, 0});
+  const std::size_t all = observeScene({scan}).beams.size();
+  scan.ranges[scan.ranges.size() / 2] += 3.0F;
+  EXPECT_EQ(observeScene({scan}).beams.size(), all);
+}
+
 TEST(FeatureExtractor, RefusesInconsistentScans)
 {
   LaserScan scan = scanByHand(closedRoom(), {0, 0, 0});
