@@ -6,6 +6,11 @@
 
 namespace sigloc
 {
+namespace
+{
+constexpr double kContender = 0.2;  // of the score, behind the best
+}
+
 std::vector<Candidate> judgedCandidates(const DenseVerifier& verifier, const ObservedScene& scene,
                                         const DenseScan& scan,
                                         const std::vector<PoseProposal>& proposals,
@@ -23,10 +28,10 @@ std::vector<Candidate> judgedCandidates(const DenseVerifier& verifier, const Obs
     candidate.in_free = ranked.evidence.in_free;
     candidates.push_back(candidate);
   }
-  if (!candidates.empty())
+  for (Candidate& candidate : candidates)
   {
-    Candidate& first = candidates.front();
-    first.facts = explainedFacts(scene.features, verifier.field(), first.pose.mean);
+    if (candidate.score < candidates.front().score - kContender) break;
+    candidate.facts = explainedFacts(scene.features, verifier.field(), candidate.pose.mean);
   }
   return candidates;
 }

@@ -88,6 +88,14 @@ double leadLogOdds(double score, double rival_score)
   return kLeadSlope * (logLikelihoodOfScore(score) - logLikelihoodOfScore(rival_score));
 }
 
+double presenceEvidence(const RelocationResult& result, std::size_t k)
+{
+  const std::vector<Candidate>& candidates = result.candidates;
+  const std::size_t rival = k == 0 ? 1 : 0;
+  const double rival_score = rival < candidates.size() ? candidates[rival].score : kChanceScore;
+  return fitLogOdds(candidates[k]) + leadLogOdds(candidates[k].score, rival_score) - kPriorHere;
+}
+
 void weighCandidates(RelocationResult& result, const std::vector<Candidate>& outside)
 {
   std::vector<Candidate>& candidates = result.candidates;
@@ -100,10 +108,7 @@ void weighCandidates(RelocationResult& result, const std::vector<Candidate>& out
   double sum_outside = 0;
   for (const Candidate& candidate : outside) sum_outside += kPriorOutside * weight_of(candidate);
 
-  const double runner_up = candidates.size() > 1 ? candidates[1].score : kChanceScore;
-  const double log_odds =
-      fitLogOdds(candidates.front()) + leadLogOdds(candidates.front().score, runner_up);
-  const double here = 1.0 / (1.0 + std::exp(-log_odds));
+  const double here = 1.0 / (1.0 + std::exp(-presenceEvidence(result, 0) - kPriorHere));
   for (Candidate& candidate : candidates) candidate.probability *= here / (sum + sum_outside);
   result.elsewhere = 1.0 - here * sum / (sum + sum_outside);
 

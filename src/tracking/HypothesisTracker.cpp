@@ -26,15 +26,9 @@ constexpr double kMaxLost = 3.0;
 constexpr double kMaxConfirmed = 12.0;  // what was confirmed long ago can still be lost
 constexpr double kMinConfirmed = -1.0;  // what look-alikes hid for long can still be confirmed
 constexpr double kMaxAgainst = 2.0;  // log-odds a metre
+constexpr double kPriorHere = 2.6;  // log-odds of standing in the map, as in (7.2)
 constexpr double kFarBetter = 4.0;  // log-likelihood
 constexpr double kSure = 0.9;  // a relocation that overrules all tracks
-
-/// What one relocation says of a pose it gives probability p, as clipped log-odds. Eq. (8.7)
-double confirmationOf(double p)
-{
-  const double bounded = std::clamp(p, 1e-6, 1.0 - 1e-6);
-  return std::clamp(std::log(bounded / (1.0 - bounded)), -kMaxAgainst, kMaxConfirmed);
-}
 
 }  // namespace
 
@@ -182,34 +176,30 @@ void HypothesisTracker::State::relocate(const ObservedScene& scene, const DenseS
 }
 
 /// Evidence for a track counts as far as it rests on structure that is new to the track: another
-/// look at one room repeats the likeness of the first. Look-alikes that tracking has ruled out,
-/// but a blind relocation cannot, count against it no more than its own fit does. Eq. (8.7)
+/// look at one room repeats the likeness of the first. Which of several look-alikes it is, the
+/// weights tell; this is about standing in the map at all. Eq. (8.7)
 void HypothesisTracker::State::confirm(const RelocationResult& result, const DenseScan& scan,
                                        double fresh_share)
 {
   for (Track& track : set.tracks)
   {
-    double probability = 0;
-    double rival = options.lost_score;
-    double fit = result.candidates.empty() ? 0 : fitLogOdds(result.candidates.front());
-    for (const Candidate& candidate : result.candidates)
+    double evidence = -kMaxAgainst;
+    if (!result.candidates.empty())
     {
-      if (set.trackAt(candidate.pose.mean) == &track)
-      {
-        if (probability == 0) fit = fitLogOdds(candidate);
-        probability += candidate.probability;
-      }
-      else
-      {
-        rival = std::max(rival, candidate.score);
-      }
+      // For a track that the relocation did not find: what its best answer would be there.
+      const Candidate& first = result.candidates.front();
+      evidence = std::min(0.0, fitLogOdds(first) + leadLogOdds(track.score, first.score));
+    }
+    for (std::size_t k = result.candidates.size(); k-- > 0;)
+    {
+      if (set.trackAt(result.candidates[k].pose.mean) != &track) continue;
+      evidence = presenceEvidence(result, k);
     }
     const double novelty = track.seen.add(scan, track.hypothesis.pose.mean, travelled);
-    double evidence = confirmationOf(probability);
-    evidence = evidence > 0 ? novelty * evidence
-                            : fresh_share * std::clamp(fit + leadLogOdds(track.score, rival),
-                                                       -kMaxAgainst, 0.0);
-    track.confirmed = std::clamp(track.confirmed + evidence, kMinConfirmed, kMaxConfirmed);
+    const double gain = evidence > 0
+                            ? novelty * std::min(evidence, kMaxConfirmed)
+                            : fresh_share * std::clamp(evidence + kPriorHere, -kMaxAgainst, 0.0);
+    track.confirmed = std::clamp(track.confirmed + gain, kMinConfirmed, kMaxConfirmed);
   }
 }
 
@@ -252,8 +242,9 @@ void HypothesisTracker::State::dealOut(const RelocationResult& result, const Den
   const double lost = set.elsewhere;
   const double above_floor = std::max(0.0, lost - options.min_elsewhere);
   set.elsewhere = lost;
-  for (const Candidate& candidate : result.candidates)
+  for (std::size_t k = 0; k < result.candidates.size(); ++k)
   {
+    const Candidate& candidate = result.candidates[k];
     Track* same = set.trackAt(candidate.pose.mean);
     const double share = (same != nullptr ? above_floor : lost) * candidate.probability;
     set.elsewhere -= share;
@@ -267,7 +258,8 @@ void HypothesisTracker::State::dealOut(const RelocationResult& result, const Den
     fresh.hypothesis.weight = share;
     fresh.hypothesis.id = next_id++;
     fresh.score = fresh.mean_score = candidate.score;
-    fresh.confirmed = confirmationOf(candidate.probability);
+    fresh.confirmed =
+        std::clamp(presenceEvidence(result, k) + kPriorHere, kMinConfirmed, kMaxConfirmed);
     fresh.seen.add(scan, candidate.pose.mean, travelled);
     set.tracks.push_back(std::move(fresh));
   }

@@ -27,7 +27,7 @@ constexpr double kMergeAngle = 10.0 * M_PI / 180.0;
 constexpr double kMaxRelative = 3.0;  // log-odds one unit of travel can tell at most
 constexpr double kMaxLost = 3.0;
 constexpr double kScoreMemory = 0.9;  // of the running mean of the score, per step
-constexpr double kCorrelation = 25.0;  // scans of neighbouring steps share their errors
+constexpr double kCorrelation = 12.0;  // scans of neighbouring steps share their errors
 constexpr double kMinSigma = 0.005;  // [m], floor of a step's motion
 constexpr double kMinTurnSigma = 0.002;  // [rad]
 

@@ -26,6 +26,11 @@ double fitLogOdds(const Candidate& candidate);
 /// \cite algorithm eq. (7.2)
 double leadLogOdds(double score, double rival_score);
 
+/// Returns how much candidate k's scan speaks for standing in the map at all: the log-odds (7.2)
+/// without their prior, the best other candidate being the rival. Evidence of one scan, to be added
+/// up over scans of different places. \cite algorithm eq. (7.2)
+double presenceEvidence(const RelocationResult& result, std::size_t k);
+
 /// Distributes probability over candidates (best first, scores set) and "elsewhere", and fills the
 /// verdict. A candidate convinces by what it explains and by its lead over the best rival:
 /// look-alikes share the weight, and the runner-up measures what chance reaches. Poses `outside` a

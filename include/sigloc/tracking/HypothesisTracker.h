@@ -25,7 +25,7 @@ struct TrackerOptions
   double confirmation_distance = 2.0;
   double score_drop = 0.2;
   double suspicion = 0.3;
-  double confirmation = 6.0;
+  double confirmation = 5.0;
   double free_motion_sigma = 0.3;
   double free_turn_sigma = 0.2;
 
