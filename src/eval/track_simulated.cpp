@@ -193,6 +193,7 @@ TrackRun runDrive(const TrackingMethodFactory& factory, const DrivenPlace& place
     drives.push_back(place.drive(seedOf(options.method.seed, kSecondLegs + number)));
   }
   std::vector<detail::TrackLeg> legs;
+  legs.reserve(drives.size());
   for (const TrackDrive& drive : drives) legs.push_back({&drive, 0, drive.steps.size()});
   const auto seed = static_cast<std::uint32_t>(seedOf(options.method.seed, number));
   TrackRun run = detail::runLegs(factory, legs, seed, gates);
