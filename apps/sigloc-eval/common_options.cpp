@@ -58,7 +58,19 @@ std::optional<PoseRegion> CommonOptions::poseRegion() const
 mrpt::math::TPose2D poseOfFlag(const std::vector<double>& values)
 {
   if (values.empty()) return {};
+  for (const double value : values)
+  {
+    if (!(std::abs(value) < 1e7)) throw std::invalid_argument("a pose of x,y,deg is not finite");
+  }
   return {values[0], values[1], values[2] * M_PI / 180};
+}
+
+int exitCode(bool complete, const std::filesystem::path& rawlog)
+{
+  if (complete) return 0;
+  std::cerr << "sigloc-eval: " << rawlog.string()
+            << ": truncated, only what comes before the damage was used\n";
+  return 2;
 }
 
 std::function<void(const std::string&, double)> progressBar(bool quiet)

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -37,6 +38,9 @@ struct CommonOptions
 
 /// Returns the pose of a flag "x,y,deg"; the identity for an empty list.
 mrpt::math::TPose2D poseOfFlag(const std::vector<double>& values);
+
+/// Returns 0, or 2 after a line on stderr when the rawlog was truncated: what it held was used.
+int exitCode(bool complete, const std::filesystem::path& rawlog);
 
 /// Returns a progress bar on stderr, or an empty function when it is no terminal or `quiet`.
 std::function<void(const std::string&, double)> progressBar(bool quiet);

@@ -18,6 +18,14 @@ struct MergeFlags
 
   int run(const std::string& command_line) const
   {
+    for (const std::filesystem::path& folder : runs)
+    {
+      std::error_code error;
+      if (std::filesystem::equivalent(folder, out, error))
+      {
+        throw std::invalid_argument(out + ": is one of the runs, which would be overwritten");
+      }
+    }
     const MergedRuns merged = mergeRuns(runs, command_line);
     writeRunReport(merged.report, out);
     if (!quiet) std::cout << merged.report.text;

@@ -45,7 +45,7 @@ struct RelocateFlags
       drawFailures(method.failures, std::filesystem::path(common.out) / "failures");
     }
     if (!common.quiet) std::cout << relocateTable(report);
-    return report.complete ? 0 : 2;
+    return exitCode(report.complete, sources.rawlog);
   }
 };
 }  // namespace

@@ -29,7 +29,7 @@ struct TrackFlags
         simulated.drives > 0 ? runSimulated(command_line) : runLog(command_line);
     writeTrackReport(report, common.out);
     if (!common.quiet) std::cout << trackTable(report);
-    return report.complete ? 0 : 2;
+    return exitCode(report.complete, options.rawlog);
   }
 
   TrackReport runLog(const std::string& command_line)

@@ -59,6 +59,8 @@ std::vector<RawlogStep> readSteps(const std::filesystem::path& path)
     }
     steps.push_back(std::move(*step));
   }
+  if (reader.truncated())
+    throw std::runtime_error(path.string() + ": truncated, its end is missing");
   if (steps.empty()) throw std::runtime_error(path.string() + ": holds no scan");
   return steps;
 }

@@ -54,5 +54,40 @@ TEST(ManyRuns, WhatCannotBePooledIsRefused)
   EXPECT_NE(result.errors.find("no/summary.json"), std::string::npos) << result.errors;
   EXPECT_EQ(listing(folder), before);
 }
+
+/// The one line on stderr of a call that must fail and write nothing.
+std::string refusal(const TemporaryFolder& folder, const std::vector<std::string>& arguments)
+{
+  const auto before = listing(folder);
+  const auto result = run(folder, "sigloc-eval", arguments);
+  EXPECT_EQ(result.exit_code, 1) << result.output;
+  EXPECT_EQ(countLines(result.errors), 1) << result.errors;
+  EXPECT_EQ(listing(folder), before);
+  return result.errors;
+}
+
+TEST(ManyRuns, MergingOverAnInputIsRefused)
+{
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "a");
+  std::filesystem::create_directory(folder / "b");
+  const std::string errors = refusal(folder, {"merge", "a", "b", "--out", "b"});
+  EXPECT_NE(errors.find("would be overwritten"), std::string::npos) << errors;
+}
+
+TEST(Reference, ALogWithoutItsEndAndAPoseThatIsNoneAreRefused)
+{
+  const TemporaryFolder folder;
+  writeText(folder / "cut.rawlog", readBytes(kLabLog).substr(0, 10000));
+  const auto reference = [&](const std::string& rawlog, const std::string& last)
+  {
+    return refusal(folder, {"reference", "--map", kLabMap.string(), "--rawlog", rawlog, "--last",
+                            last, "--out", "truth.txt"});
+  };
+  const std::string cut = reference("cut.rawlog", "15.9,-10.01,4.9");
+  EXPECT_NE(cut.find("cut.rawlog: truncated"), std::string::npos) << cut;
+  const std::string nan = reference(kLabLog.string(), "nan,-10.01,4.9");
+  EXPECT_NE(nan.find("not finite"), std::string::npos) << nan;
+}
 }  // namespace
 }  // namespace sigloc
