@@ -20,11 +20,15 @@ int shell(const TemporaryFolder& folder, const std::string& command)
   return std::system(line.c_str());
 }
 
-// docs/many-logs.md, with one machine playing two: its `ssh HOST -- COMMAND` runs the command here.
+// docs/many-logs.md, with one machine playing two: its `ssh HOST -- COMMAND` runs the command here,
+// with the SHELL that a login sets and parallel's worker runs jobs in (a build robot may have
+// none).
 TEST(ManyRuns, GnuParallelSpreadsThemAndMergePoolsThem)
 {
   const TemporaryFolder folder;
-  writeText(folder / "ssh", "#!/bin/sh\nshift\n[ \"$1\" = -- ] && shift\nexec sh -c \"$*\"\n");
+  writeText(
+      folder / "ssh",
+      "#!/bin/sh\nshift\n[ \"$1\" = -- ] && shift\nexport SHELL=/bin/sh\nexec sh -c \"$*\"\n");
   std::filesystem::permissions(folder / "ssh", std::filesystem::perms::owner_all);
   const int status =
       shell(folder, "parallel --will-cite --ssh ./ssh --sshlogin 1/one,1/two --workdir . " +
