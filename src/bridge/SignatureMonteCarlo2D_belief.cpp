@@ -25,7 +25,8 @@ constexpr std::size_t kScoreBeams = 180;  // the heaviest mode is judged by
 constexpr double kMaxOpenSigma = 0.5;  // [m], a wider pose is a line of poses
 constexpr double kNotHere = 0.98;
 constexpr double kMaxLost = 3.0;  // log-odds
-constexpr double kMaxConfirmed = 6.0;
+constexpr double kMaxConfirmed = 6.0;  // log-odds
+constexpr double kMaxAgainst = 2.0;  // log-odds a metre
 constexpr double kSure = 0.9;  // a relocation that overrules the particles
 constexpr double kFarBetter = 4.0;  // log-likelihood
 constexpr double kHeldWeight = 0.01;  // share of the particles that hold a candidate
@@ -42,11 +43,11 @@ bool same(const TPose2D& a, const TPose2D& b)
          std::abs(wrapToPi(a.phi - b.phi)) <= kSameAngle;
 }
 
-/// What one relocation says of a pose it gives probability p. Eq. (8.7)
+/// What one relocation says of a pose it gives probability p. Eq. (9.3)
 double confirmationOf(double p)
 {
   const double bounded = std::clamp(p, 1e-6, 1.0 - 1e-6);
-  return std::clamp(std::log(bounded / (1.0 - bounded)), -2.0, 4.6);
+  return std::clamp(std::log(bounded / (1.0 - bounded)), -kMaxAgainst, kMaxConfirmed);
 }
 
 double probabilityAt(const RelocationResult& result, const TPose2D& pose)
@@ -193,7 +194,7 @@ double SignatureMonteCarlo2D::leadOfRivals(const RelocationResult& result) const
   return dense ? logLikelihoodOfScore(rival) - logLikelihoodOfScore(held) : std::log(rival / held);
 }
 
-/// Confirms the modes, eq. (8.7), and weighs what they hold against what they miss, eq. (9.2).
+/// Confirms the modes, eq. (9.3), and weighs what they hold against what they miss, eq. (9.2).
 void SignatureMonteCarlo2D::weighAgainst(const RelocationResult& result, double fresh_share)
 {
   const double lead = leadOfRivals(result);

@@ -23,7 +23,7 @@ using mrpt::math::wrapToPi;
 namespace
 {
 constexpr std::size_t kQuickSorted = 1024;  // best first looks that are sorted at all
-constexpr std::size_t kQuickKept = 48;  // cells of poses that are refined: the cascade's knob
+constexpr std::size_t kQuickKept = 48;  // places that are refined: the cascade's knob
 constexpr std::size_t kMiddleBeams = 32;
 constexpr std::size_t kMiddleScored = 48;
 constexpr int kMiddleSteps = 3;
@@ -32,12 +32,11 @@ constexpr std::size_t kFinalBeams = 96;
 constexpr int kFinalSteps = 3;
 constexpr std::size_t kSettled = 4;
 constexpr int kSettleSteps = 6;
-constexpr double kContender = 0.2;  // of the score, behind the best
 constexpr double kDistinctDistance = 0.5;  // [m]
 constexpr double kApartDistance = 0.08;  // [m]
 constexpr double kDistinctAngle = 17.0 * M_PI / 180.0;  // [rad]
-constexpr std::size_t kFinalRays = 24;  // of those, for a pose that may still be no contender
 constexpr std::size_t kRayBeams = 64;  // beams tested for passing through walls
+constexpr std::size_t kFinalRays = 24;  // of them, for a pose that may still be no contender
 constexpr double kFreeMargin = 0.4;  // [m] from any wall that makes an end in free space count
 constexpr double kThroughPenalty = 0.5;
 constexpr double kFreePenalty = 0.5;
@@ -103,7 +102,7 @@ std::vector<RankedPose> DenseVerifier::rank(const DenseScan& scan,
   std::vector<QuickLook> looks = quick_->look(scan, proposals);
   poses_scored += looks.size();
 
-  // 2. The best of each cell of poses, refined on some of the beams.
+  // 2. The best of each place, refined on some of the beams.
   std::vector<RankedPose> poses = refineBest(scan, proposals, std::move(looks));
   // Poses of one place that stopped apart stay rivals until all beams have judged them: which of
   // them wins must not hang on where the proposals happened to lie.

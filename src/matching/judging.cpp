@@ -6,11 +6,6 @@
 
 namespace sigloc
 {
-namespace
-{
-constexpr double kContender = 0.2;  // of the score, behind the best
-}
-
 std::vector<Candidate> judgedCandidates(const DenseVerifier& verifier, const ObservedScene& scene,
                                         const DenseScan& scan,
                                         const std::vector<PoseProposal>& proposals,
@@ -30,7 +25,7 @@ std::vector<Candidate> judgedCandidates(const DenseVerifier& verifier, const Obs
   }
   for (Candidate& candidate : candidates)
   {
-    if (candidate.score < candidates.front().score - kContender) break;
+    if (candidate.score < candidates.front().score - DenseVerifier::kContender) break;
     candidate.facts = explainedFacts(scene.features, verifier.field(), candidate.pose.mean);
   }
   return candidates;

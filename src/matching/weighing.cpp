@@ -22,7 +22,6 @@ constexpr double kThroughSlope = 20.0;  // per share of beams through walls
 constexpr double kFactSlope = 0.3;  // per explained fact
 constexpr double kLeadSlope = 0.46;  // per unit of log-likelihood ahead of the best rival
 constexpr double kFitOffset = 11.2;
-constexpr double kPriorHere = 2.6;  // log-odds: one wake-up in fourteen is off the map
 constexpr double kPriorOutside = 0.01;  // of a pose outside the region it is said to be in
 constexpr double kChanceScore = 0.4;  // what chance reaches where there is no runner-up
 constexpr double kFeatureTempering = 0.25;  // features of one scan share their errors
@@ -80,7 +79,7 @@ double fitLogOdds(const Candidate& candidate)
   // being in the map. The score already holds half of both shares.
   const double explained = candidate.score + 0.5 * candidate.through_wall + 1.5 * candidate.in_free;
   return kExplainedSlope * explained - kThroughSlope * candidate.through_wall +
-         kFactSlope * candidate.facts - kFitOffset + kPriorHere;
+         kFactSlope * candidate.facts - kFitOffset;
 }
 
 double leadLogOdds(double score, double rival_score)
@@ -93,7 +92,7 @@ double presenceEvidence(const RelocationResult& result, std::size_t k)
   const std::vector<Candidate>& candidates = result.candidates;
   const std::size_t rival = k == 0 ? 1 : 0;
   const double rival_score = rival < candidates.size() ? candidates[rival].score : kChanceScore;
-  return fitLogOdds(candidates[k]) + leadLogOdds(candidates[k].score, rival_score) - kPriorHere;
+  return fitLogOdds(candidates[k]) + leadLogOdds(candidates[k].score, rival_score);
 }
 
 void weighCandidates(RelocationResult& result, const std::vector<Candidate>& outside)
@@ -108,7 +107,7 @@ void weighCandidates(RelocationResult& result, const std::vector<Candidate>& out
   double sum_outside = 0;
   for (const Candidate& candidate : outside) sum_outside += kPriorOutside * weight_of(candidate);
 
-  const double here = 1.0 / (1.0 + std::exp(-presenceEvidence(result, 0) - kPriorHere));
+  const double here = 1.0 / (1.0 + std::exp(-presenceEvidence(result, 0) - kPriorHereLogOdds));
   for (Candidate& candidate : candidates) candidate.probability *= here / (sum + sum_outside);
   result.elsewhere = 1.0 - here * sum / (sum + sum_outside);
 

@@ -26,7 +26,6 @@ constexpr double kMaxLost = 3.0;
 constexpr double kMaxConfirmed = 12.0;  // what was confirmed long ago can still be lost
 constexpr double kMinConfirmed = -1.0;  // what look-alikes hid for long can still be confirmed
 constexpr double kMaxAgainst = 2.0;  // log-odds a metre
-constexpr double kPriorHere = 2.6;  // log-odds of standing in the map, as in (7.2)
 constexpr double kFarBetter = 4.0;  // log-likelihood
 constexpr double kSure = 0.9;  // a relocation that overrules all tracks
 
@@ -47,7 +46,7 @@ struct HypothesisTracker::State
   void weighElsewhere(const RelocationResult& result, double fresh_share);
   void dealOut(const RelocationResult& result, const DenseScan& scan);
   GaussianPose withCommonError(GaussianPose pose, int sign) const;
-  void judgeFirst(const ObservedScene& scene);
+  void judgeFirst(const DenseScan& scan);
   void publish(const ObservedScene& scene);
 
   std::shared_ptr<const SignatureMatcher> matcher;
@@ -111,7 +110,7 @@ const Belief& HypothesisTracker::step(const std::optional<MotionIncrement>& moti
     s.set.weigh(travel);
     if (s.wantsRelocation()) s.relocate(scene, scan);
     s.set.mergeAndPrune();
-    s.judgeFirst(scene);
+    s.judgeFirst(scan);
     s.first_step = false;
   }
   else
@@ -196,9 +195,9 @@ void HypothesisTracker::State::confirm(const RelocationResult& result, const Den
       evidence = presenceEvidence(result, k);
     }
     const double novelty = track.seen.add(scan, track.hypothesis.pose.mean, travelled);
-    const double gain = evidence > 0
-                            ? novelty * std::min(evidence, kMaxConfirmed)
-                            : fresh_share * std::clamp(evidence + kPriorHere, -kMaxAgainst, 0.0);
+    const double gain =
+        evidence > 0 ? novelty * std::min(evidence, kMaxConfirmed)
+                     : fresh_share * std::clamp(evidence + kPriorHereLogOdds, -kMaxAgainst, 0.0);
     track.confirmed = std::clamp(track.confirmed + gain, kMinConfirmed, kMaxConfirmed);
   }
 }
@@ -218,7 +217,8 @@ void HypothesisTracker::State::weighElsewhere(const RelocationResult& result, do
       best_untracked = std::max(best_untracked, candidate.score);
     }
   }
-  const double fit = result.candidates.empty() ? 0 : fitLogOdds(result.candidates.front());
+  const double fit =
+      result.candidates.empty() ? 0 : fitLogOdds(result.candidates.front()) + kPriorHereLogOdds;
   double here = std::clamp(fit + leadLogOdds(best_tracked, best_untracked), -kMaxLost, kMaxLost);
   const bool held =
       std::any_of(set.tracks.begin(), set.tracks.end(),
@@ -259,7 +259,7 @@ void HypothesisTracker::State::dealOut(const RelocationResult& result, const Den
     fresh.hypothesis.id = next_id++;
     fresh.score = fresh.mean_score = candidate.score;
     fresh.confirmed =
-        std::clamp(presenceEvidence(result, k) + kPriorHere, kMinConfirmed, kMaxConfirmed);
+        std::clamp(presenceEvidence(result, k) + kPriorHereLogOdds, kMinConfirmed, kMaxConfirmed);
     fresh.seen.add(scan, candidate.pose.mean, travelled);
     set.tracks.push_back(std::move(fresh));
   }
@@ -275,13 +275,12 @@ GaussianPose HypothesisTracker::State::withCommonError(GaussianPose pose, int si
   return pose;
 }
 
-void HypothesisTracker::State::judgeFirst(const ObservedScene& scene)
+void HypothesisTracker::State::judgeFirst(const DenseScan& scan)
 {
   reliability = 0;
   if (set.tracks.empty()) return;
   const mrpt::math::TPose2D& first = set.tracks.front().hypothesis.pose.mean;
-  reliability =
-      reliabilityOf(matcher->verifier()->evaluate(makeDenseScan(scene, kUpdateBeams), first));
+  reliability = reliabilityOf(matcher->verifier()->evaluate(scan, first));
 }
 
 void HypothesisTracker::State::publish(const ObservedScene& scene)

@@ -65,6 +65,9 @@ class SolidWalls;
 class DenseVerifier
 {
  public:
+  /// A pose that scores less than this behind the best may still win, or be its rival.
+  static constexpr double kContender = 0.2;
+
   /// Keeps a reference to the field, which must outlive the verifier. Throws std::invalid_argument
   /// for a field without cells.
   explicit DenseVerifier(const DenseField& field);

@@ -12,8 +12,8 @@ namespace sigloc
 {
 /// Runs proposals through the dense cascade and returns at most `max_candidates`, best first, with
 /// all the evidence that weighing takes: scores and shares, and the explained facts of those that
-/// score within 0.2 of the first. Covariances and probabilities are left to the caller. \cite
-/// algorithm section 6
+/// score within DenseVerifier::kContender of the first. Covariances and probabilities are left to
+/// the caller. \cite algorithm section 6
 std::vector<Candidate> judgedCandidates(const DenseVerifier& verifier, const ObservedScene& scene,
                                         const DenseScan& scan,
                                         const std::vector<PoseProposal>& proposals,

@@ -17,8 +17,12 @@ double logLikelihoodOfScore(double score);
 /// cut short, the share on walls, less what came through walls. \cite algorithm eq. (8.11)
 double reliabilityOf(const DenseEvidence& evidence);
 
-/// Returns the log-odds of the robot standing at a pose rather than somewhere else, leaving its
-/// rivals aside: from how much of the scan it explains and how telling the scan is.
+/// Prior log-odds of standing in the map: one wake-up in fourteen is somewhere else.
+/// \cite algorithm eq. (7.2)
+constexpr double kPriorHereLogOdds = 2.6;
+
+/// Returns what a pose by itself adds to the log-odds of standing there rather than somewhere else,
+/// prior and rivals aside: how much of the scan it explains and how telling the scan is.
 /// \cite algorithm eq. (7.2)
 double fitLogOdds(const Candidate& candidate);
 
