@@ -12,6 +12,7 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "gzip_input.h"
 #include "motion_conversion.h"
@@ -80,7 +81,7 @@ struct RawlogReader::State
   void skipFrameBeforeActions(const mrpt::serialization::CSerializable::Ptr& first_object);
   std::optional<RawlogStep> take(const mrpt::serialization::CSerializable::Ptr& object);
   std::optional<RawlogStep> takeObservation(const CObservation::Ptr& observation);
-  void takeAction(const CActionCollection& actions);
+  void takeAction(const CActionCollection::Ptr& actions);
   void takeOdometry(const CObservationOdometry& reading);
   std::optional<RawlogStep> closeGroup();
   std::optional<RawlogStep> makeStep(const CSensoryFrame::Ptr& frame, std::optional<double> time,
@@ -98,6 +99,7 @@ struct RawlogReader::State
   // Motion of action logs since the last step.
   bool has_action = false;
   bool action_unknown = false;
+  CActionCollection::Ptr only_actions;  // null after a second collection
   mrpt::poses::CPosePDFGaussian action_motion;
 
   // Motion of observation logs.
@@ -167,7 +169,7 @@ std::optional<RawlogStep> RawlogReader::State::take(
 {
   if (const auto actions = std::dynamic_pointer_cast<CActionCollection>(object))
   {
-    takeAction(*actions);
+    takeAction(actions);
     return std::nullopt;
   }
   if (const auto observation = std::dynamic_pointer_cast<CObservation>(object))
@@ -191,10 +193,11 @@ std::optional<RawlogStep> RawlogReader::State::take(
   return step;
 }
 
-void RawlogReader::State::takeAction(const CActionCollection& actions)
+void RawlogReader::State::takeAction(const CActionCollection::Ptr& actions)
 {
-  const detail::ActionMotion action = detail::motionOf(actions);
+  const detail::ActionMotion action = detail::motionOf(*actions);
   if (!action.present) return;
+  only_actions = has_action ? nullptr : actions;
   if (!action.motion) action_unknown = true;
   if (!has_action) action_motion = mrpt::poses::CPosePDFGaussian();
   if (action.motion) action_motion += *action.motion;
@@ -257,6 +260,7 @@ std::optional<RawlogStep> RawlogReader::State::makeStep(const CSensoryFrame::Ptr
   if (step.scans.empty() && step.landmarks.empty()) return std::nullopt;
   step.time = time.value_or(latest_time);
   step.motion = takeMotion(odometry_now, step.time);
+  step.actions = std::exchange(only_actions, nullptr);
   step.frame = frame;
   return step;
 }

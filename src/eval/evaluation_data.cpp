@@ -142,7 +142,9 @@ EvaluationMap evaluationMapFromScans(const std::vector<PosedScans>& scans)
 
 EvaluationMap readEvaluationMap(const std::filesystem::path& path)
 {
-  return evaluationMapOf(readMapSource(path));
+  EvaluationMap map = evaluationMapOf(readMapSource(path));
+  map.file = path;
+  return map;
 }
 
 EvaluationData readEvaluationData(const EvaluationSources& sources)

@@ -51,6 +51,9 @@ TrackDrive readDrive(const TrackOptions& options, const std::vector<TPose2D>& ma
   return drive;
 }
 
+// Summed in another order, the same way has another last digit.
+constexpr double kRounding = 1e-6;  // [m]
+
 // Places equally spaced in the distance travelled, so that no luck is chosen.
 std::vector<std::size_t> startsOf(const TrackDrive& drive, const TrackOptions& options)
 {
@@ -58,7 +61,10 @@ std::vector<std::size_t> startsOf(const TrackDrive& drive, const TrackOptions& o
   const double last = drive.steps.empty() ? 0 : drive.steps.back().travelled - options.travel;
   for (std::size_t i = 0; i < drive.steps.size(); ++i)
   {
-    if (drive.steps[i].may_start && drive.steps[i].travelled <= last) allowed.push_back(i);
+    if (drive.steps[i].may_start && drive.steps[i].travelled <= last + kRounding)
+    {
+      allowed.push_back(i);
+    }
   }
   if (allowed.empty())
   {
@@ -86,7 +92,7 @@ TrackLeg legFrom(const TrackDrive& drive, std::size_t start, double travel)
 {
   std::size_t last = start;
   while (last < drive.steps.size() &&
-         drive.steps[last].travelled - drive.steps[start].travelled <= travel)
+         drive.steps[last].travelled - drive.steps[start].travelled <= travel + kRounding)
   {
     ++last;
   }

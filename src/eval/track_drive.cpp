@@ -28,20 +28,35 @@ void judge(const TrackDriveStep& step, bool foreign, const AccuracyGates& gates,
   if (claim.belief) record.nees = squaredNormalisedError(claim, *step.truth);
 }
 
-void driveLeg(TrackingMethod& method, const TrackLeg& leg, const AccuracyGates& gates,
-              TrackRun& run)
+/// What a run's method is shown: the steps of all legs, one after another.
+std::vector<RawlogStep> shownSteps(const std::vector<TrackLeg>& legs)
+{
+  std::vector<RawlogStep> shown;
+  for (const TrackLeg& leg : legs)
+  {
+    for (std::size_t i = leg.first; i < leg.last; ++i)
+    {
+      shown.push_back(leg.drive->steps[i].step);
+      if (i > leg.first) continue;
+      // Whoever wakes up, or is carried, has not driven the way before.
+      if (shown.back().motion) shown.back().motion = MotionIncrement{};
+      shown.back().actions = nullptr;
+    }
+  }
+  return shown;
+}
+
+void judgeLeg(const TrackLeg& leg, const std::vector<TimedClaim>& claims,
+              const AccuracyGates& gates, TrackRun& run)
 {
   const std::vector<TrackDriveStep>& steps = leg.drive->steps;
   const double before = run.steps.empty() ? 0 : run.steps.back().travelled;
   for (std::size_t i = leg.first; i < leg.last; ++i)
   {
-    RawlogStep step = steps[i].step;
-    // Whoever wakes up, or is carried, has not driven the way before.
-    if (i == leg.first && step.motion) step.motion = MotionIncrement{};
-    const double start = threadCpuSeconds();
+    const TimedClaim& timed = claims.at(run.steps.size());
     TrackStepRecord record;
-    record.claim = method.step(step);
-    record.time_ms = 1e3 * (threadCpuSeconds() - start);
+    record.claim = timed.claim;
+    record.time_ms = timed.time_ms;
     record.step = i;
     record.travelled = before + steps[i].travelled - steps[leg.first].travelled;
     judge(steps[i], leg.drive->foreign, gates, record);
@@ -71,10 +86,11 @@ TrackRun runLegs(const TrackingMethodFactory& factory, const std::vector<TrackLe
     const double before = threadCpuSeconds();
     const auto method = factory.start(seed);
     const double set_up_ms = 1e3 * (threadCpuSeconds() - before);
+    const std::vector<TimedClaim> claims = method->drive(shownSteps(legs));
     for (const TrackLeg& leg : legs)
     {
       if (&leg != &legs.front()) run.kidnapped_at = run.steps.size();
-      driveLeg(*method, leg, gates, run);
+      judgeLeg(leg, claims, gates, run);
     }
     run.steps.front().time_ms += set_up_ms;
     return run;

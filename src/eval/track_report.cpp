@@ -26,9 +26,13 @@ constexpr const char* kDefinitions = R"(
 * Confident: for `signature` and `signature-mcl` the verdict `localized`; for MRPT's filter a position sd below 0.5 m
   and a heading sd below 10 degrees over 5 steps.
 * `signature-mcl`: MRPT's filter with 500 particles, drawn where signatures find a lost robot.
-* `mcl`: pf-localization's shipped options (KLD, 40 000 particles at first). `mcl-fixed`: 40 000
-  throughout. `mcl-tuned`: 200 particles per free square metre, between 40 000 and 500 000, KLD
-  down to 1 000, motion noise halved. One thread each.
+* `mcl`: MRPT's filter with pf-localization's shipped options (KLD, 40 000 particles at first), driven
+  as that program does: its map, the log's own model of the motion, no update at the first step.
+  `mcl-fixed`: 40 000 throughout. `mcl-tuned`: 200 particles per free square metre, between 40 000 and
+  200 000, KLD down to 1 000 on cells of 0.5 m, motion noise of at least 5 cm and 2 degrees a step.
+  One thread each.
+* `mcl-stock`: the program pf-localization, a process a run, with the options of `mcl`. It seeds
+  itself, so its rows differ from run to run; its times are those it tells, by the clock.
 )";
 
 struct TrackSummary

@@ -12,6 +12,7 @@
 #include "sigloc/eval/cpu_time.h"
 #include "sigloc/eval/robot_simulation.h"
 #include "sigloc/eval/run_parallel.h"
+#include "sigloc/eval/simulation_files.h"
 #include "track_drive.h"
 
 namespace sigloc
@@ -152,6 +153,8 @@ class DrivenPlace
       step.step.time = how.step_time * static_cast<double>(i);
       if (options_.odometry) step.step.motion = motions[i];
       step.step.scans = {simulator_.scan(truth[i], random)};
+      step.step.frame = mrpt::obs::CSensoryFrame::Create();
+      step.step.frame->insert(toRangeScan(step.step.scans.front(), step.step.time));
       step.truth = truth[i];
       step.mapped = options_.foreign || detail::isMapped(truth[i], map_.mapped_poses);
       if (i > 0)

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "sigloc/bridge/ParticleTracker.h"
+#include "sigloc/eval/cpu_time.h"
 #include "sigloc/eval/TrackingMethod.h"
 #include "sigloc/features/FeatureExtractor.h"
 #include "sigloc/tracking/HypothesisTracker.h"
@@ -39,7 +40,7 @@ TrackClaim claimOf(const Belief& belief)
   return claim;
 }
 
-class SignatureTracking : public TrackingMethod
+class SignatureTracking : public SteppedTracking
 {
  public:
   SignatureTracking(std::shared_ptr<const SignatureMatcher> matcher,
@@ -59,7 +60,7 @@ class SignatureTracking : public TrackingMethod
 };
 
 /// MRPT's particle filter with a few hundred particles, started and recovered by signatures.
-class ParticleTracking : public TrackingMethod
+class ParticleTracking : public SteppedTracking
 {
  public:
   ParticleTracking(std::shared_ptr<const SignatureMap> map,
@@ -112,9 +113,24 @@ class SignatureTrackingFactory : public TrackingMethodFactory
 };
 }  // namespace
 
+std::vector<TimedClaim> SteppedTracking::drive(const std::vector<RawlogStep>& steps)
+{
+  std::vector<TimedClaim> claims;
+  claims.reserve(steps.size());
+  for (const RawlogStep& one : steps)
+  {
+    const double start = threadCpuSeconds();
+    TimedClaim timed;
+    timed.claim = step(one);
+    timed.time_ms = 1e3 * (threadCpuSeconds() - start);
+    claims.push_back(timed);
+  }
+  return claims;
+}
+
 std::vector<std::string> trackingMethodNames()
 {
-  return {"signature", "signature-mcl", "mcl", "mcl-fixed", "mcl-tuned"};
+  return {"signature", "signature-mcl", "mcl", "mcl-fixed", "mcl-tuned", "mcl-stock"};
 }
 
 void checkTrackingMethods(const std::vector<std::string>& names)
@@ -152,6 +168,7 @@ std::unique_ptr<TrackingMethodFactory> makeTrackingMethod(const std::string& nam
   {
     return std::make_unique<SignatureTrackingFactory>(map, options, name != "signature");
   }
+  if (name == "mcl-stock") return detail::makeStockMonteCarlo(map, options);
   if (name.rfind("mcl", 0) == 0) return detail::makeMonteCarlo(name, map, options);
   throw std::invalid_argument("unknown method '" + name + "'");
 }

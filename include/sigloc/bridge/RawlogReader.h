@@ -26,6 +26,9 @@ struct RawlogStep
   std::vector<Feature> landmarks;  ///< from CObservationBearingRange, without identities
   std::size_t entry = 0;  ///< index of the log's object that completed the step, from 0
   mrpt::obs::CSensoryFrame::Ptr frame;  ///< the observations themselves, for exporters
+  /// What the log itself says of the motion, for MRPT's own filter; null unless exactly one action
+  /// collection led here.
+  mrpt::obs::CActionCollection::Ptr actions;
 };
 
 /// Reads a rawlog step by step, both kinds: action/sensory-frame pairs, and observations only as

@@ -35,12 +35,29 @@ struct TrackClaim
 /// (3 degrees of freedom); NaN where the claim has no covariance.
 double squaredNormalisedError(const TrackClaim& claim, const mrpt::math::TPose2D& truth);
 
+/// A claim and what it took, one thread.
+struct TimedClaim
+{
+  TrackClaim claim;
+  double time_ms = 0;
+};
+
 /// A way of finding and following a robot, lost at first. One object a run.
 class TrackingMethod
 {
  public:
   virtual ~TrackingMethod() = default;
+  /// Returns a claim for every step of a drive. Called once.
+  virtual std::vector<TimedClaim> drive(const std::vector<RawlogStep>& steps) = 0;
+};
+
+/// A method that takes step by step.
+class SteppedTracking : public TrackingMethod
+{
+ public:
   virtual TrackClaim step(const RawlogStep& step) = 0;
+  /// Times are CPU times.
+  std::vector<TimedClaim> drive(const std::vector<RawlogStep>& steps) final;
 };
 
 /// What all runs of a method share: built once from the map, then asked for one run after another.
@@ -55,7 +72,7 @@ class TrackingMethodFactory
 };
 
 /// Names that `makeTrackingMethod` knows: `signature`, `signature-mcl` (MRPT's filter, started and
-/// recovered by signatures) and `mcl` in three settings.
+/// recovered by signatures), `mcl` in three settings, and `mcl-stock`, the pf-localization program.
 std::vector<std::string> trackingMethodNames();
 
 /// Throws std::invalid_argument for a name that `makeTrackingMethod` does not know.
@@ -69,9 +86,14 @@ std::unique_ptr<TrackingMethodFactory> makeTrackingMethod(const std::string& nam
 namespace detail
 {
 /// MRPT's filter: `mcl` with the options that pf-localization ships, `mcl-fixed` with 40 000
-/// particles throughout, `mcl-tuned` with as many particles as the place needs.
+/// particles throughout, `mcl-tuned` with as many particles as the place needs, up to 200 000.
 std::unique_ptr<TrackingMethodFactory> makeMonteCarlo(const std::string& name,
                                                       const EvaluationMap& map,
                                                       const RelocationMethodOptions& options);
+
+/// The stock program pf-localization with the options of `mcl`, a process a run. It seeds itself:
+/// its claims differ from run to run, and its times are those that it tells, by the clock.
+std::unique_ptr<TrackingMethodFactory> makeStockMonteCarlo(const EvaluationMap& map,
+                                                           const RelocationMethodOptions& options);
 }  // namespace detail
 }  // namespace sigloc

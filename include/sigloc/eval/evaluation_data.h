@@ -24,6 +24,7 @@ struct EvaluationMap
   std::optional<OccupancyRaster> raster;
   std::vector<mrpt::math::TPose2D> mapped_poses;  ///< of the mapping scans; empty for a grid
   double build_seconds = 0;  ///< CPU time of building `features`
+  std::filesystem::path file;  ///< that all of it was read from; empty when made of parts of one
 };
 
 /// One place to be found: what the laser saw there, and the truth, which no method is shown.

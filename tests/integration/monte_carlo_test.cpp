@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <mrpt/config/CConfigFile.h>
+#include <mrpt/config/CConfigFileMemory.h>
+#include <mrpt/maps/COccupancyGridMap2D.h>
+#include <mrpt/obs/CActionRobotMovement2D.h>
+
+#include <cmath>
+#include <Eigen/Dense>
+
+#include "sigloc/bridge/RawlogReader.h"
+#include "sigloc/eval/MonteCarloSettings.h"
+#include "sigloc/eval/track.h"
+
+namespace sigloc
+{
+namespace
+{
+const std::filesystem::path kShare = "/usr/share/mrpt";
+const std::filesystem::path kShipped =
+    kShare / "config_files/pf-localization/localization_demo.ini";
+const std::filesystem::path kLog = kShare / "datasets/localization_demo.rawlog";
+
+TEST(MonteCarlo, OptionsAreThoseThatPfLocalizationShips)
+{
+  const mrpt::config::CConfigFile shipped(kShipped.string());
+  const mrpt::config::CConfigFileMemory ours(toIni(monteCarloSettings("mcl", 0, {})));
+  std::vector<std::string> sections;
+  ours.getAllSections(sections);
+  ASSERT_EQ(sections.size(), 7U);
+  for (const std::string& section : sections)
+  {
+    std::vector<std::string> keys;
+    ours.getAllKeys(section, keys);
+    ASSERT_FALSE(keys.empty()) << section;
+    for (const std::string& key : keys)
+    {
+      const double expected = shipped.read_double(section, key, 0, /*failIfNotFound=*/true);
+      EXPECT_EQ(ours.read_double(section, key, NAN), expected) << section << " " << key;
+    }
+  }
+}
+
+mrpt::obs::CActionRobotMovement2D movementOf(const RawlogStep& step,
+                                             const MonteCarloSettings& settings)
+{
+  return *actionsOf(step, settings).getBestMovementEstimation();
+}
+
+TEST(MonteCarlo, MovesAsTheLogSays)
+{
+  RawlogReader reader(kLog);
+  const RawlogStep step = reader.next().value();
+  const auto logged = step.actions->getBestMovementEstimation();
+  const auto [logged_covariance, logged_mean] = logged->poseChange->getCovarianceAndMean();
+  MonteCarloSettings settings;
+  const auto shipped = movementOf(step, settings).poseChange->getCovarianceAndMean();
+  EXPECT_EQ(std::get<1>(shipped), logged_mean);
+  EXPECT_LT((std::get<0>(shipped) - logged_covariance).asEigen().norm(), 1e-9);
+  settings.own_odometry = OdometryNoise{0.2, 5};
+  const auto own = movementOf(step, settings).poseChange->getCovarianceAndMean();
+  EXPECT_EQ(std::get<1>(own), logged_mean);
+  EXPECT_GE(std::get<0>(own)(0, 0), 0.2 * 0.2);
+}
+
+TEST(MonteCarlo, MovesByTheConfiguredNoiseWhereTheLogHasObservationsOnly)
+{
+  RawlogStep step;
+  step.motion = MotionIncrement{};
+  step.motion->mean = {0.3, 0, 0.1};
+  const auto moved = movementOf(step, {}).poseChange->getCovarianceAndMean();
+  EXPECT_NEAR(std::get<1>(moved).x(), 0.3, 1e-6);
+  EXPECT_GE(std::get<0>(moved)(0, 0), 0.10 * 0.10);
+}
+
+TEST(MonteCarlo, SearchesTheMapThatPfLocalizationMakes)
+{
+  const auto map = readEvaluationMap(kShare / "datasets/localization_demo.simplemap.gz");
+  const auto maps = localizationMapOf(map, toIni({}));
+  const auto grid = maps->mapByClass<mrpt::maps::COccupancyGridMap2D>();
+  EXPECT_NEAR(grid->getResolution(), 0.06, 1e-6);
+  EXPECT_EQ(grid->likelihoodOptions.LF_decimation, 20U);
+}
+
+TEST(MonteCarlo, AGridsOwnLikelihoodOptionsDontCount)
+{
+  EvaluationMap map = readEvaluationMap(kShare / "datasets/2006-MalagaCampus.gridmap.gz");
+  const auto maps = localizationMapOf(map, toIni({}));
+  const auto grid = maps->mapByClass<mrpt::maps::COccupancyGridMap2D>();
+  EXPECT_NEAR(grid->getResolution(), 0.08, 1e-6) << "the file's cells";
+  EXPECT_EQ(grid->likelihoodOptions.LF_decimation, 20U) << "the file says 10";
+}
+
+TEST(MonteCarlo, TunedParticlesAreBounded)
+{
+  EXPECT_EQ(monteCarloSettings("mcl-tuned", 10, {}).particles, 40000U);
+  EXPECT_EQ(monteCarloSettings("mcl-tuned", 500, {}).particles, 100000U);
+  EXPECT_EQ(monteCarloSettings("mcl-tuned", 1e6, {}).particles, 200000U);
+  EXPECT_EQ(monteCarloSettings("mcl-tuned", 1e6, {}).kld_maximum, 200000U);
+}
+
+TEST(MonteCarlo, ProgramAndFilterFollowTheSameDrive)
+{
+  const std::filesystem::path source = SIGLOC_SOURCE_DIR;
+  TrackOptions options;
+  options.map = source / "maps" / "office.simplemap";
+  options.rawlog = source / "rawlogs" / "office.rawlog";
+  options.ground_truth = source / "rawlogs" / "office-truth.txt";
+  options.starts = 1;
+  options.travel = 3;
+  options.methods = {"signature", "mcl", "mcl-stock"};
+  options.method.particles = 2000;
+  const auto first = runTrack(options).methods.front().runs.front().steps.front().claim.pose;
+  options.method.region =
+      PoseRegion{first.x - 0.3, first.x + 0.3, first.y - 0.3, first.y + 0.3, first.phi, 0.2};
+  const TrackReport report = runTrack(options);
+  for (const TrackMethodReport& method : report.methods)
+  {
+    const TrackRun& run = method.runs.front();
+    EXPECT_EQ(run.steps.size(), report.methods.front().runs.front().steps.size()) << method.name;
+    EXPECT_LT(run.steps.back().error.distance, 0.5) << method.name;
+    EXPECT_TRUE(run.right_at_end) << method.name;
+  }
+}
+}  // namespace
+}  // namespace sigloc
