@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sigloc/eval/landmark_data.h"
 
+#include <mrpt/math/wrap2pi.h>
+
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -10,6 +12,7 @@
 #include <stdexcept>
 
 #include "sigloc/features/FeatureExtractor.h"
+#include "sigloc/geometry/pose_fusion.h"
 #include "sigloc/geometry/symmetric_matrix.h"
 
 namespace sigloc
@@ -67,6 +70,38 @@ Feature placeAt(FeatureType type, double x, double y, double xx, double xy, doub
 MotionIncrement motionOf(const Row& row)
 {
   return {{row[0], row[1], row[2]}, toMatrix({row[3], row[4], row[5], row[6], row[7], row[8]})};
+}
+
+/// The motion of a point at `lever` [m] of a body that moves by `motion`, both in the body's frame.
+MotionIncrement motionAt(const mrpt::math::TPoint2D& lever, const MotionIncrement& motion)
+{
+  const MotionIncrement arm{{lever.x, lever.y, 0}, mrpt::math::CMatrixDouble33()};
+  GaussianPose moved = composeWithMotion({motion.mean, motion.covariance}, arm);
+  moved.mean.x -= lever.x;
+  moved.mean.y -= lever.y;
+  return {moved.mean, moved.covariance};
+}
+
+/// Marks steps whose truth is uncertain by its own account, or jumps against the odometry: there the
+/// filter that gave it was lost.
+void doubtTruth(const std::vector<Row>& truth, std::vector<LandmarkStep>& steps)
+{
+  constexpr double kMostSigma = 0.5;  // [m]
+  constexpr double kMostJump = 0.5;  // [m]
+  constexpr double kMostTurn = 5 * M_PI / 180;  // [rad]
+  for (std::size_t k = 0; k < steps.size(); ++k)
+  {
+    const GaussianPose pose{steps[k].truth, motionOf(truth[k]).covariance};
+    if (largestPositionSigma(pose) > kMostSigma) steps[k].truth_sure = false;
+    if (k == 0) continue;
+    const mrpt::math::TPose2D moved = steps[k].truth - steps[k - 1].truth;
+    const mrpt::math::TPose2D& driven = steps[k].motion.mean;
+    if (std::hypot(moved.x - driven.x, moved.y - driven.y) > kMostJump ||
+        std::abs(mrpt::math::wrapToPi(moved.phi - driven.phi)) > kMostTurn)
+    {
+      steps[k - 1].truth_sure = steps[k].truth_sure = false;
+    }
+  }
 }
 
 /// The relative part of a map's full covariance: standard deviation of the distance between two
@@ -177,15 +212,20 @@ LandmarkData readVictoriaPark(const std::filesystem::path& folder)
   {
     Feature tree =
         placeAt(FeatureType::circle, row[1], row[2], kSurvey * kSurvey, 0, kSurvey * kSurvey);
-    tree.size = row[3];
-    tree.size_variance = row[4];
+    // The column called radius holds diameters: of trunks near by, whose width is seen best, it is
+    // 1.9 times half that width.
+    tree.size = 0.5 * row[3];
+    tree.size_variance = 0.25 * row[4];
     data.map.push_back(tree);
   }
   data.map_error = relativeError(data.map, readCsv(data.files[1], 2 * data.map.size()));
 
+  // The motion is that of a point behind the laser, scans and truth are the laser's. Where the
+  // laser is was found by laying 800 scans on the ones before; no truth was needed.
+  const mrpt::math::TPoint2D kLaserFromOdometry{2.73, -0.67};  // [m]
   constexpr std::size_t kBeams = 361;
   const std::vector<Row> scans = readCsv(data.files[2], kBeams);
-  const std::vector<Row> truth = readCsv(data.files[3], 3);
+  const std::vector<Row> truth = readCsv(data.files[3], 9);
   const std::vector<Row> motion = readCsv(data.files[4], 9);
   const std::size_t count = std::min({scans.size(), truth.size(), motion.size()});
   for (std::size_t k = 0; k < count; ++k)
@@ -205,7 +245,7 @@ LandmarkData readVictoriaPark(const std::filesystem::path& folder)
       scan.valid.push_back(range > 0 ? 1 : 0);
     }
     LandmarkStep step;
-    step.motion = motionOf(motion[k]);
+    step.motion = motionAt(kLaserFromOdometry, motionOf(motion[k]));
     step.truth = {truth[k][0], truth[k][1], truth[k][2]};
     for (const Feature& feature : observeScene({scan}).features)
     {
@@ -213,6 +253,7 @@ LandmarkData readVictoriaPark(const std::filesystem::path& folder)
     }
     data.steps.push_back(std::move(step));
   }
+  doubtTruth(truth, data.steps);
   return data;
 }
 

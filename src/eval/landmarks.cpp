@@ -17,6 +17,11 @@ namespace sigloc
 {
 namespace
 {
+constexpr const char* kExplanation =
+    "\nFirm: significant, and far ahead of the second. Not judged: answers that are not right by a "
+    "truth that is\nuncertain by more than 0.5 m itself, or jumps against the odometry; they count as "
+    "not right, but not as wrong.\n";
+
 /// What counts as right, by data set: the truth of the park is itself off by up to 0.3 m.
 AccuracyGates gatesOf(const std::string& dataset)
 {
@@ -60,6 +65,7 @@ Asked ask(const FeatureHypothesisGenerator& method, const LocalMap& local, std::
   record.travelled = local.travelled();
   record.answered = !asked.found.empty();
   record.firm = isFirm(asked.found, options.generator);
+  record.truth_sure = data.steps[step].truth_sure;
   if (record.answered)
   {
     record.error = poseError(asked.found.front().pose.mean, data.steps[step].truth);
@@ -200,7 +206,8 @@ std::vector<LandmarksRow> summarizeRows(const std::vector<LandmarkRecord>& recor
     for (Proportion* share : {&row.right, &row.firm, &row.firm_and_wrong}) ++share->cases;
     row.right.count += record.right;
     row.firm.count += record.firm;
-    row.firm_and_wrong.count += record.firm && !record.right;
+    row.firm_and_wrong.count += record.firm && !record.right && record.truth_sure;
+    row.not_judged += !record.right && !record.truth_sure;
     travelled.back().push_back(record.travelled);
     times.back().push_back(record.time_ms);
   }
@@ -253,13 +260,14 @@ std::string landmarksTable(const LandmarksReport& report)
 {
   std::vector<std::vector<std::string>> rows{
       {"method", "local map steps", "features", "right", "firm", "firm and wrong",
-       "travel m median", "p95", "ms median", "p95", "mean", "operations", "cut short"}};
+       "not judged", "travel m median", "p95", "ms median", "p95", "mean", "operations", "cut short"}};
   for (const LandmarksRow& row : report.rows)
   {
     rows.push_back({row.method,
                     row.local_map_steps > 0 ? std::to_string(row.local_map_steps) : "as needed",
                     fixedNumber(row.features, 1), withInterval(row.right), withInterval(row.firm),
-                    withInterval(row.firm_and_wrong), fixedNumber(row.travelled.median, 2),
+                    withInterval(row.firm_and_wrong), std::to_string(row.not_judged),
+                    fixedNumber(row.travelled.median, 2),
                     fixedNumber(row.travelled.p95, 2), fixedNumber(row.time_ms.median, 3),
                     fixedNumber(row.time_ms.p95, 3), fixedNumber(row.time_ms.mean, 3),
                     fixedNumber(row.operations, 0), std::to_string(row.cut_short)});
@@ -271,13 +279,13 @@ void writeLandmarksReport(const LandmarksReport& report, const std::filesystem::
 {
   RunReport files;
   std::ostringstream csv;
-  csv << "method,local_map_steps,step,features,travelled_m,answered,firm,right,error_m,error_deg,"
+  csv << "method,local_map_steps,step,features,travelled_m,answered,firm,right,truth_sure,error_m,error_deg,"
          "operations,time_ms\n";
   for (const LandmarkRecord& r : report.records)
   {
     csv << r.method << ',' << r.local_map_steps << ',' << r.step << ',' << r.features << ','
         << fixedNumber(r.travelled, 3) << ',' << r.answered << ',' << r.firm << ',' << r.right
-        << ',' << fixedNumber(r.error.distance, 3) << ',' << fixedNumber(r.error.angle_deg, 3)
+        << ',' << r.truth_sure << ',' << fixedNumber(r.error.distance, 3) << ',' << fixedNumber(r.error.angle_deg, 3)
         << ',' << r.operations << ',' << fixedNumber(r.time_ms, 4) << '\n';
   }
   nlohmann::ordered_json& json = files.summary;
@@ -289,6 +297,7 @@ void writeLandmarksReport(const LandmarksReport& report, const std::filesystem::
     addProportion(entry, "recall_at_1", row.right);
     addProportion(entry, "firm", row.firm);
     addProportion(entry, "firm_and_wrong", row.firm_and_wrong);
+    entry["not_judged"] = row.not_judged;
     entry["travelled_m"] = toJson(row.travelled);
     entry["time_ms"] = toJson(row.time_ms);
     entry["operations"] = row.operations;
@@ -297,7 +306,7 @@ void writeLandmarksReport(const LandmarksReport& report, const std::filesystem::
   }
   json["map"] = {{"features", report.map_features}};
   files.results = csv.str();
-  files.text = "# Landmarks: " + report.dataset + "\n\n" + landmarksTable(report);
+  files.text = "# Landmarks: " + report.dataset + "\n\n" + landmarksTable(report) + kExplanation;
   files.provenance = report.provenance;
   writeRunReport(files, folder);
 }

@@ -39,11 +39,12 @@ bool counts(const PreparedScene& scene, const FeaturePairing& pairing,
                       { return other.observed == static_cast<std::uint32_t>(parent); });
 }
 
-/// Largest variance [m^2] along any direction.
-double observedSpread(const mrpt::math::CMatrixDouble22& covariance)
+/// Largest variance [m^2] along any direction. Asked for every feature at every pose, where
+/// std::hypot would guard against an overflow that cannot come.
+double largestVariance(double xx, double xy, double yy)
 {
-  return 0.5 * (covariance(0, 0) + covariance(1, 1)) +
-         std::hypot(0.5 * (covariance(0, 0) - covariance(1, 1)), covariance(0, 1));
+  const double half = 0.5 * (xx - yy);
+  return 0.5 * (xx + yy) + std::sqrt(half * half + xy * xy);
 }
 
 std::uint32_t supportOf(const PreparedScene& scene, const std::vector<FeaturePairing>& pairings)
@@ -139,7 +140,8 @@ void FeatureVerifier::visitCandidates(const PreparedScene& scene, std::uint32_t 
   const double xx = p.xx - 2 * arm.y * p.xt + arm.y * arm.y * p.tt;
   const double xy = p.xy + arm.x * p.xt - arm.y * p.yt - arm.x * arm.y * p.tt;
   const double yy = p.yy + 2 * arm.x * p.yt + arm.x * arm.x * p.tt;
-  const double longest = 0.5 * (xx + yy) + std::hypot(0.5 * (xx - yy), xy) + observedSpread(own) +
+  const double longest = largestVariance(xx, xy, yy) +
+                         largestVariance(own(0, 0), own(0, 1), own(1, 1)) +
                          map_->largestPositionVariance(type) + relative_sigma * relative_sigma;
   const double radius = std::sqrt(gates_.planar * std::max(0.0, longest)) + 1e-3;
   if (!isSegment(type))

@@ -18,7 +18,9 @@ constexpr std::int64_t kHeadingCells = 21;  // of at least kMergeAngle
 
 bool samePlace(const mrpt::math::TPose2D& a, const mrpt::math::TPose2D& b)
 {
-  return std::hypot(a.x - b.x, a.y - b.y) <= kMergeDistance &&
+  const double dx = a.x - b.x;
+  const double dy = a.y - b.y;
+  return dx * dx + dy * dy <= kMergeDistance * kMergeDistance &&
          std::abs(mrpt::math::wrapToPi(a.phi - b.phi)) <= kMergeAngle;
 }
 

@@ -6,6 +6,9 @@
 #include <mrpt/math/wrap2pi.h>
 
 #include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
 
 #include "sigloc/eval/feature_methods.h"
 #include "sigloc/eval/FeatureWorld.h"
@@ -167,6 +170,74 @@ TEST(Landmarks, TheMapHoldsWhatHasAnIdentityEvenIfSeenOnce)
   EXPECT_NEAR(map[0].position.x, 0.5 * (1.0 + 2.1), 1e-9);
   EXPECT_NEAR(map[0].position_covariance(0, 0), 0.5, 1e-9);
   EXPECT_EQ(map[1].sightings, 1U);
+}
+
+/// Writes a park of two trees and two scans: the vehicle turns on the spot of its odometry.
+void writePark(const std::filesystem::path& folder, double turn, double truth_sigma)
+{
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "map_trees.csv") << "# id,x,y,radius,var\n1,5,0,0.6,0.01\n2,5,9,0.4,0.01\n";
+  std::ofstream covariance(folder / "map_P_290x290.csv");
+  for (int row = 0; row < 4; ++row) covariance << "0.01,0,0,0.01\n";
+  std::ofstream scans(folder / "scans_361_cm.csv");
+  for (int scan = 0; scan < 2; ++scan)
+  {
+    for (int beam = 0; beam < 361; ++beam)
+    {
+      // A trunk of 0.3 m radius, 5 m straight ahead.
+      const double angle = (beam - 180) * M_PI / 360;
+      const double off = 5 * std::sin(angle);
+      const double range = std::abs(off) < 0.3
+                               ? 5 * std::cos(angle) - std::sqrt(0.09 - off * off)
+                               : 81.91;
+      scans << (beam > 0 ? "," : "") << std::lround(100 * range);
+    }
+    scans << "\n";
+  }
+  const double variance = truth_sigma * truth_sigma;
+  std::ofstream(folder / "vehicle_ground.csv")
+      << "0,0,0,0,0,0,0,0,0\n"
+      << 2.73 * std::cos(turn) - 2.73 + 0.67 * std::sin(turn) << ","
+      << 2.73 * std::sin(turn) - 0.67 * std::cos(turn) + 0.67 << "," << turn << "," << variance
+      << ",0,0," << variance << ",0,0\n";
+  std::ofstream(folder / "vehicle_motion.csv")
+      << "0,0,0,0,0,0,0,0,0\n0,0," << turn << ",0,0,0,0,0,0.0001\n";
+}
+
+TEST(Landmarks, TheParksTrunksHaveTheirWidthAndTheLaserItsOwnMotion)
+{
+  const auto folder = std::filesystem::temp_directory_path() / "sigloc-park";
+  const double turn = 0.1;
+  writePark(folder, turn, 0.2);
+  const LandmarkData data = readVictoriaPark(folder);
+  ASSERT_EQ(data.map.size(), 2U);
+  ASSERT_EQ(data.steps.size(), 2U);
+  // The first column of sizes holds diameters, and the scan agrees.
+  EXPECT_NEAR(data.map[0].size, 0.3, 1e-9);
+  ASSERT_EQ(data.steps[1].observed.size(), 1U);
+  EXPECT_NEAR(data.steps[1].observed[0].size, data.map[0].size, 0.08);
+  // The laser sits 2.7 m ahead of the point that turned, so it moved sideways.
+  const MotionIncrement& motion = data.steps[1].motion;
+  EXPECT_NEAR(motion.mean.x, data.steps[1].truth.x, 1e-6);
+  EXPECT_NEAR(motion.mean.y, data.steps[1].truth.y, 1e-6);
+  EXPECT_NEAR(motion.mean.y, 2.73 * turn, 0.02);
+  EXPECT_NEAR(motion.covariance(1, 1), 0.0001 * 2.73 * 2.73, 1e-4);
+  EXPECT_TRUE(data.steps[1].truth_sure);
+}
+
+TEST(Landmarks, ATruthThatDoubtsItselfOrJumpsIsNotSure)
+{
+  const auto folder = std::filesystem::temp_directory_path() / "sigloc-doubtful-park";
+  writePark(folder, 0.1, 0.6);
+  LandmarkData data = readVictoriaPark(folder);
+  EXPECT_TRUE(data.steps[0].truth_sure);
+  EXPECT_FALSE(data.steps[1].truth_sure);
+
+  writePark(folder, 0.1, 0.2);
+  std::ofstream(folder / "vehicle_motion.csv") << "0,0,0,0,0,0,0,0,0\n0,0,0,0,0,0,0,0,0.0001\n";
+  data = readVictoriaPark(folder);
+  EXPECT_FALSE(data.steps[0].truth_sure) << "it turned by 6 degrees, the odometry did not";
+  EXPECT_FALSE(data.steps[1].truth_sure);
 }
 
 TEST(Landmarks, MissingFilesAndUnknownSetsAreNamed)

@@ -22,6 +22,8 @@ struct LandmarkStep
   std::vector<Feature> observed;  ///< robot frame
   std::vector<int> identities;  ///< of `observed`, -1 for none; empty where the log has none
   mrpt::math::TPose2D truth;  ///< map_from_robot
+  /// False where the truth may itself be too far off to call an answer wrong by it.
+  bool truth_sure = true;
 };
 
 struct LandmarkData
@@ -36,7 +38,9 @@ struct LandmarkData
 /// Throws std::runtime_error ("path: reason").
 LandmarkData readDlr(const std::filesystem::path& folder);
 
-/// Victoria Park (trees as circles, taken from the raw scans) from its folder.
+/// Victoria Park (trees as circles, taken from the raw scans) from its folder. The truth is a
+/// filter's estimate: it is sure where its standard deviation is 0.5 m at most and it does not jump,
+/// by more than 0.5 m or 5 degrees against the odometry, from the step before or to the next.
 /// Throws std::runtime_error ("path: reason").
 LandmarkData readVictoriaPark(const std::filesystem::path& folder);
 

@@ -50,6 +50,7 @@ struct LandmarkRecord
   bool firm = false;  ///< significant, and far ahead of the second
   PoseError error;
   bool right = false;
+  bool truth_sure = true;  ///< see LandmarkStep
   double time_ms = 0;
   std::uint64_t operations = 0;  ///< pairs tried, hypotheses generated and checks
   bool cut_short = false;  ///< the search ended at its budget
@@ -62,7 +63,8 @@ struct LandmarksRow
   double features = 0;  ///< mean number in a query
   Proportion right;
   Proportion firm;
-  Proportion firm_and_wrong;
+  Proportion firm_and_wrong;  ///< where the truth is sure
+  std::uint64_t not_judged = 0;  ///< not right, but by a truth that is not sure
   Quantiles travelled;
   Quantiles time_ms;
   double operations = 0;  ///< mean a query

@@ -15,7 +15,7 @@ struct LocalMapOptions
 {
   double gate_probability = 0.999;
   double max_distance = 60.0;
-  double place_sigma = 0.03;
+  double place_sigma = 0.02;
   double radius_share = 0.3;
   std::uint32_t forget_after = 5;
 
