@@ -82,8 +82,8 @@ MotionIncrement motionAt(const mrpt::math::TPoint2D& lever, const MotionIncremen
   return {moved.mean, moved.covariance};
 }
 
-/// Marks steps whose truth is uncertain by its own account, or jumps against the odometry: there the
-/// filter that gave it was lost.
+/// Marks steps whose truth is uncertain by its own account, or jumps against the odometry: there
+/// the filter that gave it was lost.
 void doubtTruth(const std::vector<Row>& truth, std::vector<LandmarkStep>& steps)
 {
   constexpr double kMostSigma = 0.5;  // [m]

@@ -19,7 +19,8 @@ namespace
 {
 constexpr const char* kExplanation =
     "\nFirm: significant, and far ahead of the second. Not judged: answers that are not right by a "
-    "truth that is\nuncertain by more than 0.5 m itself, or jumps against the odometry; they count as "
+    "truth that is\nuncertain by more than 0.5 m itself, or jumps against the odometry; they count "
+    "as "
     "not right, but not as wrong.\n";
 
 /// What counts as right, by data set: the truth of the park is itself off by up to 0.3 m.
@@ -259,18 +260,18 @@ LandmarksReport runLandmarks(const LandmarksOptions& options)
 std::string landmarksTable(const LandmarksReport& report)
 {
   std::vector<std::vector<std::string>> rows{
-      {"method", "local map steps", "features", "right", "firm", "firm and wrong",
-       "not judged", "travel m median", "p95", "ms median", "p95", "mean", "operations", "cut short"}};
+      {"method", "local map steps", "features", "right", "firm", "firm and wrong", "not judged",
+       "travel m median", "p95", "ms median", "p95", "mean", "operations", "cut short"}};
   for (const LandmarksRow& row : report.rows)
   {
     rows.push_back({row.method,
                     row.local_map_steps > 0 ? std::to_string(row.local_map_steps) : "as needed",
                     fixedNumber(row.features, 1), withInterval(row.right), withInterval(row.firm),
                     withInterval(row.firm_and_wrong), std::to_string(row.not_judged),
-                    fixedNumber(row.travelled.median, 2),
-                    fixedNumber(row.travelled.p95, 2), fixedNumber(row.time_ms.median, 3),
-                    fixedNumber(row.time_ms.p95, 3), fixedNumber(row.time_ms.mean, 3),
-                    fixedNumber(row.operations, 0), std::to_string(row.cut_short)});
+                    fixedNumber(row.travelled.median, 2), fixedNumber(row.travelled.p95, 2),
+                    fixedNumber(row.time_ms.median, 3), fixedNumber(row.time_ms.p95, 3),
+                    fixedNumber(row.time_ms.mean, 3), fixedNumber(row.operations, 0),
+                    std::to_string(row.cut_short)});
   }
   return markdownTable(rows);
 }
@@ -279,14 +280,16 @@ void writeLandmarksReport(const LandmarksReport& report, const std::filesystem::
 {
   RunReport files;
   std::ostringstream csv;
-  csv << "method,local_map_steps,step,features,travelled_m,answered,firm,right,truth_sure,error_m,error_deg,"
+  csv << "method,local_map_steps,step,features,travelled_m,answered,firm,right,truth_sure,error_m,"
+         "error_deg,"
          "operations,time_ms\n";
   for (const LandmarkRecord& r : report.records)
   {
     csv << r.method << ',' << r.local_map_steps << ',' << r.step << ',' << r.features << ','
         << fixedNumber(r.travelled, 3) << ',' << r.answered << ',' << r.firm << ',' << r.right
-        << ',' << r.truth_sure << ',' << fixedNumber(r.error.distance, 3) << ',' << fixedNumber(r.error.angle_deg, 3)
-        << ',' << r.operations << ',' << fixedNumber(r.time_ms, 4) << '\n';
+        << ',' << r.truth_sure << ',' << fixedNumber(r.error.distance, 3) << ','
+        << fixedNumber(r.error.angle_deg, 3) << ',' << r.operations << ','
+        << fixedNumber(r.time_ms, 4) << '\n';
   }
   nlohmann::ordered_json& json = files.summary;
   for (const LandmarksRow& row : report.rows)

@@ -27,6 +27,18 @@ bool contains(const std::vector<FeaturePairing>& pairings, std::uint32_t mapped)
                      [&](const FeaturePairing& pairing) { return pairing.mapped == mapped; });
 }
 
+bool samePairings(const std::vector<FeaturePairing>& a, const std::vector<FeaturePairing>& b)
+{
+  const auto in_b = [&](const FeaturePairing& pairing)
+  {
+    return std::any_of(
+        b.begin(), b.end(),
+        [&](const FeaturePairing& other)
+        { return other.observed == pairing.observed && other.mapped == pairing.mapped; });
+  };
+  return a.size() == b.size() && std::all_of(a.begin(), a.end(), in_b);
+}
+
 /// A corner or wall end counts only where the wall it was made of does not: both are the same
 /// beams.
 bool counts(const PreparedScene& scene, const FeaturePairing& pairing,
@@ -338,23 +350,24 @@ void FeatureVerifier::verify(const PreparedScene& scene, const CandidateLists* l
   // what the base's error excluded comes in and what it let in goes out: eq. (5.8).
   PoseEstimate pose = filter.pose;
   constexpr int kRecounts = 2;
-  for (int round = 0; round < kRecounts; ++round)
+  for (int fits = 0; fits <= kRecounts; ++fits)
   {
     const auto refitted = fit(scene, pose, workspace);
     if (!refitted) return;
     pose = *refitted;
+    if (fits == kRecounts) break;
+    workspace.before = workspace.pairings;
     recount(scene, pose, workspace, counters);
     if (supportOf(scene, workspace.pairings) < wanted) return;
+    if (samePairings(workspace.before, workspace.pairings)) break;  // nothing left to refit
   }
-  const auto refitted = fit(scene, pose, workspace);
-  if (!refitted) return;
 
   // 3. Weigh it against "all clutter": eq. (5.10).
   FeatureHypothesis hypothesis;
-  hypothesis.pose = toGaussian(*refitted);
+  hypothesis.pose = toGaussian(pose);
   hypothesis.pairings = workspace.pairings;
   hypothesis.support = supportOf(scene, workspace.pairings);
-  hypothesis.log_odds = logOdds(scene, *refitted, workspace);
+  hypothesis.log_odds = logOdds(scene, pose, workspace);
   found.add(std::move(hypothesis));
 }
 

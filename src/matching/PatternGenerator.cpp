@@ -42,6 +42,18 @@ bool seesWalls(const PreparedScene& scene)
   return std::any_of(scene.views.begin(), scene.views.end(),
                      [](const DirectedFeature& view) { return isSegment(view.type()); });
 }
+
+/// Two patterns that share a key by accident cost one draw of many.
+std::uint64_t keyOf(const PatternMembers& members)
+{
+  std::uint64_t key = 0;
+  for (const std::uint32_t member : members)
+  {
+    key = (key ^ member) * 0x9E3779B97F4A7C15ULL;
+    key ^= key >> 32;
+  }
+  return key;
+}
 }  // namespace
 
 /// What one query carries along: random numbers, the pattern drawn last, buffers.
@@ -56,7 +68,7 @@ struct PatternGenerator::Query
   PatternIndex::Gate gate;
   std::vector<std::uint32_t> near;
   std::vector<PatternOrder> orders;
-  std::vector<PatternMembers> tried;
+  std::vector<std::uint64_t> tried;  ///< keys of the patterns drawn so far
   std::vector<const std::uint32_t*> hits;
   std::vector<PoseEstimate> poses;
 };
@@ -111,17 +123,15 @@ bool PatternGenerator::drawPattern(const PreparedScene& scene, const std::vector
     query.members[k] = query.near[k - 1];
   }
   std::sort(query.members.begin(), query.members.begin() + static_cast<std::ptrdiff_t>(size));
-  if (std::find(query.tried.begin(), query.tried.end(), query.members) != query.tried.end())
-  {
-    return false;
-  }
+  const std::uint64_t key = keyOf(query.members);
+  if (std::find(query.tried.begin(), query.tried.end(), key) != query.tried.end()) return false;
   gatePattern(scene, query);
   std::array<TPoint2D, kLargestPattern> places;
   for (std::size_t k = 0; k < size; ++k) places[k] = scene.views[query.members[k]].position();
   query.orders.clear();
   possibleOrders(places.data(), size, kOrderShare * query.gate.tolerance, query.orders);
   if (query.orders.size() > most_orders) return false;
-  query.tried.push_back(query.members);
+  query.tried.push_back(key);
   return true;
 }
 

@@ -216,7 +216,7 @@ std::optional<PoseEstimate> poseFromPlaces(const TPoint2D* observed, const TPoin
     across += cross(seen, known);
     spread += dot(seen, seen);
   }
-  const double norm = std::hypot(along, across);
+  const double norm = std::sqrt(along * along + across * across);
   constexpr double kCoincident = 1e-9;  // [m^2]
   if (!(norm > kCoincident) || !(spread > kCoincident)) return std::nullopt;
 

@@ -176,7 +176,8 @@ TEST(Landmarks, TheMapHoldsWhatHasAnIdentityEvenIfSeenOnce)
 void writePark(const std::filesystem::path& folder, double turn, double truth_sigma)
 {
   std::filesystem::create_directories(folder);
-  std::ofstream(folder / "map_trees.csv") << "# id,x,y,radius,var\n1,5,0,0.6,0.01\n2,5,9,0.4,0.01\n";
+  std::ofstream(folder / "map_trees.csv")
+      << "# id,x,y,radius,var\n1,5,0,0.6,0.01\n2,5,9,0.4,0.01\n";
   std::ofstream covariance(folder / "map_P_290x290.csv");
   for (int row = 0; row < 4; ++row) covariance << "0.01,0,0,0.01\n";
   std::ofstream scans(folder / "scans_361_cm.csv");
@@ -187,9 +188,8 @@ void writePark(const std::filesystem::path& folder, double turn, double truth_si
       // A trunk of 0.3 m radius, 5 m straight ahead.
       const double angle = (beam - 180) * M_PI / 360;
       const double off = 5 * std::sin(angle);
-      const double range = std::abs(off) < 0.3
-                               ? 5 * std::cos(angle) - std::sqrt(0.09 - off * off)
-                               : 81.91;
+      const double range =
+          std::abs(off) < 0.3 ? 5 * std::cos(angle) - std::sqrt(0.09 - off * off) : 81.91;
       scans << (beam > 0 ? "," : "") << std::lround(100 * range);
     }
     scans << "\n";

@@ -38,6 +38,7 @@ class FeatureVerifier
   {
     HypothesisBase base;
     std::vector<FeaturePairing> pairings;
+    std::vector<FeaturePairing> before;
     std::vector<DirectedPairing> fitted;
     struct Match
     {
