@@ -9,16 +9,28 @@
 #include <iostream>
 #include <stdexcept>
 
+#include "sigloc/eval/method_names.h"
+
 namespace sigloc
 {
-void CommonOptions::declare(CLI::App& command)
+void CommonOptions::declareRunning(CLI::App& command)
 {
-  command.add_option("--method", methods, "methods to run, separated by commas")->delimiter(',');
-  command.add_option("--max-queries", max_queries, "ask this many, evenly spaced (default: all)");
   command.add_option("--seed", seed, "of everything random")->capture_default_str();
   command.add_option("--threads", threads, "queries asked at a time; each is timed on its own")
       ->capture_default_str()
       ->check(CLI::Range(1, 256));
+  command.add_flag("--quiet", quiet, "no progress bar, no table");
+  command.add_option("--out", out, "folder for summary.json, results.csv, report.md and plots")
+      ->required();
+}
+
+void CommonOptions::declare(CLI::App& command, const std::vector<std::string>& known_methods)
+{
+  command
+      .add_option("--method", methods,
+                  "methods to run, separated by commas, of: " + joined(known_methods))
+      ->delimiter(',');
+  command.add_option("--max-queries", max_queries, "ask this many, evenly spaced (default: all)");
   command.add_option("--region", region, "x0,x1,y0,y1 [m]: the robot is known to be inside")
       ->delimiter(',')
       ->expected(4);
@@ -26,9 +38,15 @@ void CommonOptions::declare(CLI::App& command)
       ->delimiter(',')
       ->expected(2);
   command.add_flag("--no-dense", no_dense, "the signature methods do without the dense field");
-  command.add_flag("--quiet", quiet, "no progress bar, no table");
-  command.add_option("--out", out, "folder for summary.json, results.csv, report.md and plots")
-      ->required();
+  declareRunning(command);
+}
+
+void CommonOptions::refusePrior(const std::string& command) const
+{
+  if (!region.empty() || !heading.empty())
+  {
+    throw std::invalid_argument(command + " takes no --region or --heading");
+  }
 }
 
 std::optional<PoseRegion> CommonOptions::poseRegion() const

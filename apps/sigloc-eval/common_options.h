@@ -29,8 +29,17 @@ struct CommonOptions
   bool quiet = false;
   std::string out;
 
-  /// Declares them; the object must live as long as the command.
-  void declare(CLI::App& command);
+  // The object must live as long as the command.
+
+  /// Declares all of them; the help names the methods there are.
+  void declare(CLI::App& command, const std::vector<std::string>& known_methods);
+
+  /// Declares --seed, --threads, --quiet and --out alone, for commands without methods to choose.
+  void declareRunning(CLI::App& command);
+
+  /// Throws std::invalid_argument when --region or --heading is given to a command that asks in
+  /// many maps or knows none.
+  void refusePrior(const std::string& command) const;
 
   /// The prior that --region and --heading give together.
   std::optional<PoseRegion> poseRegion() const;

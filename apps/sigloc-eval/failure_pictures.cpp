@@ -4,10 +4,12 @@
 
 #include <mrpt/core/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <stdexcept>
 
 #include "pictures.h"
+#include "sigloc/eval/RelocationMethod.h"
 #include "sigloc/features/FeatureExtractor.h"
 
 namespace sigloc
@@ -71,6 +73,23 @@ std::vector<PictureMaker::CloseUp> closeUpsOf(const FailedQuery& failure)
   return places;
 }
 }  // namespace
+
+void removeFailurePictures(const std::filesystem::path& folder)
+{
+  if (!std::filesystem::is_directory(folder)) return;
+  const std::vector<std::string> methods = relocationMethodNames();
+  std::vector<std::filesystem::path> old;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+  {
+    const std::filesystem::path& file = entry.path();
+    const std::string name = file.filename().string();
+    const bool ours =
+        std::any_of(methods.begin(), methods.end(),
+                    [&](const std::string& method) { return name.rfind(method + "-", 0) == 0; });
+    if (ours && file.extension() == ".png" && entry.is_regular_file()) old.push_back(file);
+  }
+  for (const std::filesystem::path& file : old) std::filesystem::remove(file);
+}
 
 void drawFailures(const std::vector<FailedQuery>& failures, const std::filesystem::path& folder)
 {

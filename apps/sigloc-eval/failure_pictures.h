@@ -9,6 +9,9 @@
 
 namespace sigloc
 {
+/// Removes the pictures that an earlier run left in a folder and its subfolders.
+void removeFailurePictures(const std::filesystem::path& folder);
+
 /// Draws each failed query as FOLDER/<method>-<query>.png: the map with what was proposed, the
 /// candidates that were kept and the truth, and closer the scan laid at the truth and at the first
 /// candidate. Makes the folder when there is anything to draw.

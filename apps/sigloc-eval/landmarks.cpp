@@ -5,6 +5,8 @@
 #include <iostream>
 
 #include "commands.h"
+#include "sigloc/eval/feature_methods.h"
+#include "sigloc/eval/report_files.h"
 
 namespace sigloc
 {
@@ -18,6 +20,8 @@ struct LandmarksFlags
 
   int run(const std::string& command_line)
   {
+    common.refusePrior("landmarks");
+    checkWritableFolder(common.out);
     if (!common.methods.empty()) options.methods = common.methods;
     options.first_half_map = map_part == "first-half";
     options.max_queries = common.max_queries;
@@ -61,7 +65,7 @@ std::function<int()> setUpLandmarks(CLI::App& command, const std::string& comman
       ->check(CLI::PositiveNumber);
   command.add_option("--stride", options.query_stride, "every so many steps is a query")
       ->check(CLI::PositiveNumber);
-  flags->common.declare(command);
+  flags->common.declare(command, featureMethodNames());
   return [flags, command_line] { return flags->run(command_line); };
 }
 }  // namespace sigloc

@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "commands.h"
+#include "sigloc/eval/report_files.h"
 
 namespace sigloc
 {
@@ -26,6 +27,7 @@ struct MergeFlags
         throw std::invalid_argument(out + ": is one of the runs, which would be overwritten");
       }
     }
+    checkWritableFolder(out);
     const MergedRuns merged = mergeRuns(runs, command_line);
     writeRunReport(merged.report, out);
     if (!quiet) std::cout << merged.report.text;

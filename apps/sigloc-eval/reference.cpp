@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <iostream>
+#include <stdexcept>
 
 #include "commands.h"
 #include "sigloc/eval/reference_path.h"
+#include "sigloc/eval/report_files.h"
 
 namespace sigloc
 {
@@ -18,6 +20,11 @@ struct ReferenceFlags
 
   int run() const
   {
+    if (std::filesystem::is_directory(out))
+    {
+      throw std::invalid_argument(out.string() + ": is a folder");
+    }
+    checkWritableFolder(out.has_parent_path() ? out.parent_path() : ".");
     const ReferencePath reference = referencePath(map, rawlog, poseOfFlag(last));
     writeReferencePath(reference, out);
     std::cout << reference.poses.size() << " poses; the worst scan has "

@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "commands.h"
+#include "sigloc/eval/report_files.h"
 
 namespace sigloc
 {
@@ -17,6 +18,7 @@ struct ReliabilityFlags
 
   int run(const std::string& command_line)
   {
+    checkWritableFolder(common.out);
     options.seed = common.seed;
     options.threads = common.threads;
     options.command = command_line;
@@ -38,7 +40,7 @@ std::function<int()> setUpReliability(CLI::App& command, const std::string& comm
   command.add_option("--clutter", options.clutter, "shares of beams that end too early")
       ->delimiter(',')
       ->check(CLI::Range(0.0, 1.0));
-  flags->common.declare(command);
+  flags->common.declareRunning(command);
   return [flags, command_line] { return flags->run(command_line); };
 }
 }  // namespace sigloc

@@ -6,6 +6,7 @@
 
 #include "commands.h"
 #include "failure_pictures.h"
+#include "sigloc/eval/report_files.h"
 
 namespace sigloc
 {
@@ -17,10 +18,11 @@ struct RelocateFlags
   EvaluationSources sources;
   std::vector<double> map_from_queries;
   bool simulated = false;
-  std::size_t draw_failures = 0;
+  std::uint32_t draw_failures = 0;
 
   int run(const std::string& command_line) const
   {
+    checkWritableFolder(common.out);
     RelocateOptions options;
     options.sources = sources;
     options.sources.map_from_queries = poseOfFlag(map_from_queries);
@@ -40,9 +42,11 @@ struct RelocateFlags
     options.progress = progressBar(common.quiet);
     const RelocateReport report = runRelocate(options);
     writeRelocateReport(report, common.out);
+    const std::filesystem::path pictures = std::filesystem::path(common.out) / "failures";
+    removeFailurePictures(pictures);
     for (const RelocateMethodReport& method : report.methods)
     {
-      drawFailures(method.failures, std::filesystem::path(common.out) / "failures");
+      drawFailures(method.failures, pictures);
     }
     if (!common.quiet) std::cout << relocateTable(report);
     return exitCode(report.complete, sources.rawlog);
@@ -69,9 +73,11 @@ std::function<int()> setUpRelocate(CLI::App& command, const std::string& command
   command.add_flag("--foreign", sources.foreign, "the queries are of another place");
   command.add_flag("--simulated", flags->simulated,
                    "the truth is exact: every confident answer that is not right is wrong");
-  command.add_option("--draw-failures", flags->draw_failures,
-                     "pictures of the first so many failed queries of each method");
-  flags->common.declare(command);
+  command
+      .add_option("--draw-failures", flags->draw_failures,
+                  "pictures of the first so many failed queries of each method")
+      ->check(CLI::NonNegativeNumber);
+  flags->common.declare(command, relocationMethodNames());
   return [flags, command_line] { return flags->run(command_line); };
 }
 }  // namespace sigloc

@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sigloc/eval/scale.h"
 
+#include <algorithm>
 #include <iostream>
 
 #include "commands.h"
+#include "sigloc/eval/feature_methods.h"
+#include "sigloc/eval/report_files.h"
 
 namespace sigloc
 {
@@ -17,6 +20,13 @@ struct ScaleFlags
 
   int run(const std::string& command_line)
   {
+    common.refusePrior("scale");
+    checkWritableFolder(common.out);
+    if (common.max_queries > 0)
+    {
+      options.poses = std::min<std::size_t>(options.poses, common.max_queries);
+      options.slow_poses = std::min<std::size_t>(options.slow_poses, common.max_queries);
+    }
     if (!common.methods.empty()) options.methods = common.methods;
     options.seed = common.seed;
     options.generator.seed = common.seed;
@@ -55,7 +65,7 @@ std::function<int()> setUpScale(CLI::App& command, const std::string& command_li
       .add_option("--slow-poses", options.slow_poses, "poses a row of methods linear in the map")
       ->check(CLI::PositiveNumber);
   command.add_option("--slow-limit", options.slow_limit, "largest map for those");
-  flags->common.declare(command);
+  flags->common.declare(command, featureMethodNames());
   return [flags, command_line] { return flags->run(command_line); };
 }
 }  // namespace sigloc

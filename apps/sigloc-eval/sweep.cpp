@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <iostream>
-#include <stdexcept>
 
 #include "commands.h"
 #include "failure_pictures.h"
@@ -19,14 +18,12 @@ struct SweepFlags
   CommonOptions common;
   SweepOptions options;
   std::vector<std::string> worlds;
-  std::size_t draw_failures = 0;
+  std::uint32_t draw_failures = 0;
 
   int run(const std::string& command_line)
   {
-    if (common.poseRegion())
-    {
-      throw std::invalid_argument("sweep takes no --region or --heading: it asks in many worlds");
-    }
+    common.refusePrior("sweep");
+    checkWritableFolder(common.out);
     if (!common.methods.empty()) options.methods = common.methods;
     for (const std::string& world : worlds) options.worlds.push_back(worldKindFrom(world));
     options.use_dense_field = !common.no_dense;
@@ -41,10 +38,12 @@ struct SweepFlags
     options.progress = progressBar(common.quiet);
     const SweepReport report = runSweep(options);
     writeSweepReport(report, common.out);
+    const std::filesystem::path pictures = std::filesystem::path(common.out) / "failures";
+    removeFailurePictures(pictures);
     for (const SweepRow& row : report.rows)
     {
       const auto value = options.over + "-" + sweptValueText(row.value);
-      drawFailures(row.failures, std::filesystem::path(common.out) / "failures" / value);
+      drawFailures(row.failures, pictures / value);
     }
     if (!common.quiet) std::cout << sweepTable(report);
     return 0;
@@ -74,9 +73,11 @@ std::function<int()> setUpSweep(CLI::App& command, const std::string& command_li
       ->capture_default_str();
   command.add_option("--queries", options.queries_per_world, "robots asked in each world")
       ->capture_default_str();
-  command.add_option("--draw-failures", flags->draw_failures,
-                     "pictures of the first so many failed queries of each method and value");
-  flags->common.declare(command);
+  command
+      .add_option("--draw-failures", flags->draw_failures,
+                  "pictures of the first so many failed queries of each method and value")
+      ->check(CLI::NonNegativeNumber);
+  flags->common.declare(command, relocationMethodNames());
   return [flags, command_line] { return flags->run(command_line); };
 }
 }  // namespace sigloc

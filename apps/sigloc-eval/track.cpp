@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "commands.h"
+#include "sigloc/eval/report_files.h"
 #include "sigloc/eval/track_simulated.h"
 
 namespace sigloc
@@ -25,6 +26,7 @@ struct TrackFlags
 
   int run(const std::string& command_line)
   {
+    checkWritableFolder(common.out);
     const TrackReport report =
         simulated.drives > 0 ? runSimulated(command_line) : runLog(command_line);
     writeTrackReport(report, common.out);
@@ -59,6 +61,7 @@ struct TrackFlags
     simulated.kidnap = options.kidnap;
     if (!common.methods.empty()) simulated.methods = common.methods;
     simulated.method.seed = common.seed;
+    simulated.method.particles = options.method.particles;
     simulated.method.region = common.poseRegion();
     simulated.method.use_dense_field = !common.no_dense;
     if (common.max_queries > 0) simulated.drives = std::min(simulated.drives, common.max_queries);
@@ -74,35 +77,41 @@ void declareSimulation(CLI::App& command, TrackFlags& flags)
   const std::string group = "Simulated drives";
   SimulatedTrackOptions& options = flags.simulated;
   options.drives = 0;
-  command
-      .add_option("--simulate", options.drives,
-                  "drives in simulated worlds, instead of --map, --rawlog, --ground-truth")
-      ->group(group);
+  CLI::Option* const simulate =
+      command
+          .add_option("--simulate", options.drives,
+                      "drives in simulated worlds, instead of --map, --rawlog, --ground-truth")
+          ->check(CLI::PositiveNumber);
+  for (const char* of_logs :
+       {"--map", "--rawlog", "--ground-truth", "--start-from", "--map-from-truth", "--starts"})
+  {
+    simulate->excludes(command.get_option(of_logs));
+  }
   command.add_option("--drives-per-world", options.drives_per_world, "that share one world")
-      ->group(group)
       ->capture_default_str();
   command.add_option("--worlds", flags.worlds, "office,corridor,hall,park: kinds, in turn")
-      ->delimiter(',')
-      ->group(group);
+      ->delimiter(',');
   command.add_option("--clutter", options.clutter_share, "share of beams that end too early")
       ->check(CLI::Range(0.0, 1.0))
-      ->group(group)
       ->capture_default_str();
   command.add_option("--moved-share", options.moved_share, "share of furniture moved since mapped")
       ->check(CLI::Range(0.0, 1.0))
-      ->group(group)
       ->capture_default_str();
   command.add_option("--unmapped", options.extra_items, "pieces of furniture added since mapped")
-      ->group(group)
       ->capture_default_str();
   command.add_option("--mapped-share", options.mapped_share, "share of the world that is mapped")
-      ->group(group)
       ->capture_default_str();
   command.add_option("--map-sigma", options.map_sigma, "[m] error common to all of a map")
-      ->group(group)
       ->capture_default_str();
-  command.add_flag("--foreign", options.foreign, "the map is of another world")->group(group);
-  command.add_flag("!--no-odometry", options.odometry, "scans alone")->group(group);
+  command.add_flag("--foreign", options.foreign, "the map is of another world");
+  command.add_flag("!--no-odometry", options.odometry, "scans alone");
+  simulate->group(group);
+  for (const char* of_simulations :
+       {"--drives-per-world", "--worlds", "--clutter", "--moved-share", "--unmapped",
+        "--mapped-share", "--map-sigma", "--foreign", "--no-odometry"})
+  {
+    command.get_option(of_simulations)->needs(simulate)->group(group);
+  }
 }
 }  // namespace
 
@@ -129,7 +138,7 @@ std::function<int()> setUpTrack(CLI::App& command, const std::string& command_li
       ->delimiter(',')
       ->expected(3);
   declareSimulation(command, *flags);
-  flags->common.declare(command);
+  flags->common.declare(command, trackingMethodNames());
   return [flags, command_line] { return flags->run(command_line); };
 }
 }  // namespace sigloc

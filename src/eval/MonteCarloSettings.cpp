@@ -16,6 +16,7 @@
 #include <stdexcept>
 
 #include "occupancy_grid.h"
+#include "sigloc/eval/method_names.h"
 
 namespace sigloc
 {
@@ -98,7 +99,7 @@ MonteCarloSettings monteCarloSettings(const std::string& name, double free_area,
   }
   else if (name != "mcl" && name != "mcl-stock")
   {
-    throw std::invalid_argument("unknown method '" + name + "'");
+    refuseMethod(name, trackingMethodNames());
   }
   if (options.particles)
   {

@@ -2,15 +2,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sigloc/eval/feature_methods.h"
 
-#include <stdexcept>
-
 #include "sigloc/eval/CliqueAssociation.h"
 #include "sigloc/eval/InterpretationTree.h"
 #include "sigloc/eval/JcbbRelocation.h"
+#include "sigloc/eval/method_names.h"
 #include "sigloc/matching/generators.h"
 
 namespace sigloc
 {
+std::vector<std::string> featureMethodNames()
+{
+  return {"signature",           "signature-plain",
+          "signature-anchors",   "signature-pairs",
+          "signature-patterns",  "jcbb",
+          "interpretation-tree", "clique"};
+}
+
+void checkFeatureMethods(const std::vector<std::string>& names)
+{
+  checkMethodNames(names, featureMethodNames());
+}
+
 std::unique_ptr<FeatureHypothesisGenerator> makeFeatureMethod(const std::string& name,
                                                               const FeatureMap& map,
                                                               const GeneratorOptions& options)
@@ -23,9 +35,7 @@ std::unique_ptr<FeatureHypothesisGenerator> makeFeatureMethod(const std::string&
   if (name == "jcbb") return std::make_unique<JcbbRelocation>(map, options);
   if (name == "interpretation-tree") return std::make_unique<InterpretationTree>(map, options);
   if (name == "clique") return std::make_unique<CliqueAssociation>(map, options);
-  throw std::invalid_argument("unknown method '" + name +
-                              "': signature, signature-plain, signature-anchors, signature-pairs, "
-                              "signature-patterns, jcbb, interpretation-tree, clique");
+  refuseMethod(name, featureMethodNames());
 }
 
 bool isLinearMethod(const std::string& name)

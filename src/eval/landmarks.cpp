@@ -234,6 +234,7 @@ LandmarksReport runLandmarks(const LandmarksOptions& options)
   {
     throw std::invalid_argument("landmarks: needs local map steps and a query stride above 0");
   }
+  checkFeatureMethods(options.methods);
   const LandmarkData data = dlr ? readDlr(options.path) : readVictoriaPark(options.path);
   const FeatureMap map(
       dlr && options.first_half_map ? mapFromSteps(data, data.steps.size() / 2) : data.map,

@@ -36,6 +36,27 @@ struct Run
   }
 };
 
+/// A file that was cut off at the end of a line looks whole.
+void checkComplete(const Run& run)
+{
+  if (!run.results.has("method")) return;
+  std::map<std::string, std::size_t> rows;
+  for (std::size_t i = 0; i < run.results.rows(); ++i) ++rows[run.results.text(i, "method")];
+  for (const auto& [name, method] : run.summary.at("methods").items())
+  {
+    const std::string counted = method.contains("steps") ? "steps" : "queries";
+    const auto expected = method.find(counted);
+    if (expected == method.end() || !expected->is_number_unsigned()) continue;
+    // Of merged drives, a row is a run.
+    if (run.results.has(counted)) continue;
+    if (rows[name] == expected->get<std::size_t>()) continue;
+    throw std::runtime_error((run.folder / "results.csv").string() + ": holds " +
+                             std::to_string(rows[name]) + " rows of " + name + ", not the " +
+                             std::to_string(expected->get<std::size_t>()) + " " + counted +
+                             " that summary.json counts");
+  }
+}
+
 Run readRun(const fs::path& folder)
 {
   const fs::path path = folder / "summary.json";
@@ -46,13 +67,43 @@ Run readRun(const fs::path& folder)
   {
     throw std::runtime_error(path.string() + ": is no summary of sigloc-eval");
   }
-  return {folder, std::move(summary), CsvTable(folder / "results.csv")};
+  Run run{folder, std::move(summary), CsvTable(folder / "results.csv")};
+  checkComplete(run);
+  return run;
+}
+
+/// What a run asked: its seed, the checksums of its data, and the columns that tell a question.
+std::set<std::string> questionsOf(const Run& run)
+{
+  const ordered_json& provenance = run.summary.at("provenance");
+  std::string asked;
+  // The world of a sweep has the seed in its name, and keeps it when merged.
+  if (!run.results.has("world"))
+  {
+    asked = provenance.value("seed", ordered_json()).dump();
+    for (const auto& file : provenance.value("data", ordered_json::array()))
+    {
+      asked += " " + file.value("md5", "");
+    }
+  }
+  std::set<std::string> questions;
+  for (std::size_t i = 0; i < run.results.rows(); ++i)
+  {
+    std::string question = asked;
+    for (const char* column : {"run", "over", "value", "world", "start", "query"})
+    {
+      if (run.results.has(column)) question += " " + run.results.text(i, column);
+    }
+    questions.insert(question);
+  }
+  return questions;
 }
 
 /// A share is comparable only where every method was asked everything.
 void checkAlike(const std::vector<Run>& runs)
 {
   std::set<fs::path> seen;
+  std::set<std::string> asked;
   for (const Run& run : runs)
   {
     if (!seen.insert(fs::canonical(run.folder)).second)
@@ -63,6 +114,13 @@ void checkAlike(const std::vector<Run>& runs)
     {
       throw std::runtime_error(run.folder.string() + ": has other methods than " +
                                runs.front().folder.string());
+    }
+    for (const std::string& question : questionsOf(run))
+    {
+      if (asked.insert(question).second) continue;
+      throw std::runtime_error(run.folder.string() +
+                               ": an earlier run asked the same with the same seed: give each run "
+                               "data or a --seed of its own");
     }
   }
 }
@@ -143,7 +201,7 @@ SweepRow& rowOf(SweepReport& report, double value, const std::string& method)
   return report.rows.back();
 }
 
-void addSweepRun(const Run& run, std::set<std::string>& seen, SweepReport& report)
+void addSweepRun(const Run& run, SweepReport& report)
 {
   for (std::size_t i = 0; i < run.results.rows(); ++i)
   {
@@ -153,13 +211,6 @@ void addSweepRun(const Run& run, std::set<std::string>& seen, SweepReport& repor
     {
       run.results.fail(
           i, "a sweep over '" + run.results.text(i, "over") + "', not over '" + report.over + "'");
-    }
-    const std::string query =
-        run.results.text(i, "value") + " " + world + " " + run.results.text(i, "query");
-    if (!seen.insert(query + " " + method).second)
-    {
-      run.results.fail(i, "an earlier run holds the same queries in " + world +
-                              ": give each run its own --seed");
     }
     rowOf(report, run.results.number(i, "value"), method)
         .records.push_back({world, detail::storedRelocation(run.results, i)});
@@ -171,8 +222,7 @@ RunReport mergeSweeps(const std::vector<Run>& runs)
   SweepReport report;
   report.over = runs.front().results.text(0, "over");
   report.label = runs.front().summary.value("label", report.over);
-  std::set<std::string> seen;
-  for (const Run& run : runs) addSweepRun(run, seen, report);
+  for (const Run& run : runs) addSweepRun(run, report);
   std::stable_sort(report.rows.begin(), report.rows.end(),
                    [](const SweepRow& a, const SweepRow& b) { return a.value < b.value; });
   return sweepRunReport(report);

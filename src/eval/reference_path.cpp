@@ -88,6 +88,8 @@ ReferencePath referencePath(const std::filesystem::path& map, const std::filesys
   ReferencePath reference;
   reference.poses.resize(steps.size());
   TPose2D guess = last;
+  // Less, and the scan was laid where nothing of it is mapped, or where it does not belong.
+  constexpr double kLeastPaired = 0.3;
   for (std::size_t i = steps.size(); i-- > 0;)
   {
     mrpt::maps::CSimplePointsMap seen;
@@ -96,6 +98,13 @@ ReferencePath referencePath(const std::filesystem::path& map, const std::filesys
     const mrpt::poses::CPosePDFGaussian start{mrpt::poses::CPose2D(guess)};
     const TPose2D found = icp.AlignPDF(&map_points, &seen, start, info)->getMeanVal().asTPose();
     reference.poses[i] = {steps[i].time, found};
+    if (info.goodness < kLeastPaired)
+    {
+      throw std::runtime_error(
+          rawlog.string() + ": only " + fixedNumber(100 * double{info.goodness}, 0) +
+          " % of the scan of step " + std::to_string(i) +
+          " lie on the map: the last pose is wrong, or the way leaves the map");
+    }
     reference.worst_goodness = std::min(reference.worst_goodness, double{info.goodness});
     // pose(i) = pose(i - 1) + motion(i)
     if (i > 0) guess = found + (TPose2D{} - steps[i].motion->mean);

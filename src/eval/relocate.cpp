@@ -12,6 +12,7 @@
 
 #include "sigloc/bridge/sigmap_file.h"
 #include "sigloc/eval/cpu_time.h"
+#include "sigloc/eval/method_names.h"
 #include "sigloc/eval/run_parallel.h"
 
 namespace sigloc
@@ -88,15 +89,7 @@ std::vector<RelocationRecord> askQueries(const RelocationMethod& method,
 
 void checkRelocationMethods(const std::vector<std::string>& names)
 {
-  if (names.empty()) throw std::invalid_argument("no method to run");
-  const std::vector<std::string> known = relocationMethodNames();
-  for (const std::string& name : names)
-  {
-    if (std::find(known.begin(), known.end(), name) == known.end())
-    {
-      throw std::invalid_argument("unknown method '" + name + "'");
-    }
-  }
+  checkMethodNames(names, relocationMethodNames());
 }
 
 RelocateReport runRelocate(const RelocateOptions& options)

@@ -7,6 +7,7 @@
 #include "sigloc/eval/feature_methods.h"
 #include "sigloc/eval/FeatureVoting.h"
 #include "sigloc/eval/lattice_search.h"
+#include "sigloc/eval/method_names.h"
 #include "sigloc/eval/RelocationMethod.h"
 #include "sigloc/features/FeatureExtractor.h"
 #include "sigloc/matching/DenseVerifier.h"
@@ -265,8 +266,6 @@ std::unique_ptr<RelocationMethod> makeRelocationMethod(const std::string& name,
   {
     if (name == method.name) return method.make(map, options);
   }
-  std::string known;
-  for (const std::string& each : relocationMethodNames()) known += " " + each;
-  throw std::invalid_argument("unknown method '" + name + "'; known are:" + known);
+  refuseMethod(name, relocationMethodNames());
 }
 }  // namespace sigloc

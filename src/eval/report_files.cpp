@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sigloc/eval/report_files.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -39,13 +41,84 @@ void writeTextFile(const std::filesystem::path& path, const std::string& text)
   if (!file) throw std::runtime_error(path.string() + ": cannot be written");
 }
 
-void makeFolder(const std::filesystem::path& folder)
+/// Writes all files of a report into a folder that exists.
+void writeFiles(const RunReport& report, const std::filesystem::path& folder)
 {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw std::runtime_error(folder.string() + ": " + error.message());
+  nlohmann::ordered_json summary = report.summary;
+  summary["provenance"] = toJson(report.provenance);
+  writeTextFile(folder / "results.csv", report.results);
+  for (const auto& [file, content] : report.tables) writeTextFile(folder / file, content);
+  writeTextFile(folder / "summary.json", summary.dump(2) + "\n");
+  std::string text = report.text;
+  for (const auto& [file, plot] : report.plots)
+  {
+    if (drawPlot(plot, folder / file)) text += "\n![" + plot.title + "](" + file + ")\n";
+  }
+  text += report.notes + "\n## Provenance\n\n" + provenanceSection(summary["provenance"]);
+  writeTextFile(folder / "report.md", text);
 }
+
+/// A folder, made if need be, and one within it for files that are not yet complete. What was made
+/// is gone with the object unless it was kept.
+class FolderInProgress
+{
+ public:
+  explicit FolderInProgress(const std::filesystem::path& folder)
+      : folder_(folder), part_(folder / ".part")
+  {
+    for (auto parent = std::filesystem::absolute(folder).lexically_normal();
+         !parent.empty() && !std::filesystem::exists(parent); parent = parent.parent_path())
+    {
+      made_.push_back(parent);
+    }
+    std::filesystem::create_directories(part_);
+  }
+  ~FolderInProgress()
+  {
+    std::error_code ignored;
+    std::filesystem::remove_all(part_, ignored);
+    // Deepest first; a folder that holds something stays.
+    for (const auto& folder : made_) std::filesystem::remove(folder, ignored);
+  }
+  FolderInProgress(const FolderInProgress&) = delete;
+  FolderInProgress& operator=(const FolderInProgress&) = delete;
+
+  const std::filesystem::path& part() const { return part_; }
+
+  /// Moves the complete files to their place.
+  void keep() const
+  {
+    for (const auto& entry : std::filesystem::directory_iterator(part_))
+    {
+      std::filesystem::rename(entry.path(), folder_ / entry.path().filename());
+    }
+  }
+
+ private:
+  std::filesystem::path folder_;
+  std::filesystem::path part_;
+  std::vector<std::filesystem::path> made_;
+};
 }  // namespace
+
+void checkWritableFolder(const std::filesystem::path& folder)
+{
+  if (folder.empty()) throw std::runtime_error("the name of the folder to write to is empty");
+  auto existing = std::filesystem::absolute(folder).lexically_normal();
+  std::error_code error;
+  while (existing.has_relative_path() && !std::filesystem::exists(existing, error))
+  {
+    existing = existing.parent_path();
+  }
+  if (!std::filesystem::is_directory(existing, error))
+  {
+    throw std::runtime_error(folder.string() + ": " + existing.string() + " is no folder");
+  }
+  if (access(existing.c_str(), W_OK | X_OK) != 0)
+  {
+    throw std::runtime_error(folder.string() + ": no right to write into " + existing.string());
+  }
+}
 
 std::string fixedNumber(double value, int decimals)
 {
@@ -108,18 +181,15 @@ std::string markdownTable(const std::vector<std::vector<std::string>>& rows)
 
 void writeRunReport(const RunReport& report, const std::filesystem::path& folder)
 {
-  nlohmann::ordered_json summary = report.summary;
-  summary["provenance"] = toJson(report.provenance);
-  makeFolder(folder);
-  writeTextFile(folder / "results.csv", report.results);
-  for (const auto& [file, content] : report.tables) writeTextFile(folder / file, content);
-  writeTextFile(folder / "summary.json", summary.dump(2) + "\n");
-  std::string text = report.text;
-  for (const auto& [file, plot] : report.plots)
+  try
   {
-    if (drawPlot(plot, folder / file)) text += "\n![" + plot.title + "](" + file + ")\n";
+    const FolderInProgress files(folder);
+    writeFiles(report, files.part());
+    files.keep();
   }
-  text += report.notes + "\n## Provenance\n\n" + provenanceSection(summary["provenance"]);
-  writeTextFile(folder / "report.md", text);
+  catch (const std::filesystem::filesystem_error& error)
+  {
+    throw std::runtime_error(folder.string() + ": " + error.code().message());
+  }
 }
 }  // namespace sigloc

@@ -183,10 +183,8 @@ FittedExponent fitExponent(const Curve& points)
 
 ScaleReport runScale(const ScaleOptions& options)
 {
-  if (options.map_features.empty() || options.methods.empty())
-  {
-    throw std::invalid_argument("scale: needs at least one map size and one method");
-  }
+  if (options.map_features.empty()) throw std::invalid_argument("scale: needs a map size");
+  checkFeatureMethods(options.methods);
   ScaleReport report;
   report.provenance.command = options.command;
   report.provenance.seed = options.seed;

@@ -212,13 +212,7 @@ void check(const SweepOptions& options)
                                 std::to_string(kMaxWorlds));
   }
   if (options.queries_per_world == 0) throw std::invalid_argument("sweep: no queries to ask");
-  for (const double value : options.values)
-  {
-    if (!std::isfinite(value) || value < 0)
-    {
-      throw std::invalid_argument("sweep: values must be finite and not negative");
-    }
-  }
+  checkSweptValues(sweptQuantity(options.over), options.values);
 }
 }  // namespace
 

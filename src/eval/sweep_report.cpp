@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <map>
 
 #include "sigloc/eval/relocation_rows.h"
@@ -184,10 +186,9 @@ Plot timeRatioPlot(const SweepReport& report, const std::vector<SummarizedRow>& 
 
 std::string sweptValueText(double value)
 {
-  std::string text = fixedNumber(value, 3);
-  while (text.back() == '0') text.pop_back();
-  if (text.back() == '.') text.pop_back();
-  return text;
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  return {text.data(), end};
 }
 
 std::string sweepTable(const SweepReport& report)

@@ -6,6 +6,7 @@
 
 #include "sigloc/bridge/ParticleTracker.h"
 #include "sigloc/eval/cpu_time.h"
+#include "sigloc/eval/method_names.h"
 #include "sigloc/eval/TrackingMethod.h"
 #include "sigloc/features/FeatureExtractor.h"
 #include "sigloc/tracking/HypothesisTracker.h"
@@ -135,14 +136,7 @@ std::vector<std::string> trackingMethodNames()
 
 void checkTrackingMethods(const std::vector<std::string>& names)
 {
-  const std::vector<std::string> known = trackingMethodNames();
-  for (const std::string& name : names)
-  {
-    if (std::find(known.begin(), known.end(), name) == known.end())
-    {
-      throw std::invalid_argument("unknown method '" + name + "'");
-    }
-  }
+  checkMethodNames(names, trackingMethodNames());
 }
 
 double squaredNormalisedError(const TrackClaim& claim, const mrpt::math::TPose2D& truth)
@@ -170,6 +164,6 @@ std::unique_ptr<TrackingMethodFactory> makeTrackingMethod(const std::string& nam
   }
   if (name == "mcl-stock") return detail::makeStockMonteCarlo(map, options);
   if (name.rfind("mcl", 0) == 0) return detail::makeMonteCarlo(name, map, options);
-  throw std::invalid_argument("unknown method '" + name + "'");
+  refuseMethod(name, trackingMethodNames());
 }
 }  // namespace sigloc

@@ -59,6 +59,22 @@ TEST(FailurePictures, ShowTheFirstFailedQueries)
   EXPECT_EQ(names.count("signature-0.png"), 1U);
 }
 
+TEST(FailurePictures, OfAnEarlierRunAreRemoved)
+{
+  const TemporaryFolder folder;
+  const auto failures = folder / "out" / "failures";
+  std::filesystem::create_directories(failures / "noise-0.1");
+  writeText(failures / "signature-99.png", "old");
+  writeText(failures / "noise-0.1" / "lattice-office-1-2.png", "old");
+  writeText(failures / "mine.png", "not ours");
+  const auto result = run(folder, "sigloc-eval", relocateInOffice({"--map-from-queries", "5,0,0"}));
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_FALSE(std::filesystem::exists(failures / "signature-99.png"));
+  EXPECT_FALSE(std::filesystem::exists(failures / "noise-0.1" / "lattice-office-1-2.png"));
+  EXPECT_TRUE(std::filesystem::exists(failures / "signature-0.png"));
+  EXPECT_TRUE(std::filesystem::exists(failures / "mine.png"));
+}
+
 TEST(FailurePictures, AreNotMadeWhereNothingFails)
 {
   const TemporaryFolder folder;

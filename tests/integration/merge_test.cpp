@@ -20,9 +20,10 @@ using test::writeText;
 
 /// A run of `relocate` in which `right` of `queries` robots are found, in half of the cases surely.
 void writeRelocations(const std::filesystem::path& folder, std::size_t right, std::size_t queries,
-                      const std::string& method = "signature")
+                      const std::string& method = "signature", std::uint64_t seed = 1)
 {
   RelocateReport report;
+  report.provenance.seed = seed;
   report.methods.emplace_back();
   report.methods.back().name = method;
   for (std::size_t i = 0; i < queries; ++i)
@@ -48,7 +49,7 @@ TEST(Merge, EveryQueryOfAllRunsWeighsTheSame)
 {
   const TemporaryFolder folder;
   writeRelocations(folder / "small", 2, 11);
-  writeRelocations(folder / "large", 90, 101);
+  writeRelocations(folder / "large", 90, 101, "signature", 2);
   const MergedRuns merged = mergeRuns({folder / "small", folder / "large"}, "test");
   const auto& method = merged.report.summary.at("methods").at("signature");
   EXPECT_EQ(method.at("queries"), 112);
@@ -113,6 +114,8 @@ TEST(Merge, SumsTheCountsOfDrives)
     RunReport report;
     auto& method = report.summary["methods"]["signature"];
     method["queries"] = 20U;
+    method["steps"] = 1U;
+    report.provenance.seed = run == "a" ? 1 : 2;
     method["confidently_wrong"] = run == "a" ? 1U : 2U;
     addProportion(method, "right_at_end", {run == "a" ? 19U : 10U, 20});
     report.results = "method,start,step,travelled_m,kidnapped\nsignature,0,0,0,0\n";
@@ -142,6 +145,25 @@ std::string complaint(const std::vector<std::filesystem::path>& runs)
   return "";
 }
 
+TEST(Merge, RefusesToCountTheSameQuestionsTwice)
+{
+  const TemporaryFolder folder;
+  writeRelocations(folder / "a", 2, 5);
+  writeRelocations(folder / "again", 2, 3);
+  EXPECT_NE(
+      complaint({folder / "a", folder / "again"}).find("again: an earlier run asked the same"),
+      std::string::npos);
+  for (const std::string run : {"drive", "same"})
+  {
+    RunReport report;
+    report.summary["methods"]["signature"] = {{"queries", 1U}, {"steps", 1U}};
+    report.results = "method,start,step,travelled_m,kidnapped\nsignature,7,0,0,0\n";
+    writeRunReport(report, folder / run);
+  }
+  EXPECT_NE(complaint({folder / "drive", folder / "same"}).find("same: an earlier run"),
+            std::string::npos);
+}
+
 TEST(Merge, RefusesWhatCannotBePooled)
 {
   const TemporaryFolder folder;
@@ -161,6 +183,11 @@ TEST(Merge, RefusesWhatCannotBePooled)
   writeText(folder / "broken" / "results.csv", csv + "signature,x\n");
   EXPECT_NE(complaint({folder / "a", folder / "broken"}).find("results.csv: line 7"),
             std::string::npos);
+  const std::size_t last_line = csv.rfind('\n', csv.size() - 2) + 1;
+  writeText(folder / "broken" / "results.csv", csv.substr(0, last_line));
+  EXPECT_NE(
+      complaint({folder / "a", folder / "broken"}).find("holds 4 rows of signature, not the 5"),
+      std::string::npos);
   writeText(folder / "broken" / "results.csv", "");
   EXPECT_NE(complaint({folder / "a", folder / "broken"}).find("results.csv: holds no rows"),
             std::string::npos);

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "sigloc/map/FeatureMap.h"
 #include "sigloc/matching/FeatureHypothesis.h"
@@ -17,6 +18,12 @@ namespace sigloc
 std::unique_ptr<FeatureHypothesisGenerator> makeFeatureMethod(const std::string& name,
                                                               const FeatureMap& map,
                                                               const GeneratorOptions& options);
+
+/// Names that `makeFeatureMethod` knows.
+std::vector<std::string> featureMethodNames();
+
+/// Throws std::invalid_argument for an empty list or a name that `makeFeatureMethod` does not know.
+void checkFeatureMethods(const std::vector<std::string>& names);
 
 /// True for methods whose cost is linear in the map by a large constant.
 bool isLinearMethod(const std::string& name);

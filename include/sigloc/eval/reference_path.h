@@ -27,8 +27,8 @@ struct ReferencePath
 /// matching is in it. Good to the map's and the scans' errors, some centimetres, as long as
 /// `worst_goodness` stays well above a half.
 ///
-/// Throws std::runtime_error ("path: reason") for files that cannot be used, a map without scans
-/// and a log without odometry.
+/// Throws std::runtime_error ("path: reason") for files that cannot be used, a map without scans, a
+/// log without odometry, and where less than 0.3 of a scan finds its place on the map.
 ReferencePath referencePath(const std::filesystem::path& map, const std::filesystem::path& rawlog,
                             const mrpt::math::TPose2D& last);
 

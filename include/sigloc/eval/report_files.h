@@ -43,7 +43,12 @@ struct RunReport
   Provenance provenance;
 };
 
+/// Throws std::runtime_error ("path: reason") unless a folder can be written into, or be made.
+/// Leaves nothing behind: to be asked before hours of work.
+void checkWritableFolder(const std::filesystem::path& folder);
+
 /// Writes summary.json, results.csv, further tables, the plots that gnuplot can draw, and report.md
-/// into a folder, making it if need be. Throws std::runtime_error ("path: reason").
+/// into a folder, making it if need be: all of it or, throwing std::runtime_error ("path: reason"),
+/// nothing.
 void writeRunReport(const RunReport& report, const std::filesystem::path& folder);
 }  // namespace sigloc

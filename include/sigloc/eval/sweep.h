@@ -65,7 +65,7 @@ AccuracyGates simulationGates();
 /// Throws std::invalid_argument for options that make no sense.
 SweepReport runSweep(const SweepOptions& options);
 
-/// A swept value as tables show it: no trailing zeros, "0.05".
+/// A swept value as tables show it, with as many digits as tell it from any other: "0.05".
 std::string sweptValueText(double value);
 
 /// The table of the report, a line a value and method.

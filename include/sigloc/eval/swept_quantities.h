@@ -24,12 +24,21 @@ struct SweepConditions
   SweepConditions() { world.jitter = 0.1; }
 };
 
+/// Values that a swept quantity may have, ends included.
+struct SweptRange
+{
+  double least = 0;
+  double most = 0;
+  bool whole = false;  ///< only whole numbers
+};
+
 /// One axis of the sweeps.
 struct SweptQuantity
 {
   std::string name;
   std::string label;  ///< with its unit
   std::vector<double> values;  ///< in a run that states none
+  SweptRange range;
   std::vector<WorldKind> worlds;  ///< kinds that it makes a difference in
   bool changes_map;  ///< false: one map serves all values
   std::function<void(double value, SweepConditions& conditions)> set;
@@ -37,6 +46,9 @@ struct SweptQuantity
 
 /// All of them: noise, clutter, fov, range, map-noise, furniture, unmapped, doors, repeats.
 const std::vector<SweptQuantity>& sweptQuantities();
+
+/// Throws std::invalid_argument for a value that is out of range or given twice.
+void checkSweptValues(const SweptQuantity& quantity, const std::vector<double>& values);
 
 /// Throws std::invalid_argument naming the known ones when there is none of that name.
 const SweptQuantity& sweptQuantity(const std::string& name);

@@ -1,0 +1,171 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include "command_line.h"
+
+namespace sigloc
+{
+namespace
+{
+using namespace sigloc::test;
+using Arguments = std::vector<std::string>;
+
+const std::string kOffice =
+    (std::filesystem::path(SIGLOC_SHARE_FOLDER) / ".." / ".." / "maps" / "office.simplemap")
+        .string();
+
+/// A call that must fail with one line on stderr that says `complaint`, and write nothing.
+struct Refusal
+{
+  const char* name;
+  Arguments arguments;
+  const char* complaint;
+};
+
+class EvalOptions : public testing::TestWithParam<Refusal>
+{
+};
+
+TEST_P(EvalOptions, AreRefusedInOneLine)
+{
+  const TemporaryFolder folder;
+  writeText(folder / "file", "");
+  const auto before = listing(folder);
+  const auto result = run(folder, "sigloc-eval", GetParam().arguments);
+  EXPECT_EQ(result.exit_code, 1) << result.output;
+  EXPECT_EQ(countLines(result.errors), 1) << result.errors;
+  EXPECT_NE(result.errors.find(GetParam().complaint), std::string::npos) << result.errors;
+  EXPECT_EQ(listing(folder), before);
+}
+
+Arguments sweepOver(const std::string& quantity, const std::string& values)
+{
+  return {"sweep", "--over", quantity, "--values", values, "--out", "out"};
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Bad, EvalOptions,
+    testing::Values(
+        Refusal{"WideView", sweepOver("fov", "4000"), "fov 4000: not from 10 to 360"},
+        Refusal{"MoreThanAllClutter", sweepOver("clutter", "1.5"), "clutter 1.5: not from 0 to 1"},
+        Refusal{"NegativeNoise", sweepOver("noise", "-0.1"), "noise -0.1: not from"},
+        Refusal{"HalfACopy", sweepOver("repeats", "2.5"), "repeats 2.5: not a whole number"},
+        Refusal{"ValueTwice", sweepOver("noise", "0.01,0.01"), "noise 0.01: given twice"},
+        Refusal{"NegativePictures",
+                {"sweep", "--over", "noise", "--draw-failures", "-1", "--out", "out"},
+                "--draw-failures"},
+        Refusal{"RegionOfManyWorlds",
+                {"sweep", "--over", "noise", "--region", "0,1,0,1", "--out", "out"},
+                "takes no --region"},
+        Refusal{"RegionForReliability",
+                {"reliability", "--region", "0,1,0,1", "--out", "out"},
+                "--region"},
+        Refusal{"MethodForReliability",
+                {"reliability", "--method", "signature", "--out", "out"},
+                "--method"},
+        Refusal{"RegionForScale",
+                {"scale", "--region", "0,1,0,1", "--out", "out"},
+                "takes no --region"},
+        Refusal{"StartsOfASimulation",
+                {"track", "--simulate", "2", "--starts", "3", "--out", "out"},
+                "--starts"},
+        Refusal{"ClutterOfALog", {"track", "--clutter", "0.3", "--out", "out"}, "--simulate"},
+        Refusal{
+            "UnknownRelocation",
+            {"relocate", "--map", kOffice, "--interleave", "2", "--method", "best", "--out", "out"},
+            "known are signature, signature-plain"},
+        Refusal{"UnknownTracking",
+                {"track", "--simulate", "1", "--method", "best", "--out", "out"},
+                "mcl-tuned, mcl-stock"},
+        Refusal{"UnknownFeatureMethod",
+                {"scale", "--method", "best", "--out", "out"},
+                "jcbb, interpretation-tree, clique"},
+        Refusal{"MethodTwice",
+                {"track", "--simulate", "1", "--method", "mcl,mcl", "--out", "out"},
+                "mcl: given twice"},
+        // The folder is looked at before the map is.
+        Refusal{"FolderInAFile",
+                {"relocate", "--map", "none.simplemap", "--interleave", "2", "--out", "file/out"},
+                "file/out: "},
+        Refusal{"FolderThatIsAFile", {"scale", "--out", "file"}, "is no folder"},
+        Refusal{"TruthIntoAFolder",
+                {"reference", "--map", kLabMap.string(), "--rawlog", kLabLog.string(), "--last",
+                 "15.9,-10.01,4.9", "--out", "."},
+                "is a folder"},
+        Refusal{"LastPoseOffTheMap",
+                {"reference", "--map", kLabMap.string(), "--rawlog", kLabLog.string(), "--last",
+                 "500,500,0", "--out", "truth.txt"},
+                "only 0 % of the scan"},
+        Refusal{"LastPoseTurned",
+                {"reference", "--map", kLabMap.string(), "--rawlog", kLabLog.string(), "--last",
+                 "15.9,-10.01,94.9", "--out", "truth.txt"},
+                "the last pose is wrong"}),
+    [](const auto& refusal) { return std::string(refusal.param.name); });
+
+TEST(EvalHelp, NamesTheMethods)
+{
+  const TemporaryFolder folder;
+  const auto names = [&](const std::string& command, const std::string& method)
+  {
+    std::string help = run(folder, "sigloc-eval", {command, "--help"}).output;
+    help.erase(std::remove(help.begin(), help.end(), '\n'), help.end());
+    return help.find(method) != std::string::npos;
+  };
+  EXPECT_TRUE(names("relocate", "branch-and-bound"));
+  EXPECT_TRUE(names("sweep", "lattice"));
+  EXPECT_TRUE(names("track", "mcl-stock"));
+  EXPECT_TRUE(names("scale", "interpretation-tree"));
+  EXPECT_TRUE(names("landmarks", "jcbb"));
+}
+
+TEST(EvalReport, IsWrittenInWholeOrNotAtAll)
+{
+  const TemporaryFolder folder;
+  const Arguments scale = {"scale", "--map-features", "300",   "--poses",
+                           "1",     "--quiet",        "--out", "out"};
+  ASSERT_EQ(run(folder, "sigloc-eval", scale).exit_code, 0);
+  const auto before = listing(folder);
+  const std::string report = readBytes(folder / "out" / "report.md");
+  // No file may grow beyond a block, as on a disk that is full.
+  const std::string command = "cd " + quoted(folder.path().string()) +
+                              " && trap '' XFSZ && ulimit -f 1 && " +
+                              quoted(std::string(SIGLOC_BIN_FOLDER) + "/sigloc-eval") +
+                              " scale --map-features 300,400 --poses 1 --quiet --out ";
+  EXPECT_NE(std::system((command + "out 2>errors").c_str()), 0);
+  EXPECT_NE(readBytes(folder / "errors").find("cannot be written"), std::string::npos)
+      << readBytes(folder / "errors");
+  std::filesystem::remove(folder / "errors");
+  EXPECT_EQ(listing(folder), before);
+  EXPECT_EQ(readBytes(folder / "out" / "report.md"), report);
+  EXPECT_NE(std::system((command + "new/one 2>/dev/null").c_str()), 0);
+  EXPECT_EQ(listing(folder), before) << "folders made on the way are gone";
+}
+
+TEST(EvalTrack, SimulatedParticleFiltersHaveTheNumberAskedFor)
+{
+  const TemporaryFolder folder;
+  const auto results = [&](const std::string& particles)
+  {
+    const auto done = run(folder, "sigloc-eval",
+                          {"track", "--simulate", "1", "--worlds", "office", "--travel", "1",
+                           "--method", "mcl", "--particles", particles, "--quiet", "--out", "out"});
+    EXPECT_EQ(done.exit_code, 0) << done.errors;
+    return readBytes(folder / "out" / "runs.csv") + readBytes(folder / "out" / "results.csv");
+  };
+  const auto poses = [](std::string csv)
+  {
+    // Without the last column, the time.
+    std::string kept;
+    for (std::size_t at = 0, end = 0; (end = csv.find('\n', at)) != std::string::npos; at = end + 1)
+    {
+      kept += csv.substr(at, csv.rfind(',', end) - at) + "\n";
+    }
+    return kept;
+  };
+  const std::string few = poses(results("300"));
+  EXPECT_EQ(few, poses(results("300")));
+  EXPECT_NE(few, poses(results("3000")));
+}
+}  // namespace
+}  // namespace sigloc
