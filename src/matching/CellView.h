@@ -4,13 +4,31 @@
 
 #include <mrpt/math/TPose2D.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 #include "sigloc/map/DenseField.h"
 
 namespace sigloc
 {
+/// A pose with its rotation worked out.
+struct Placement
+{
+  explicit Placement(const mrpt::math::TPose2D& pose)
+      : x(static_cast<float>(pose.x)),
+        y(static_cast<float>(pose.y)),
+        c(std::cos(static_cast<float>(pose.phi))),
+        s(std::sin(static_cast<float>(pose.phi)))
+  {
+  }
+  float placedX(float px, float py) const { return x + c * px - s * py; }
+  float placedY(float px, float py) const { return y + s * px + c * py; }
+  float x, y, c, s;
+};
+
 /// Look-up of cells by map coordinates; outside lies one cell that knows nothing.
 class CellView
 {
@@ -21,64 +39,65 @@ class CellView
         y0_(static_cast<float>(field.frame.origin.y)),
         scale_(static_cast<float>(1.0 / field.frame.resolution)),
         resolution_(static_cast<float>(field.frame.resolution)),
-        width_(field.frame.width),
-        height_(field.frame.height)
+        width_(static_cast<std::int32_t>(field.frame.width)),
+        height_(static_cast<std::int32_t>(field.frame.height))
   {
   }
 
-  const DenseCell& at(float x, float y) const
-  {
-    const float fx = (x - x0_) * scale_;
-    const float fy = (y - y0_) * scale_;
-    if (!(fx >= 0 && fy >= 0 && fx < static_cast<float>(width_) &&
-          fy < static_cast<float>(height_)))
-    {
-      return outside_;
-    }
-    return cells_[static_cast<std::size_t>(fy) * width_ + static_cast<std::size_t>(fx)];
-  }
+  float resolution() const { return resolution_; }  ///< [m]
 
-  /// The vector from the ridge of the nearest wall to (x, y) [m]; false when there is none within
-  /// the field's reach.
-  bool offsetToWall(float x, float y, float& ex, float& ey) const
+  const DenseCell& at(float x, float y) const { return cellAt(column(x), row(y)); }
+
+  /// Where points fall on the raster, worked out for many at a time. Its loops have no branches and
+  /// no look-ups, which is what lets compilers take several points at once.
+  struct Block
   {
-    const float fx = (x - x0_) * scale_;
-    const float fy = (y - y0_) * scale_;
-    if (!(fx >= 0 && fy >= 0 && fx < static_cast<float>(width_) &&
-          fy < static_cast<float>(height_)))
+    static constexpr std::size_t kSize = 64;
+    std::array<std::int32_t, kSize> ix, iy;  ///< cell; what lies outside may be any outside
+    std::array<float, kSize> fx, fy;  ///< from the middle of the cell, in cells
+
+    /// Places `count` <= kSize points of the robot frame.
+    void fill(const CellView& view, const Placement& place, const float* x, const float* y,
+              std::size_t count)
     {
-      return false;
+      for (std::size_t i = 0; i < count; ++i)
+      {
+        fx[i] = view.bordered(place.placedX(x[i], y[i]), view.x0_, view.width_);
+        fy[i] = view.bordered(place.placedY(x[i], y[i]), view.y0_, view.height_);
+        ix[i] = static_cast<std::int32_t>(fx[i]);
+        iy[i] = static_cast<std::int32_t>(fy[i]);
+        fx[i] -= static_cast<float>(ix[i]) + 0.5F;
+        fy[i] -= static_cast<float>(iy[i]) + 0.5F;
+      }
     }
-    const auto ix = static_cast<std::int32_t>(fx);
-    const auto iy = static_cast<std::int32_t>(fy);
-    const DenseCell& cell =
-        cells_[static_cast<std::size_t>(iy) * width_ + static_cast<std::size_t>(ix)];
-    constexpr auto kUnit = static_cast<float>(DenseField::kOffsetUnit);
-    ex = (fx - static_cast<float>(ix) - 0.5F) * resolution_ - static_cast<float>(cell.dx) * kUnit;
-    ey = (fy - static_cast<float>(iy) - 0.5F) * resolution_ - static_cast<float>(cell.dy) * kUnit;
-    return cell.distance != 255;
+  };
+
+  const DenseCell& at(const Block& block, std::size_t i) const
+  {
+    return cellAt(block.ix[i], block.iy[i]);
   }
 
  private:
+  /// A coordinate in cells plus one, so that all before the raster is cell 0; all beyond is the
+  /// cell after its last.
+  float bordered(float x, float origin, std::int32_t size) const
+  {
+    const float cells = (x - origin) * scale_ + 1.0F;
+    return std::min(std::max(cells, 0.0F), static_cast<float>(size + 1));
+  }
+  std::int32_t column(float x) const { return static_cast<std::int32_t>(bordered(x, x0_, width_)); }
+  std::int32_t row(float y) const { return static_cast<std::int32_t>(bordered(y, y0_, height_)); }
+
+  const DenseCell& cellAt(std::int32_t column, std::int32_t row) const
+  {
+    if (column < 1 || row < 1 || column > width_ || row > height_) return outside_;
+    return cells_[static_cast<std::size_t>(row - 1) * static_cast<std::size_t>(width_) +
+                  static_cast<std::size_t>(column - 1)];
+  }
+
   const DenseCell* cells_;
   float x0_, y0_, scale_, resolution_;
-  std::size_t width_, height_;
+  std::int32_t width_, height_;
   DenseCell outside_;
 };
-
-/// A pose with its rotation worked out.
-struct Placement
-{
-  explicit Placement(const mrpt::math::TPose2D& pose)
-      : x(static_cast<float>(pose.x)),
-        y(static_cast<float>(pose.y)),
-        c(static_cast<float>(std::cos(pose.phi))),
-        s(static_cast<float>(std::sin(pose.phi)))
-  {
-  }
-  float placedX(float px, float py) const { return x + c * px - s * py; }
-  float placedY(float px, float py) const { return y + s * px + c * py; }
-  float x, y, c, s;
-};
-
 }  // namespace sigloc

@@ -25,24 +25,69 @@ constexpr float kRobustSigma = 0.12F;  // [m], and of the later ones
 constexpr double kHold = 0.05;  // keeps what the returns leave open
 constexpr double kConverged = 1e-3;  // [m], [rad], a step this small is the last
 
-/// Symmetric 3x3 system H delta = -g of one refinement step, in the order (x, y, phi).
-struct NormalEquations
-{
-  double xx = kHold, xy = 0, xt = 0, yy = kHold, yt = 0, tt = kHold;
-  double gx = 0, gy = 0, gt = 0;
+using Floats = std::array<float, CellView::Block::kSize>;  // one for each return of a block
 
-  /// By Cholesky; kHold keeps the system positive definite.
-  std::array<double, 3> solve() const
+/// What returns say of a move of the robot in its own frame, where their places and pulls do not
+/// turn with the pose: sums of (6.5) to (6.7) in the order (x, y, phi).
+struct PullSums
+{
+  float xx = 0, xy = 0, xt = 0, yy = 0, yt = 0, tt = 0;  // weight times j jᵀ
+  float gx = 0, gy = 0, gt = 0;  // weight times (a·e) j
+
+  /// Adds `count` returns of a block that begins at `first`; `ex` and `ey` are their offsets from
+  /// the ridge [m].
+  void add(const DenseScan& scan, std::size_t first, std::size_t count, const Floats& weight,
+           const Floats& ex, const Floats& ey)
   {
-    const double l00 = std::sqrt(xx);
-    const double l10 = xy / l00;
-    const double l20 = xt / l00;
-    const double l11 = std::sqrt(yy - l10 * l10);
-    const double l21 = (yt - l20 * l10) / l11;
-    const double l22 = std::sqrt(tt - l20 * l20 - l21 * l21);
-    const double a = -gx / l00;
-    const double b = (-gy - l10 * a) / l11;
-    const double c = (-gt - l20 * a - l21 * b) / l22;
+    const float* x = &scan.x[first];
+    const float* y = &scan.y[first];
+    const float* pull_xx = &scan.pull_xx[first];
+    const float* pull_xy = &scan.pull_xy[first];
+    const float* pull_yy = &scan.pull_yy[first];
+    float sxx = 0, sxy = 0, sxt = 0, syy = 0, syt = 0, stt = 0, sgx = 0, sgy = 0, sgt = 0;
+#pragma omp simd reduction(+ : sxx, sxy, sxt, syy, syt, stt, sgx, sgy, sgt)
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const float wxx = weight[i] * pull_xx[i];
+      const float wxy = weight[i] * pull_xy[i];
+      const float wyy = weight[i] * pull_yy[i];
+      const float wxt = x[i] * wxy - y[i] * wxx;
+      const float wyt = x[i] * wyy - y[i] * wxy;
+      const float force_x = wxx * ex[i] + wxy * ey[i];
+      const float force_y = wxy * ex[i] + wyy * ey[i];
+      sxx += wxx;
+      sxy += wxy;
+      sxt += wxt;
+      syy += wyy;
+      syt += wyt;
+      stt += x[i] * wyt - y[i] * wxt;
+      sgx += force_x;
+      sgy += force_y;
+      sgt += x[i] * force_y - y[i] * force_x;
+    }
+    xx += sxx;
+    xy += sxy;
+    xt += sxt;
+    yy += syy;
+    yt += syt;
+    tt += stt;
+    gx += sgx;
+    gy += sgy;
+    gt += sgt;
+  }
+
+  /// The move that (6.7) asks for, by Cholesky; kHold keeps the system positive definite.
+  std::array<double, 3> step() const
+  {
+    const double l00 = std::sqrt(kHold + static_cast<double>(xx));
+    const double l10 = static_cast<double>(xy) / l00;
+    const double l20 = static_cast<double>(xt) / l00;
+    const double l11 = std::sqrt(kHold + static_cast<double>(yy) - l10 * l10);
+    const double l21 = (static_cast<double>(yt) - l20 * l10) / l11;
+    const double l22 = std::sqrt(kHold + static_cast<double>(tt) - l20 * l20 - l21 * l21);
+    const double a = -static_cast<double>(gx) / l00;
+    const double b = (-static_cast<double>(gy) - l10 * a) / l11;
+    const double c = (-static_cast<double>(gt) - l20 * a - l21 * b) / l22;
     const double t = c / l22;
     const double y = (b - l21 * t) / l11;
     const double x = (a - l10 * y - l20 * t) / l00;
@@ -50,79 +95,92 @@ struct NormalEquations
   }
 };
 
-/// Returns on a wall pull along the wall's normal only, others towards the nearest wall cell.
-NormalEquations normalEquations(const DenseField& field, const DenseScan& scan, std::size_t count,
-                                const TPose2D& pose, float robust_sigma)
+/// Finds the vectors [m] from the nearest wall's ridge to the returns of a block, in the robot
+/// frame, and their weights (6.6); those without a wall within the field's reach weigh nothing.
+void offsetsFromRidge(const CellView& cells, const CellView::Block& block, const Placement& place,
+                      std::size_t count, float robust_sigma, Floats& weight, Floats& ex, Floats& ey)
 {
-  const Placement place(pose);
-  const CellView cells(field);
-  const float inverse_square = 1.0F / (robust_sigma * robust_sigma);
-  float xx = 0, xy = 0, xt = 0, yy = 0, yt = 0, tt = 0, gx = 0, gy = 0, gt = 0;
+  std::array<std::int32_t, CellView::Block::kSize> dx;
+  std::array<std::int32_t, CellView::Block::kSize> dy;
   for (std::size_t i = 0; i < count; ++i)
   {
-    const float rx = place.c * scan.x[i] - place.s * scan.y[i];
-    const float ry = place.s * scan.x[i] + place.c * scan.y[i];
-    float ex = 0;
-    float ey = 0;
-    if (!cells.offsetToWall(place.x + rx, place.y + ry, ex, ey)) continue;
-    const float weight = 1.0F / (1.0F + (ex * ex + ey * ey) * inverse_square);
-    if (scan.nx[i] != 0 || scan.ny[i] != 0)
-    {
-      const float nx = place.c * scan.nx[i] - place.s * scan.ny[i];
-      const float ny = place.s * scan.nx[i] + place.c * scan.ny[i];
-      const float nt = ny * rx - nx * ry;
-      const float error = weight * (nx * ex + ny * ey);
-      xx += weight * nx * nx;
-      xy += weight * nx * ny;
-      xt += weight * nx * nt;
-      yy += weight * ny * ny;
-      yt += weight * ny * nt;
-      tt += weight * nt * nt;
-      gx += error * nx;
-      gy += error * ny;
-      gt += error * nt;
-    }
-    else
-    {
-      const float half = 0.5F * weight;
-      xx += half;
-      yy += half;
-      xt -= half * ry;
-      yt += half * rx;
-      tt += half * (rx * rx + ry * ry);
-      gx += half * ex;
-      gy += half * ey;
-      gt += half * (rx * ey - ry * ex);
-    }
+    const DenseCell& cell = cells.at(block, i);
+    dx[i] = cell.dx;
+    dy[i] = cell.dy;
+    weight[i] = cell.distance != 255 ? 1.0F : 0.0F;
   }
-  NormalEquations equations;
-  equations.xx += static_cast<double>(xx);
-  equations.xy += static_cast<double>(xy);
-  equations.xt += static_cast<double>(xt);
-  equations.yy += static_cast<double>(yy);
-  equations.yt += static_cast<double>(yt);
-  equations.tt += static_cast<double>(tt);
-  equations.gx = static_cast<double>(gx);
-  equations.gy = static_cast<double>(gy);
-  equations.gt = static_cast<double>(gt);
-  return equations;
+  constexpr auto kUnit = static_cast<float>(DenseField::kOffsetUnit);
+  const float resolution = cells.resolution();
+  const float inverse_square = 1.0F / (robust_sigma * robust_sigma);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const float mx = block.fx[i] * resolution - static_cast<float>(dx[i]) * kUnit;
+    const float my = block.fy[i] * resolution - static_cast<float>(dy[i]) * kUnit;
+    weight[i] /= 1.0F + (mx * mx + my * my) * inverse_square;
+    ex[i] = place.c * mx + place.s * my;
+    ey[i] = place.c * my - place.s * mx;
+  }
+}
+
+PullSums pullsAt(const CellView& cells, const DenseScan& scan, std::size_t returns,
+                 const Placement& place, float robust_sigma)
+{
+  PullSums sums;
+  CellView::Block block;
+  Floats weight;
+  Floats ex;
+  Floats ey;
+  for (std::size_t first = 0; first < returns; first += CellView::Block::kSize)
+  {
+    const std::size_t count = std::min(CellView::Block::kSize, returns - first);
+    block.fill(cells, place, &scan.x[first], &scan.y[first], count);
+    offsetsFromRidge(cells, block, place, count, robust_sigma, weight, ex, ey);
+    sums.add(scan, first, count, weight, ex, ey);
+  }
+  return sums;
+}
+
+/// Of the returns that lie on walls, weighted by the fine likelihood.
+PullSums informationAt(const CellView& cells, const DenseScan& scan, const Placement& place)
+{
+  constexpr float kLeastLikelihood = 0.05F;
+  const LikelihoodTable& likelihood = fineTable();
+  PullSums sums;
+  CellView::Block block;
+  Floats weight;
+  const Floats no_offset{};
+  for (std::size_t first = 0; first < scan.size(); first += CellView::Block::kSize)
+  {
+    const std::size_t count = std::min(CellView::Block::kSize, scan.size() - first);
+    block.fill(cells, place, &scan.x[first], &scan.y[first], count);
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const float fine = likelihood[cells.at(block, i).distance];
+      weight[i] = fine > kLeastLikelihood ? fine : 0.0F;
+    }
+    sums.add(scan, first, count, weight, no_offset, no_offset);
+  }
+  return sums;
 }
 }  // namespace
 
 TPose2D DenseVerifier::refine(const DenseScan& scan, const TPose2D& start, int steps,
                               std::size_t beams) const
 {
+  const CellView cells(field_);
   const std::size_t count = std::min(beams, scan.size());
   TPose2D pose = start;
   for (int step = 0; step < steps; ++step)
   {
+    const Placement place(pose);
     const float robust_sigma = step == 0 ? kFirstRobustSigma : kRobustSigma;
-    const NormalEquations equations = normalEquations(field_, scan, count, pose, robust_sigma);
-    const std::array<double, 3> delta = equations.solve();
-    pose.x += delta[0];
-    pose.y += delta[1];
-    pose.phi += delta[2];
-    if (std::abs(delta[0]) + std::abs(delta[1]) < kConverged && std::abs(delta[2]) < kConverged)
+    const std::array<double, 3> move = pullsAt(cells, scan, count, place, robust_sigma).step();
+    const auto c = static_cast<double>(place.c);
+    const auto s = static_cast<double>(place.s);
+    pose.x += c * move[0] - s * move[1];
+    pose.y += s * move[0] + c * move[1];
+    pose.phi += move[2];
+    if (std::abs(move[0]) + std::abs(move[1]) < kConverged && std::abs(move[2]) < kConverged)
     {
       break;
     }
@@ -139,33 +197,12 @@ mrpt::math::CMatrixDouble33 DenseVerifier::covarianceAt(const DenseScan& scan, c
   constexpr double kRangeSigma = 0.05;  // [m], of a return against the raster
   constexpr double kOpenSigma = 5.0;  // [m], of a direction that nothing fixes
   constexpr double kIndependentBeams = 40;  // neighbouring beams are correlated
-  const Placement place(pose);
-  const CellView cells(field_);
-  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
-  for (std::size_t i = 0; i < scan.size(); ++i)
-  {
-    const float rx = place.c * scan.x[i] - place.s * scan.y[i];
-    const float ry = place.s * scan.x[i] + place.c * scan.y[i];
-    const DenseCell& cell = cells.at(place.x + rx, place.y + ry);
-    const double weight = static_cast<double>(fineTable()[cell.distance]);
-    if (weight <= 0.05) continue;
-    const double nx = static_cast<double>(place.c * scan.nx[i] - place.s * scan.ny[i]);
-    const double ny = static_cast<double>(place.s * scan.nx[i] + place.c * scan.ny[i]);
-    const auto add = [&](double ax, double ay, double w)
-    {
-      const Eigen::Vector3d j(ax, ay, ay * static_cast<double>(rx) - ax * static_cast<double>(ry));
-      information += w * j * j.transpose();
-    };
-    if (nx != 0 || ny != 0)
-    {
-      add(nx, ny, weight);
-    }
-    else
-    {
-      add(1, 0, 0.5 * weight);
-      add(0, 1, 0.5 * weight);
-    }
-  }
+  const PullSums sums = informationAt(CellView(field_), scan, Placement(pose));
+  Eigen::Matrix3f in_robot;
+  in_robot << sums.xx, sums.xy, sums.xt, sums.xy, sums.yy, sums.yt, sums.xt, sums.yt, sums.tt;
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  turn.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(pose.phi).toRotationMatrix();
+  Eigen::Matrix3d information = turn * in_robot.cast<double>() * turn.transpose();
   const double tempering = std::min(1.0, kIndependentBeams / static_cast<double>(scan.size() + 1));
   information *= tempering / (kRangeSigma * kRangeSigma);
   information(0, 0) += 1.0 / (kOpenSigma * kOpenSigma);

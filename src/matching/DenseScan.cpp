@@ -50,18 +50,45 @@ bool isIsolated(const std::vector<BeamEnd>& beams, std::size_t i)
   return true;
 }
 
-/// The normal of the observed segment a return lies on, or (0, 0).
-TPoint2D normalAt(const std::vector<Feature>& features, const TPoint2D& point)
+/// An observed segment, as its returns are found.
+struct ObservedWall
 {
+  TPoint2D position;  // [m], its middle
+  TPoint2D normal;
+  double reach;  // [m] from the middle along the wall
+};
+
+std::vector<ObservedWall> observedWalls(const std::vector<Feature>& features)
+{
+  std::vector<ObservedWall> walls;
   for (const Feature& feature : features)
   {
     if (feature.type != FeatureType::segment) continue;
-    const TPoint2D normal = directionVector(feature);
-    const TPoint2D d = point - feature.position;
-    if (std::abs(normal.x * d.x + normal.y * d.y) > kOnSegment) continue;
-    if (std::abs(normal.y * d.x - normal.x * d.y) <= 0.5 * feature.size + kOnSegment) return normal;
+    walls.push_back({feature.position, directionVector(feature), 0.5 * feature.size + kOnSegment});
   }
-  return {0, 0};
+  return walls;
+}
+
+/// Adds how a return pulls: along the normal of the wall it lies on, or to both sides alike.
+void addPull(const std::vector<ObservedWall>& walls, const TPoint2D& point, DenseScan& scan)
+{
+  double xx = 0.5;
+  double xy = 0;
+  double yy = 0.5;
+  for (const ObservedWall& wall : walls)
+  {
+    const TPoint2D& n = wall.normal;
+    const TPoint2D d = point - wall.position;
+    if (std::abs(n.x * d.x + n.y * d.y) > kOnSegment) continue;
+    if (std::abs(n.y * d.x - n.x * d.y) > wall.reach) continue;
+    xx = n.x * n.x;
+    xy = n.x * n.y;
+    yy = n.y * n.y;
+    break;
+  }
+  scan.pull_xx.push_back(static_cast<float>(xx));
+  scan.pull_xy.push_back(static_cast<float>(xy));
+  scan.pull_yy.push_back(static_cast<float>(yy));
 }
 }  // namespace
 
@@ -71,17 +98,19 @@ DenseScan makeDenseScan(const ObservedScene& scene, std::size_t max_beams)
   const std::size_t count = std::min(total, max_beams);
   DenseScan scan;
   scan.origins = scene.sensor_origins;
-  for (auto* column : {&scan.x, &scan.y, &scan.nx, &scan.ny}) column->reserve(count);
+  for (auto* column : {&scan.x, &scan.y, &scan.pull_xx, &scan.pull_xy, &scan.pull_yy})
+  {
+    column->reserve(count);
+  }
   scan.isolated.reserve(count);
   scan.origin.reserve(count);
+  const std::vector<ObservedWall> walls = observedWalls(scene.features);
   for (const std::uint32_t i : interleavedOrder(static_cast<std::uint32_t>(count)))
   {
     const BeamEnd& beam = scene.beams[i * total / count];
-    const TPoint2D normal = normalAt(scene.features, beam.point);
     scan.x.push_back(static_cast<float>(beam.point.x));
     scan.y.push_back(static_cast<float>(beam.point.y));
-    scan.nx.push_back(static_cast<float>(normal.x));
-    scan.ny.push_back(static_cast<float>(normal.y));
+    addPull(walls, beam.point, scan);
     scan.isolated.push_back(isIsolated(scene.beams, i * total / count) ? 1 : 0);
     scan.origin.push_back(beam.origin);
   }

@@ -5,6 +5,7 @@
 #include <mrpt/math/wrap2pi.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <vector>
@@ -73,13 +74,55 @@ void keepDistinct(std::vector<RankedPose>& poses, std::size_t count,
   poses = std::move(kept);
 }
 
-/// Whether two proposals are so near each other that one of them is enough to refine.
-bool near(const PoseProposal& a, const PoseProposal& b)
+/// Proposals that were taken, to leave out others so near that one of them is enough to refine.
+class TakenPoses
 {
-  constexpr float kReach = 0.25F;  // [m] along each axis
-  constexpr double kTurn = 4.5 * M_PI / 180.0;  // [rad]
-  return std::abs(a.x - b.x) < kReach && std::abs(a.y - b.y) < kReach &&
-         std::abs(wrapToPi(static_cast<double>(a.phi - b.phi))) < kTurn;
+ public:
+  bool holdsNear(const PoseProposal& p) const
+  {
+    constexpr float kReach = 0.25F;  // [m] along each axis
+    constexpr auto kTurn = static_cast<float>(4.5 * M_PI / 180.0);  // [rad]
+    constexpr auto kFullTurn = static_cast<float>(2 * M_PI);
+    const float phi = wrapToPi(p.phi);
+    int near = 0;
+    for (std::size_t i = 0; i < count_; ++i)
+    {
+      const float turn = std::abs(phi_[i] - phi);
+      const bool is_turned = turn < kTurn || turn > kFullTurn - kTurn;
+      near |= static_cast<int>(std::abs(x_[i] - p.x) < kReach) &
+              static_cast<int>(std::abs(y_[i] - p.y) < kReach) & static_cast<int>(is_turned);
+    }
+    return near != 0;
+  }
+
+  /// Adds one; at most kQuickKept.
+  void add(const PoseProposal& p)
+  {
+    x_[count_] = p.x;
+    y_[count_] = p.y;
+    phi_[count_] = wrapToPi(p.phi);
+    ++count_;
+  }
+
+ private:
+  std::array<float, kQuickKept> x_, y_, phi_;
+  std::size_t count_ = 0;
+};
+
+/// Calls `visit(i, cell)` for the first `count` returns and the cells they end in.
+template <class Visit>
+void forEachCell(const DenseField& field, const DenseScan& scan, const TPose2D& pose,
+                 std::size_t count, Visit&& visit)
+{
+  const Placement place(pose);
+  const CellView cells(field);
+  CellView::Block block;
+  for (std::size_t first = 0; first < count; first += CellView::Block::kSize)
+  {
+    const std::size_t size = std::min(CellView::Block::kSize, count - first);
+    block.fill(cells, place, &scan.x[first], &scan.y[first], size);
+    for (std::size_t i = 0; i < size; ++i) visit(first + i, cells.at(block, i));
+  }
 }
 }  // namespace
 
@@ -118,16 +161,14 @@ std::vector<RankedPose> DenseVerifier::rank(const DenseScan& scan,
 
   // 4. What may win or be the runner-up is settled on all beams.
   const double contender = poses.empty() ? 0 : poses.front().evidence.score - kContender;
-  const auto evaluated = [&](const TPose2D& pose) {
-    return RankedPose{pose, evaluate(scan, pose)};
-  };
   for (std::size_t k = 0; k < std::min(kSettled, poses.size()); ++k)
   {
     RankedPose& pose = poses[k];
     if (pose.evidence.score < contender) break;
-    const RankedPose settled = evaluated(refine(scan, pose.pose, kSettleSteps, scan.size()));
-    pose = evaluated(pose.pose);
-    if (settled.evidence.score >= pose.evidence.score) pose = settled;
+    const TPose2D settled = refine(scan, pose.pose, kSettleSteps, scan.size());
+    const DenseEvidence evidence = evaluate(scan, settled, kRayBeams);
+    castRays(scan, pose.pose, kRayBeams, pose.evidence);
+    if (evidence.score >= pose.evidence.score) pose = {settled, evidence};
   }
   keepDistinct(poses, max_ranked);
   return poses;
@@ -135,29 +176,24 @@ std::vector<RankedPose> DenseVerifier::rank(const DenseScan& scan,
 
 std::vector<RankedPose> DenseVerifier::refineBest(const DenseScan& scan,
                                                   const std::vector<PoseProposal>& proposals,
-                                                  std::vector<QuickLook> best) const
+                                                  std::vector<QuickLook> looks) const
 {
-  const auto better_look = [](const QuickLook& a, const QuickLook& b)
-  { return a.score != b.score ? a.score > b.score : a.index < b.index; };
-  if (best.size() > kQuickSorted)
-  {
-    std::nth_element(best.begin(), best.begin() + kQuickSorted, best.end(), better_look);
-    best.resize(kQuickSorted);
-  }
-  std::sort(best.begin(), best.end(), better_look);
-
+  const auto worse = [](const QuickLook& a, const QuickLook& b)
+  { return a.score != b.score ? a.score < b.score : a.index > b.index; };
+  // Few are taken before there are enough: a heap sorts no more than those.
+  std::make_heap(looks.begin(), looks.end(), worse);
+  auto end = looks.end();
   std::vector<RankedPose> poses;
   poses.reserve(kQuickKept);
   // By distance, not by cells of the map: moving the map must not change which ones are refined.
-  std::vector<const PoseProposal*> taken;
-  for (const QuickLook& look : best)
+  TakenPoses taken;
+  for (std::size_t k = 0; k < kQuickSorted && end != looks.begin() && poses.size() < kQuickKept;
+       ++k)
   {
-    if (poses.size() == kQuickKept) break;
-    const PoseProposal& p = proposals[look.index];
-    const bool known = std::any_of(taken.begin(), taken.end(),
-                                   [&](const PoseProposal* other) { return near(p, *other); });
-    if (known) continue;
-    taken.push_back(&p);
+    std::pop_heap(looks.begin(), end, worse);
+    const PoseProposal& p = proposals[(--end)->index];
+    if (taken.holdsNear(p)) continue;
+    taken.add(p);
     RankedPose pose;
     pose.pose = refine(scan, {p.x, p.y, p.phi}, kMiddleSteps, kMiddleBeams);
     pose.evidence.score = likelihood(scan, pose.pose, kMiddleScored);
@@ -170,16 +206,13 @@ std::vector<RankedPose> DenseVerifier::refineBest(const DenseScan& scan,
 double DenseVerifier::likelihood(const DenseScan& scan, const TPose2D& pose,
                                  std::size_t beams) const
 {
-  const Placement place(pose);
-  const CellView cells(field_);
   const std::size_t count = std::min(beams, scan.size());
+  const LikelihoodTable& fine = fineTable();
+  const LikelihoodTable& coarse = coarseTable();
   float sum = 0;
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    const DenseCell& cell =
-        cells.at(place.placedX(scan.x[i], scan.y[i]), place.placedY(scan.x[i], scan.y[i]));
-    sum += fineTable()[cell.distance] + coarseTable()[cell.distance];
-  }
+  forEachCell(field_, scan, pose, count,
+              [&](std::size_t /*i*/, const DenseCell& cell)
+              { sum += fine[cell.distance] + coarse[cell.distance]; });
   return 0.5 * static_cast<double>(sum) / static_cast<double>(count);
 }
 
@@ -193,33 +226,39 @@ DenseEvidence DenseVerifier::evaluate(const DenseScan& scan, const TPose2D& pose
 {
   DenseEvidence evidence;
   if (scan.size() == 0) return evidence;
-  const Placement place(pose);
-  const CellView cells(field_);
   const auto far_from_wall = static_cast<std::uint8_t>(kFreeMargin / DenseField::kDistanceUnit);
+  const LikelihoodTable& fine_of = fineTable();
+  const LikelihoodTable& coarse_of = coarseTable();
   float fine = 0;
   float coarse = 0;
   std::size_t in_free = 0;
   std::size_t specks = 0;
   std::size_t unknown = 0;
-  for (std::size_t i = 0; i < scan.size(); ++i)
-  {
-    const DenseCell& cell =
-        cells.at(place.placedX(scan.x[i], scan.y[i]), place.placedY(scan.x[i], scan.y[i]));
-    fine += fineTable()[cell.distance];
-    coarse += coarseTable()[cell.distance];
-    if (cell.distance <= far_from_wall) continue;
-    if (cell.state == CellState::free) ++(scan.isolated[i] != 0 ? specks : in_free);
-    if (cell.state == CellState::unknown) ++unknown;
-  }
+  forEachCell(field_, scan, pose, scan.size(),
+              [&](std::size_t i, const DenseCell& cell)
+              {
+                fine += fine_of[cell.distance];
+                coarse += coarse_of[cell.distance];
+                if (cell.distance <= far_from_wall) return;
+                if (cell.state == CellState::free) ++(scan.isolated[i] != 0 ? specks : in_free);
+                if (cell.state == CellState::unknown) ++unknown;
+              });
   // A lone return in free space is clutter, and says nothing.
   const auto n = static_cast<double>(std::max<std::size_t>(1, scan.size() - specks));
   evidence.fine = static_cast<double>(fine) / n;
   evidence.coarse = static_cast<double>(coarse) / n;
   evidence.in_free = static_cast<double>(in_free) / n;
   evidence.unknown = static_cast<double>(unknown) / n;
+  castRays(scan, pose, rays, evidence);
+  return evidence;
+}
+
+/// Completes the evidence by the first `rays` beams' way to their ends.
+void DenseVerifier::castRays(const DenseScan& scan, const TPose2D& pose, std::size_t rays,
+                             DenseEvidence& evidence) const
+{
   evidence.through_wall = solid_walls_->throughShare(scan, pose, rays);
   evidence.score = 0.5 * (evidence.fine + evidence.coarse) -
                    kThroughPenalty * evidence.through_wall - kFreePenalty * evidence.in_free;
-  return evidence;
 }
 }  // namespace sigloc

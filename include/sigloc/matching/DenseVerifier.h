@@ -19,8 +19,9 @@ namespace sigloc
 struct DenseScan
 {
   std::vector<float> x, y;  ///< [m], robot frame
-  std::vector<float> nx,
-      ny;  ///< unit normal of the wall a return lies on, robot frame; (0, 0): none
+  /// How a return pulls, robot frame: n nᵀ along the unit normal of the wall it lies on; off any
+  /// wall half the unit matrix. \cite algorithm eq. (6.4)
+  std::vector<float> pull_xx, pull_xy, pull_yy;
   std::vector<std::uint8_t> isolated;  ///< not 0: no beam beside it ends near it, may be clutter
   std::vector<std::uint32_t> origin;  ///< index into origins
   std::vector<mrpt::math::TPoint2D> origins;
@@ -96,9 +97,11 @@ class DenseVerifier
  private:
   std::vector<RankedPose> refineBest(const DenseScan& scan,
                                      const std::vector<PoseProposal>& proposals,
-                                     std::vector<QuickLook> best) const;
+                                     std::vector<QuickLook> looks) const;
   DenseEvidence evaluate(const DenseScan& scan, const mrpt::math::TPose2D& pose,
                          std::size_t rays) const;
+  void castRays(const DenseScan& scan, const mrpt::math::TPose2D& pose, std::size_t rays,
+                DenseEvidence& evidence) const;
   double likelihood(const DenseScan& scan, const mrpt::math::TPose2D& pose,
                     std::size_t beams) const;
 
