@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bitset>
 #include <cmath>
+#include <memory>
 
 #include "likelihood_table.h"
 
@@ -13,10 +15,14 @@ namespace sigloc
 namespace
 {
 constexpr double kCell = 0.1;  // [m]
+constexpr double kLargestCell = 0.2;  // [m], of maps whose raster would leave the cache
+constexpr std::size_t kCachedCells = 2U << 20U;
 constexpr double kBorder = 20.0;  // [m] around the map where returns are looked up unchecked
 constexpr double kStandingCell = 0.5;  // [m]
 constexpr std::uint8_t kStandingCentre = 2;
 constexpr std::size_t kReturns = 24;
+constexpr std::size_t kGlanceReturns = 8;  // of those, by which very many proposals are thinned
+constexpr std::size_t kGlanceKept = 2048;
 constexpr std::uint32_t kHeadings = 512;  // 0.35 degrees to the nearest: 0.1 m at 16 m
 
 std::uint32_t ratioOf(const RasterFrame& coarse, const RasterFrame& fine)
@@ -27,6 +33,27 @@ std::uint32_t ratioOf(const RasterFrame& coarse, const RasterFrame& fine)
 std::size_t cellCount(const RasterFrame& frame)
 {
   return static_cast<std::size_t>(frame.width) * frame.height;
+}
+
+/// The raster of the first look: as fine as it pays, and small enough to stay in the cache.
+RasterFrame likelihoodFrame(const RasterFrame& field)
+{
+  const RasterFrame frame = coarserFrame(field, kCell);
+  return cellCount(frame) <= kCachedCells ? frame : coarserFrame(field, kLargestCell);
+}
+
+/// Keeps the best `count` of looks that were a glance only, and those that tie with the last of
+/// them: which ones stay must not hang on their order.
+void keepBest(std::vector<QuickLook>& looks, std::size_t count)
+{
+  std::vector<std::uint32_t> with_score(255 * kGlanceReturns + 1);
+  for (const QuickLook& look : looks) ++with_score[look.score];
+  std::size_t kept = 0;
+  auto lowest = static_cast<std::uint32_t>(with_score.size());
+  while (kept < count && lowest > 0) kept += with_score[--lowest];
+  looks.erase(std::remove_if(looks.begin(), looks.end(),
+                             [&](const QuickLook& look) { return look.score < lowest; }),
+              looks.end());
 }
 }  // namespace
 
@@ -41,68 +68,122 @@ RasterFrame coarserFrame(const RasterFrame& fine, double cell)
   return frame;
 }
 
-/// The returns of the first look as offsets in cells, for each heading of the table once it is
-/// asked for.
+/// The first returns of a scan as offsets in cells, for each heading of a table once it is asked
+/// for. A scan of fewer returns is gone through again.
 class QuickField::TurnedReturns
 {
  public:
-  struct Turned
+  TurnedReturns(const DenseScan& scan, const QuickField& field)
+      : bytes_(field.likelihoods_.data()),
+        x0_(static_cast<float>(field.frame_.origin.x)),
+        y0_(static_cast<float>(field.frame_.origin.y)),
+        scale_(static_cast<float>(1.0 / field.frame_.resolution)),
+        width_(static_cast<std::int32_t>(field.frame_.width)),
+        height_(static_cast<std::int32_t>(field.frame_.height)),
+        table_(new Turned[kHeadings])
   {
-    bool ready = false;
-    std::int32_t min_x = 0, max_x = 0, min_y = 0, max_y = 0;
-    std::array<std::int32_t, kReturns> dx, dy;
-    std::array<std::ptrdiff_t, kReturns> flat;
-  };
-
-  TurnedReturns(const DenseScan& scan, const RasterFrame& frame)
-      : scan_(scan),
-        scale_(static_cast<float>(1.0 / frame.resolution)),
-        stride_(static_cast<std::ptrdiff_t>(frame.width)),
-        table_(kHeadings)
-  {
+    for (std::size_t i = 0; i < kReturns; ++i)
+    {
+      x_[i] = scan.x[i % scan.size()] * scale_;
+      y_[i] = scan.y[i % scan.size()] * scale_;
+    }
   }
 
-  std::size_t size() const { return std::min(kReturns, scan_.size()); }
+  /// Adds the likelihood bytes of the returns `from` to `to` at each look's pose to its score.
+  template <std::size_t from, std::size_t to>
+  void addTo(std::vector<QuickLook>& looks, const std::vector<PoseProposal>& proposals)
+  {
+    for (QuickLook& look : looks) look.score += sumAt<from, to>(proposals[look.index]);
+  }
+
+ private:
+  struct Turned
+  {
+    std::int32_t min_x, max_x, min_y, max_y;
+    std::array<std::int32_t, kReturns> dx, dy, flat;
+  };
+
+  template <std::size_t from, std::size_t to>
+  std::uint32_t sumAt(const PoseProposal& p)
+  {
+    const Turned& turned = at(p.phi);
+    // A place to stand lies inside the raster, so the cells are not negative.
+    const auto x = static_cast<std::int32_t>((p.x - x0_) * scale_);
+    const auto y = static_cast<std::int32_t>((p.y - y0_) * scale_);
+    std::uint32_t sum = 0;
+    if (x + turned.min_x >= 0 && x + turned.max_x < width_ && y + turned.min_y >= 0 &&
+        y + turned.max_y < height_)
+    {
+      const std::uint8_t* cell = byteAt(x, y);
+      for (std::size_t i = from; i < to; ++i) sum += cell[turned.flat[i]];
+      return sum;
+    }
+    for (std::size_t i = from; i < to; ++i)
+    {
+      const std::int32_t ix = x + turned.dx[i];
+      const std::int32_t iy = y + turned.dy[i];
+      if (ix >= 0 && iy >= 0 && ix < width_ && iy < height_) sum += *byteAt(ix, iy);
+    }
+    return sum;
+  }
+
+  const std::uint8_t* byteAt(std::int32_t x, std::int32_t y) const
+  {
+    return bytes_ + static_cast<std::ptrdiff_t>(y) * width_ + x;
+  }
 
   const Turned& at(float phi)
   {
     constexpr auto kPerRadian = static_cast<float>(kHeadings / (2.0 * M_PI));
     const auto bin = static_cast<std::int32_t>(std::lrintf(phi * kPerRadian));
-    Turned& turned = table_[static_cast<std::uint32_t>(bin) % kHeadings];
-    if (!turned.ready) turn(static_cast<float>(bin) / kPerRadian, turned);
-    return turned;
+    const std::uint32_t row = static_cast<std::uint32_t>(bin) % kHeadings;
+    if (!ready_[row])
+    {
+      turn(static_cast<float>(bin) / kPerRadian, table_[row]);
+      ready_[row] = true;
+    }
+    return table_[row];
   }
 
- private:
   void turn(float phi, Turned& turned) const
   {
-    const float c = std::cos(phi) * scale_;
-    const float s = std::sin(phi) * scale_;
-    for (std::size_t i = 0; i < size(); ++i)
+    constexpr std::int32_t kShift =
+        1 << 14;  // truncation rounds to the nearest where all is positive
+    const float c = std::cos(phi);
+    const float s = std::sin(phi);
+    Turned out{};
+    for (std::size_t i = 0; i < kReturns; ++i)
     {
-      turned.dx[i] = static_cast<std::int32_t>(std::lrintf(c * scan_.x[i] - s * scan_.y[i]));
-      turned.dy[i] = static_cast<std::int32_t>(std::lrintf(s * scan_.x[i] + c * scan_.y[i]));
-      turned.flat[i] = turned.dy[i] * stride_ + turned.dx[i];
-      turned.min_x = std::min(turned.min_x, turned.dx[i]);
-      turned.max_x = std::max(turned.max_x, turned.dx[i]);
-      turned.min_y = std::min(turned.min_y, turned.dy[i]);
-      turned.max_y = std::max(turned.max_y, turned.dy[i]);
+      out.dx[i] = static_cast<std::int32_t>(c * x_[i] - s * y_[i] + (kShift + 0.5F)) - kShift;
+      out.dy[i] = static_cast<std::int32_t>(s * x_[i] + c * y_[i] + (kShift + 0.5F)) - kShift;
+      out.flat[i] = out.dy[i] * width_ + out.dx[i];
+      out.min_x = std::min(out.min_x, out.dx[i]);
+      out.max_x = std::max(out.max_x, out.dx[i]);
+      out.min_y = std::min(out.min_y, out.dy[i]);
+      out.max_y = std::max(out.max_y, out.dy[i]);
     }
-    turned.ready = true;
+    turned = out;
   }
 
-  const DenseScan& scan_;
-  float scale_;
-  std::ptrdiff_t stride_;
-  std::vector<Turned> table_;
+  const std::uint8_t* bytes_;
+  float x0_, y0_, scale_;
+  std::int32_t width_, height_;
+  std::array<float, kReturns> x_, y_;  // [cells], robot frame
+  std::bitset<kHeadings> ready_;
+  std::unique_ptr<Turned[]> table_;  // its rows are left as they are until they are asked for
 };
 
 QuickField::QuickField(const DenseField& field)
-    : frame_(coarserFrame(field.frame, kCell)),
+    : frame_(likelihoodFrame(field.frame)),
       standing_frame_(coarserFrame(field.frame, kStandingCell))
 {
+  fillLikelihoods(field);
+  fillStanding(field);
+}
+
+void QuickField::fillLikelihoods(const DenseField& field)
+{
   const std::uint32_t ratio = ratioOf(frame_, field.frame);
-  const std::uint32_t standing_ratio = ratioOf(standing_frame_, field.frame);
   const auto border = std::min(static_cast<std::uint32_t>(std::ceil(kBorder / frame_.resolution)),
                                std::max(frame_.width, frame_.height));
   frame_.origin.x -= border * frame_.resolution;
@@ -110,7 +191,6 @@ QuickField::QuickField(const DenseField& field)
   frame_.width += 2 * border;
   frame_.height += 2 * border;
   likelihoods_.assign(cellCount(frame_), 0);
-  standing_.assign(cellCount(standing_frame_), 0);
   std::array<std::uint8_t, 256> bytes{};
   for (std::size_t d = 0; d < bytes.size(); ++d)
   {
@@ -125,7 +205,20 @@ QuickField::QuickField(const DenseField& field)
     {
       std::uint8_t& best = likelihood[x / ratio];
       best = std::max(best, bytes[row[x].distance]);
-      if (row[x].state == CellState::free) markStanding(x / standing_ratio, y / standing_ratio);
+    }
+  }
+}
+
+void QuickField::fillStanding(const DenseField& field)
+{
+  const std::uint32_t ratio = ratioOf(standing_frame_, field.frame);
+  standing_.assign(cellCount(standing_frame_), 0);
+  for (std::uint32_t y = 0; y < field.frame.height; ++y)
+  {
+    const DenseCell* row = &field.cells[static_cast<std::size_t>(y) * field.frame.width];
+    for (std::uint32_t x = 0; x < field.frame.width; ++x)
+    {
+      if (row[x].state == CellState::free) markStanding(x / ratio, y / ratio);
     }
   }
 }
@@ -147,62 +240,39 @@ void QuickField::markStanding(std::uint32_t x, std::uint32_t y)
   standing_[static_cast<std::size_t>(y) * standing_frame_.width + x] = kStandingCentre;
 }
 
-bool QuickField::canStand(float x, float y) const
+/// A look, not yet taken, at every proposal that a robot could stand at.
+std::vector<QuickLook> QuickField::standing(const std::vector<PoseProposal>& proposals) const
 {
   const auto scale = static_cast<float>(1.0 / standing_frame_.resolution);
-  const float fx = (x - static_cast<float>(standing_frame_.origin.x)) * scale;
-  const float fy = (y - static_cast<float>(standing_frame_.origin.y)) * scale;
-  if (!(fx >= 0 && fy >= 0 && fx < static_cast<float>(standing_frame_.width) &&
-        fy < static_cast<float>(standing_frame_.height)))
+  const auto x0 = static_cast<float>(standing_frame_.origin.x);
+  const auto y0 = static_cast<float>(standing_frame_.origin.y);
+  const auto width = static_cast<float>(standing_frame_.width);
+  const auto height = static_cast<float>(standing_frame_.height);
+  std::vector<QuickLook> looks(proposals.size());
+  std::size_t count = 0;
+  for (std::uint32_t k = 0; k < proposals.size(); ++k)
   {
-    return false;
+    const float x = (proposals[k].x - x0) * scale;
+    const float y = (proposals[k].y - y0) * scale;
+    if (!(x >= 0 && y >= 0 && x < width && y < height)) continue;
+    const std::size_t cell =
+        static_cast<std::size_t>(y) * standing_frame_.width + static_cast<std::size_t>(x);
+    // Kept or written over by the next: which of them stand follows no pattern to be guessed.
+    looks[count] = {0, k};
+    count += standing_[cell] != 0 ? 1 : 0;
   }
-  return standing_[static_cast<std::size_t>(fy) * standing_frame_.width +
-                   static_cast<std::size_t>(fx)] != 0;
+  looks.resize(count);
+  return looks;
 }
 
 std::vector<QuickLook> QuickField::look(const DenseScan& scan,
                                         const std::vector<PoseProposal>& proposals) const
 {
-  const auto scale = static_cast<float>(1.0 / frame_.resolution);
-  const auto origin_x = static_cast<float>(frame_.origin.x);
-  const auto origin_y = static_cast<float>(frame_.origin.y);
-  const auto width = static_cast<std::int32_t>(frame_.width);
-  const auto height = static_cast<std::int32_t>(frame_.height);
-  TurnedReturns returns(scan, frame_);
-  const std::size_t count = returns.size();
-  std::vector<QuickLook> looks;
-  looks.reserve(proposals.size());
-  for (std::uint32_t k = 0; k < proposals.size(); ++k)
-  {
-    const PoseProposal& p = proposals[k];
-    if (!canStand(p.x, p.y)) continue;
-    const TurnedReturns::Turned& turned = returns.at(p.phi);
-    // A place to stand lies inside the raster, so the cells are not negative.
-    const auto x = static_cast<std::int32_t>((p.x - origin_x) * scale);
-    const auto y = static_cast<std::int32_t>((p.y - origin_y) * scale);
-    const bool inside = x + turned.min_x >= 0 && x + turned.max_x < width &&
-                        y + turned.min_y >= 0 && y + turned.max_y < height;
-    std::uint32_t sum = 0;
-    if (inside)
-    {
-      const std::uint8_t* cell =
-          &likelihoods_[static_cast<std::size_t>(y) * frame_.width + static_cast<std::size_t>(x)];
-      for (std::size_t i = 0; i < count; ++i) sum += cell[turned.flat[i]];
-    }
-    else
-    {
-      for (std::size_t i = 0; i < count; ++i)
-      {
-        // A negative coordinate becomes a huge unsigned one and fails the comparison.
-        const auto ix = static_cast<std::uint32_t>(x + turned.dx[i]);
-        const auto iy = static_cast<std::uint32_t>(y + turned.dy[i]);
-        if (ix >= frame_.width || iy >= frame_.height) continue;
-        sum += likelihoods_[static_cast<std::size_t>(iy) * frame_.width + ix];
-      }
-    }
-    looks.push_back({sum, k});
-  }
+  std::vector<QuickLook> looks = standing(proposals);
+  TurnedReturns returns(scan, *this);
+  returns.addTo<0, kGlanceReturns>(looks, proposals);
+  if (looks.size() > 2 * kGlanceKept) keepBest(looks, kGlanceKept);
+  returns.addTo<kGlanceReturns, kReturns>(looks, proposals);
   return looks;
 }
 }  // namespace sigloc

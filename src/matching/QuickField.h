@@ -27,14 +27,17 @@ class QuickField
  public:
   explicit QuickField(const DenseField& field);
 
-  /// Looks at every proposal that a robot could stand at, in their order.
+  /// Looks at the proposals that a robot could stand at, in their order; of very many only at those
+  /// that are best by their first returns.
   std::vector<QuickLook> look(const DenseScan& scan,
                               const std::vector<PoseProposal>& proposals) const;
 
  private:
   class TurnedReturns;
+  void fillLikelihoods(const DenseField& field);
+  void fillStanding(const DenseField& field);
   void markStanding(std::uint32_t x, std::uint32_t y);
-  bool canStand(float x, float y) const;
+  std::vector<QuickLook> standing(const std::vector<PoseProposal>& proposals) const;
 
   RasterFrame frame_;  ///< of the likelihoods, with a border around the map
   std::vector<std::uint8_t> likelihoods_;
