@@ -56,7 +56,9 @@ void spreadRings(std::vector<std::uint8_t>& rings, std::uint32_t width, std::uin
 }  // namespace
 
 SolidWalls::SolidWalls(const DenseField& field)
-    : field_(field), frame_(coarserFrame(field.frame, kCell))
+    : field_(field),
+      frame_(coarserFrame(field.frame, kCell)),
+      scale_(static_cast<float>(1.0 / frame_.resolution))
 {
   const auto ratio =
       static_cast<std::uint32_t>(std::lround(frame_.resolution / field.frame.resolution));
@@ -77,7 +79,8 @@ double SolidWalls::throughShare(const DenseScan& scan, const TPose2D& pose, std:
 {
   const std::size_t count = std::min(beams, scan.size());
   const Placement place(pose);
-  std::size_t through = 0;
+  std::vector<Ray> rays;
+  rays.reserve(count);
   for (std::size_t i = 0; i < count; ++i)
   {
     const TPoint2D& origin = scan.origins[scan.origin[i]];
@@ -89,47 +92,51 @@ double SolidWalls::throughShare(const DenseScan& scan, const TPose2D& pose, std:
     const float dy = place.placedY(scan.x[i], scan.y[i]) - y;
     const float length = std::sqrt(dx * dx + dy * dy);
     if (length <= kMargin) continue;
-    if (crossed(x, y, dx / length, dy / length, length - kMargin)) ++through;
+    rays.push_back({x, y, dx / length, dy / length, length - kMargin, 0});
   }
-  return static_cast<double>(through) / static_cast<double>(count);
+  return static_cast<double>(crossings(rays)) / static_cast<double>(count);
 }
 
-/// Whether a ray from (x, y) [m] along the unit vector (dx, dy) meets a solid wall within `length`.
-bool SolidWalls::crossed(float x, float y, float dx, float dy, float length) const
+/// How many of the rays meet a solid wall. They advance in turns: a ray's next look-up waits for
+/// its last, those of different rays don't wait for each other.
+std::size_t SolidWalls::crossings(std::vector<Ray>& rays) const
 {
   const CellView cells(field_);
-  const auto scale = static_cast<float>(1.0 / frame_.resolution);
-  const auto coarse = static_cast<float>(frame_.resolution);
-  const auto fine = static_cast<float>(field_.frame.resolution);
-  const auto x0 = static_cast<float>(frame_.origin.x);
-  const auto y0 = static_cast<float>(frame_.origin.y);
-  constexpr auto kUnit = static_cast<float>(DenseField::kDistanceUnit);
-  float along = 0;
-  while (along < length)
+  std::size_t crossed = 0;
+  std::size_t active = rays.size();
+  while (active > 0)
   {
-    const float px = x + along * dx;
-    const float py = y + along * dy;
-    const float fx = (px - x0) * scale;
-    const float fy = (py - y0) * scale;
-    const bool inside = fx >= 0 && fy >= 0 && fx < static_cast<float>(frame_.width) &&
-                        fy < static_cast<float>(frame_.height);
-    if (!inside)
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < active; ++i)
     {
-      along += coarse;
-      continue;
+      Ray ray = rays[i];
+      const float clear =
+          clearanceAt(cells, ray.x + ray.along * ray.dx, ray.y + ray.along * ray.dy);
+      ray.along += clear;
+      if (clear == 0) ++crossed;
+      if (clear > 0 && ray.along < ray.length) rays[kept++] = ray;
     }
-    const std::uint8_t rings =
-        clear_rings_[static_cast<std::size_t>(fy) * frame_.width + static_cast<std::size_t>(fx)];
-    if (rings > 1)
-    {
-      along += coarse * static_cast<float>(rings - 1);
-      continue;
-    }
-    const DenseCell& cell = cells.at(px, py);
-    if (cell.state == CellState::solid_wall) return true;
-    const float clear = static_cast<float>(cell.distance) * kUnit - 1.42F * fine;
-    along += std::max(clear, 0.7F * fine);
+    active = kept;
   }
-  return false;
+  return crossed;
+}
+
+/// How far [m] a ray may advance from (x, y) [m] without passing a solid wall; 0: it met one.
+float SolidWalls::clearanceAt(const CellView& cells, float x, float y) const
+{
+  const auto coarse = static_cast<float>(frame_.resolution);
+  const float fx = (x - static_cast<float>(frame_.origin.x)) * scale_;
+  const float fy = (y - static_cast<float>(frame_.origin.y)) * scale_;
+  const bool inside = fx >= 0 && fy >= 0 && fx < static_cast<float>(frame_.width) &&
+                      fy < static_cast<float>(frame_.height);
+  if (!inside) return coarse;
+  const std::uint8_t rings =
+      clear_rings_[static_cast<std::size_t>(fy) * frame_.width + static_cast<std::size_t>(fx)];
+  if (rings > 1) return coarse * static_cast<float>(rings - 1);
+  const DenseCell& cell = cells.at(x, y);
+  if (cell.state == CellState::solid_wall) return 0;
+  const auto fine = static_cast<float>(field_.frame.resolution);
+  constexpr auto kUnit = static_cast<float>(DenseField::kDistanceUnit);
+  return std::max(static_cast<float>(cell.distance) * kUnit - 1.42F * fine, 0.7F * fine);
 }
 }  // namespace sigloc

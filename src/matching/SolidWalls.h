@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -10,6 +11,8 @@
 
 namespace sigloc
 {
+class CellView;
+
 /// Tells which beams pass through walls that no beam goes through. Keeps a reference to the field,
 /// which must outlive it. Const and thread-safe.
 class SolidWalls
@@ -23,10 +26,19 @@ class SolidWalls
                       std::size_t beams) const;
 
  private:
-  bool crossed(float x, float y, float dx, float dy, float length) const;
+  struct Ray
+  {
+    float x, y;  // [m] in the map
+    float dx, dy;  // unit vector
+    float length;  // [m]
+    float along;  // [m] it has come
+  };
+  std::size_t crossings(std::vector<Ray>& rays) const;
+  float clearanceAt(const CellView& cells, float x, float y) const;
 
   const DenseField& field_;
   RasterFrame frame_;
+  float scale_;  // [1/m] cells of the frame
   /// Rings of coarse cells around each one that hold no solid wall, 0: it holds one itself.
   std::vector<std::uint8_t> clear_rings_;
 };
