@@ -16,6 +16,7 @@ namespace
 {
 constexpr double kParallel = 0.35;  // [rad], walls closer than this tell the same
 constexpr double kMinPairDistance = 0.8;  // [m], shorter pairs give poor headings
+constexpr std::uint32_t kUsualProposals = 16384;  // room is made for at once
 constexpr double kRadiusTolerance = 0.3;  // [m], an observed radius is good to this only
 
 /// The pose that turns by `phi`, with cosine `c` and sine `s`, and carries a point of the robot
@@ -29,7 +30,7 @@ PoseProposal poseCarrying(const TPoint2D& in_robot, const TPoint2D& in_map, doub
 }  // namespace
 
 BaseProposer::BaseProposer(const FeatureMap& map, const BaseProposerOptions& options)
-    : map_(map), options_(options)
+    : options_(options)
 {
   checkOptions(options);
   const std::vector<Feature>& features = map.features();
@@ -61,7 +62,7 @@ BaseProposer::BaseProposer(const FeatureMap& map, const BaseProposerOptions& opt
       const TPoint2D d = segmentEnd(features[k]) - start;
       length = std::max(length, tangent.x * d.x + tangent.y * d.y);
     }
-    walls_.push_back({line.direction, start, length});
+    walls_.push_back({line.direction, -tangent.y, tangent.x, start, length});
   }
   std::stable_sort(walls_.begin(), walls_.end(),
                    [](const MappedWall& a, const MappedWall& b) { return a.length > b.length; });
@@ -73,7 +74,9 @@ BaseProposer::BaseProposer(const FeatureMap& map, const BaseProposerOptions& opt
       const TPoint2D d = features[b].position - features[a].position;
       const double distance = d.norm();
       if (distance < kMinPairDistance || distance > options.pair_range) continue;
-      pairs_.push_back({distance, a, b, std::atan2(d.y, d.x), d.x / distance, d.y / distance});
+      pairs_.push_back({distance, a, b, (features[a].position + features[b].position) * 0.5,
+                        features[a].size, features[b].size, std::atan2(d.y, d.x), d.x / distance,
+                        d.y / distance});
     }
   }
   std::sort(pairs_.begin(), pairs_.end(),
@@ -90,6 +93,7 @@ std::vector<PoseProposal> BaseProposer::propose(const std::vector<Feature>& obse
 {
   const bool thorough = effort == Effort::thorough;
   std::vector<PoseProposal> proposals;
+  proposals.reserve(std::min(options_.budget, kUsualProposals));
   proposeWallEnds(observed, proposals);
   proposeCirclePairs(observed, thorough ? options_.thorough_pairs : options_.max_pairs, proposals);
   proposeSlidWalls(observed, thorough ? options_.thorough_slid_walls : options_.slid_walls,
@@ -139,14 +143,15 @@ void BaseProposer::proposeSlidWalls(const std::vector<Feature>& observed, std::s
   {
     if (i >= count && out.size() >= options_.enough) break;
     const Feature* wall = slid[i];
+    const TPoint2D normal = directionVector(*wall);
     const double inside = wall->size * (0.5 - options_.overhang);
     for (const MappedWall& mapped : walls_)
     {
       if (mapped.length + options_.length_tolerance < wall->size * (1.0 - options_.overhang)) break;
       const double phi = mapped.direction - wall->direction;
-      const double c = std::cos(phi);
-      const double s = std::sin(phi);
-      const TPoint2D tangent(std::sin(mapped.direction), -std::cos(mapped.direction));
+      const double c = mapped.c * normal.x + mapped.s * normal.y;
+      const double s = mapped.s * normal.x - mapped.c * normal.y;
+      const TPoint2D tangent(mapped.s, -mapped.c);
       const double low = std::min(inside, 0.5 * mapped.length);
       const double high = std::max(mapped.length - inside, 0.5 * mapped.length);
       const int steps = static_cast<int>(std::ceil((high - low) / options_.slide_step));
@@ -199,16 +204,13 @@ void BaseProposer::proposeCirclePairs(const std::vector<Feature>& observed, std:
     const TPoint2D middle_seen = (choice.a->position + choice.b->position) * 0.5;
     for (auto pair = choice.first; pair != choice.last; ++pair)
     {
-      const Feature& from = map_.features()[pair->from];
-      const Feature& to = map_.features()[pair->to];
-      if (std::abs(from.size - choice.a->size) > kRadiusTolerance ||
-          std::abs(to.size - choice.b->size) > kRadiusTolerance)
+      if (std::abs(pair->from_radius - choice.a->size) > kRadiusTolerance ||
+          std::abs(pair->to_radius - choice.b->size) > kRadiusTolerance)
       {
         continue;
       }
-      out.push_back(poseCarrying(middle_seen, (from.position + to.position) * 0.5,
-                                 pair->bearing - bearing, pair->c * c + pair->s * s,
-                                 pair->s * c - pair->c * s));
+      out.push_back(poseCarrying(middle_seen, pair->middle, pair->bearing - bearing,
+                                 pair->c * c + pair->s * s, pair->s * c - pair->c * s));
     }
   }
 }

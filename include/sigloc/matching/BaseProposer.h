@@ -61,7 +61,6 @@ struct BaseProposerOptions
 class BaseProposer
 {
  public:
-  /// Keeps a reference to the map, which must outlive the proposer.
   explicit BaseProposer(const FeatureMap& map, const BaseProposerOptions& options = {});
 
   /// How many bases are used: enough for nearly every scene, or more when those explain it poorly.
@@ -87,6 +86,7 @@ class BaseProposer
   struct MappedWall
   {
     double direction;  // normal [rad]
+    double c, s;  // cosine and sine of it
     mrpt::math::TPoint2D start;  // of the linked wall [m]
     double length;  // [m]
   };
@@ -94,6 +94,8 @@ class BaseProposer
   {
     double distance;
     std::uint32_t from, to;
+    mrpt::math::TPoint2D middle;  // [m]
+    double from_radius, to_radius;  // [m]
     double bearing;  // of `to` from `from` [rad]
     double c, s;  // cosine and sine of it
   };
@@ -104,7 +106,6 @@ class BaseProposer
   void proposeCirclePairs(const std::vector<Feature>& observed, std::size_t count,
                           std::vector<PoseProposal>& out) const;
 
-  const FeatureMap& map_;
   BaseProposerOptions options_;
   std::array<std::vector<MappedEnd>, 2> wall_ends_;  // by side, longest wall first
   std::vector<MappedWall> walls_;  // longest first
