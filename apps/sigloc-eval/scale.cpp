@@ -28,6 +28,11 @@ struct ScaleFlags
       options.slow_poses = std::min<std::size_t>(options.slow_poses, common.max_queries);
     }
     if (!common.methods.empty()) options.methods = common.methods;
+    if (options.map_features.empty())
+    {
+      options.map_features = options.dlr.empty() ? ScaleOptions().map_features
+                                                 : std::vector<std::size_t>{50, 100, 200, 400};
+    }
     options.seed = common.seed;
     options.generator.seed = common.seed;
     options.command = command_line;
@@ -47,7 +52,11 @@ std::function<int()> setUpScale(CLI::App& command, const std::string& command_li
 {
   const auto flags = std::make_shared<ScaleFlags>();
   ScaleOptions& options = flags->options;
-  command.add_option("--map-features", options.map_features, "map sizes")->delimiter(',');
+  options.map_features.clear();
+  command
+      .add_option("--map-features", options.map_features,
+                  "map sizes (default: 1000,4000,16000, on the DLR log 50,100,200,400)")
+      ->delimiter(',');
   command
       .add_option("--observed", options.observed,
                   "counts that the observed features are thinned to, in the first map")
@@ -65,6 +74,16 @@ std::function<int()> setUpScale(CLI::App& command, const std::string& command_li
       .add_option("--slow-poses", options.slow_poses, "poses a row of methods linear in the map")
       ->check(CLI::PositiveNumber);
   command.add_option("--slow-limit", options.slow_limit, "largest map for those");
+  CLI::Option* const dlr = command.add_option(
+      "--dlr", options.dlr, "folder of the DLR log: growth on it, not in simulated worlds");
+  command.add_option("--local-map-steps", options.local_map_steps, "on the log: of a local map")
+      ->check(CLI::PositiveNumber)
+      ->needs(dlr);
+  for (const char* of_worlds :
+       {"--density", "--range", "--noise", "--spurious", "--slow-poses", "--slow-limit"})
+  {
+    dlr->excludes(command.get_option(of_worlds));
+  }
   flags->common.declare(command, featureMethodNames());
   return [flags, command_line] { return flags->run(command_line); };
 }

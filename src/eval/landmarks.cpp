@@ -4,14 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <sstream>
 #include <stdexcept>
 
+#include "landmark_queries.h"
 #include "sigloc/eval/cpu_time.h"
 #include "sigloc/eval/feature_methods.h"
 #include "sigloc/eval/report_files.h"
-#include "sigloc/features/LocalMap.h"
 
 namespace sigloc
 {
@@ -75,53 +74,6 @@ Asked ask(const FeatureHypothesisGenerator& method, const LocalMap& local, std::
   return asked;
 }
 
-/// The last `count` steps up to `step`.
-LocalMap gather(const LandmarkData& data, std::size_t step, std::size_t count)
-{
-  LocalMap local;
-  for (std::size_t k = step + 1 - std::min(count, step + 1); k <= step; ++k)
-  {
-    local.add(data.steps[k].motion, data.steps[k].observed);
-  }
-  return local;
-}
-
-/// DLR: steps of the second half of the path at places that the first half has been to.
-std::vector<std::size_t> laterVisits(const LandmarkData& data, const LandmarksOptions& options)
-{
-  const std::size_t half = data.steps.size() / 2;
-  const std::size_t longest =
-      *std::max_element(options.local_map_steps.begin(), options.local_map_steps.end());
-  std::set<int> mapped;
-  for (std::size_t k = 0; k < half; ++k)
-  {
-    mapped.insert(data.steps[k].identities.begin(), data.steps[k].identities.end());
-  }
-  std::vector<std::size_t> queries;
-  for (std::size_t step = half + longest; step < data.steps.size(); step += options.query_stride)
-  {
-    std::set<int> seen;
-    for (std::size_t k = step + 1 - longest; k <= step; ++k)
-    {
-      seen.insert(data.steps[k].identities.begin(), data.steps[k].identities.end());
-    }
-    seen.erase(-1);
-    const auto known = std::count_if(seen.begin(), seen.end(),
-                                     [&](int identity) { return mapped.count(identity) > 0; });
-    const mrpt::math::TPose2D& truth = data.steps[step].truth;
-    const bool near =
-        std::any_of(data.steps.begin(), data.steps.begin() + static_cast<std::ptrdiff_t>(half),
-                    [&](const LandmarkStep& then) {
-                      return std::hypot(then.truth.x - truth.x, then.truth.y - truth.y) <=
-                             options.visited_distance;
-                    });
-    const bool visited = near && static_cast<double>(known) >
-                                     options.visited_share * static_cast<double>(seen.size());
-    if (!options.first_half_map || visited) queries.push_back(step);
-  }
-  return queries;
-}
-
 template <class Container>
 void limit(Container& container, std::size_t most)
 {
@@ -132,13 +84,14 @@ void runFixedLocalMaps(const FeatureHypothesisGenerator& method, const std::stri
                        const LandmarkData& data, const LandmarksOptions& options,
                        LandmarksReport& report)
 {
-  std::vector<std::size_t> queries = laterVisits(data, options);
+  std::vector<std::size_t> queries = detail::laterVisits(data, options);
   limit(queries, options.max_queries);
   for (const std::size_t count : options.local_map_steps)
   {
     for (const std::size_t step : queries)
     {
-      LandmarkRecord record = ask(method, gather(data, step, count), step, data, options).record;
+      LandmarkRecord record =
+          ask(method, detail::localMapAt(data, step, count), step, data, options).record;
       record.method = name;
       record.local_map_steps = count;
       report.records.push_back(record);

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sigloc/eval/scale.h"
 
-#include <malloc.h>
 #include <mrpt/math/wrap2pi.h>
 
 #include <algorithm>
@@ -10,7 +9,8 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "sigloc/eval/cpu_time.h"
+#include "GrowthMeter.h"
+#include "landmark_growth.h"
 #include "sigloc/eval/feature_methods.h"
 #include "sigloc/eval/report_files.h"
 
@@ -26,51 +26,20 @@ bool isRightPose(const FeatureHypothesis& hypothesis, const mrpt::math::TPose2D&
          std::abs(mrpt::math::wrapToPi(mean.phi - truth.phi)) <= options.right_angle;
 }
 
-/// Memory that this process has allocated and not freed [bytes].
-double heapBytes()
-{
-  const struct mallinfo2 heap = mallinfo2();
-  return static_cast<double>(heap.uordblks + heap.hblkhd);
-}
-
 ScaleRow runRow(const std::string& method, const FeatureWorld& world, const FeatureMap& map,
                 std::size_t wanted, const ScaleOptions& options)
 {
-  ScaleRow row;
-  row.method = method;
-  row.map_features = map.features().size();
-  row.wanted = wanted;
-  const double memory_before = heapBytes();
-  const double start = threadCpuSeconds();
-  const auto generator = makeFeatureMethod(method, map, options.generator);
-  row.build_seconds = threadCpuSeconds() - start;
-  row.bytes_per_feature =
-      (heapBytes() - memory_before) / static_cast<double>(row.map_features) + sizeof(Feature);
-
+  detail::GrowthMeter meter(method, wanted);
+  const auto generator = meter.build(map, options.generator);
   Random random(options.seed, 1000 + wanted);
   const std::size_t poses = isLinearMethod(method) ? options.slow_poses : options.poses;
-  std::vector<double> times;
-  MatchingCounters counters;
-  row.success.cases = poses;
   for (std::size_t k = 0; k < poses; ++k)
   {
     const mrpt::math::TPose2D truth = randomPose(world, options.world, random);
-    const std::vector<Feature> observed =
-        observeFeatures(world, truth, options.world, random, wanted);
-    row.observed += static_cast<double>(observed.size()) / static_cast<double>(poses);
-    const double before = threadCpuSeconds();
-    const std::vector<FeatureHypothesis> found = generator->generate(observed, counters);
-    times.push_back(1e3 * (threadCpuSeconds() - before));
-    row.success.count += !found.empty() && isRightPose(found.front(), truth, options);
+    meter.ask(*generator, observeFeatures(world, truth, options.world, random, wanted),
+              [&](const FeatureHypothesis& first) { return isRightPose(first, truth, options); });
   }
-  const auto mean = [&](std::uint64_t sum)
-  { return static_cast<double>(sum) / static_cast<double>(std::max<std::size_t>(1, poses)); };
-  row.signature_pairs = mean(counters.signature_pairs);
-  row.hypotheses = mean(counters.hypotheses);
-  row.checks = mean(counters.checks);
-  row.cut_short = counters.cut_short;
-  row.time_ms = quantilesOf(std::move(times));
-  return row;
+  return meter.row();
 }
 
 std::vector<std::string> methodsOf(const ScaleReport& report)
@@ -138,7 +107,7 @@ std::vector<std::pair<std::string, Plot>> growthPlots(const ScaleReport& report)
   std::vector<std::pair<std::string, Plot>> plots;
   for (const auto& figure : figures)
   {
-    Plot plot{"Growth", figure.x, figure.y, true, true, {}};
+    Plot plot{"Growth" + report.where, figure.x, figure.y, true, true, {}};
     for (const std::string& method : methodsOf(report))
     {
       const Curve curve = curveOf(report, method, figure.over_observed, figure.value);
@@ -185,17 +154,13 @@ ScaleReport runScale(const ScaleOptions& options)
 {
   if (options.map_features.empty()) throw std::invalid_argument("scale: needs a map size");
   checkFeatureMethods(options.methods);
+  if (!options.dlr.empty()) return detail::runLandmarkGrowth(options);
   ScaleReport report;
   report.provenance.command = options.command;
   report.provenance.seed = options.seed;
   const auto add = [&](ScaleRow row)
   {
-    if (options.progress)
-    {
-      options.progress(row.method + ": " + std::to_string(row.map_features) + " features, " +
-                       fixedNumber(row.observed, 1) + " observed, " +
-                       fixedNumber(row.time_ms.median, 3) + " ms");
-    }
+    if (options.progress) options.progress(detail::progressLine(row));
     report.rows.push_back(std::move(row));
   };
   for (std::size_t index = 0; index < options.map_features.size(); ++index)
@@ -274,6 +239,7 @@ void writeScaleReport(const ScaleReport& report, const std::filesystem::path& fo
   {
     const Curve operations = curveOf(report, method, false, operationsOf);
     const Curve over_observed = curveOf(report, method, true, operationsOf);
+    const Curve time_over_observed = curveOf(report, method, true, medianOf);
     const Curve time = curveOf(report, method, false, medianOf);
     if (operations.size() > 1)
     {
@@ -283,10 +249,11 @@ void writeScaleReport(const ScaleReport& report, const std::filesystem::path& fo
     if (over_observed.size() > 1)
     {
       json["methods"][method]["operations_exponent_in_n"] = fitExponent(over_observed).slope;
+      json["methods"][method]["time_exponent_in_n"] = fitExponent(time_over_observed).slope;
     }
   }
   files.results = csv.str();
-  files.text = "# Growth\n\n" + scaleTable(report);
+  files.text = "# Growth" + report.where + "\n\n" + scaleTable(report);
   files.plots = growthPlots(report);
   files.provenance = report.provenance;
   writeRunReport(files, folder);

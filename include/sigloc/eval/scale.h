@@ -16,7 +16,7 @@
 namespace sigloc
 {
 /// Protocol "growth": cost of the feature modes against the size of the map and of the scene, in
-/// simulated worlds of bare features.
+/// simulated worlds of bare features or on the DLR log.
 struct ScaleOptions
 {
   std::vector<std::size_t> map_features{1000, 4000, 16000};
@@ -30,6 +30,11 @@ struct ScaleOptions
   std::uint64_t seed = 1;
   double right_distance = 0.3;  ///< [m]
   double right_angle = 0.06;  ///< [rad]
+  /// Folder of the DLR log, or empty for simulated worlds. On the log, `world` says nothing, poses
+  /// are later visits of mapped places, right as `landmarks` has it, and maps as large as wanted
+  /// are the discs nearest to each.
+  std::filesystem::path dlr;
+  std::size_t local_map_steps = 20;  ///< on the log
   std::string command;
   std::function<void(const std::string&)> progress;  ///< called with one line a row
 };
@@ -64,11 +69,13 @@ FittedExponent fitExponent(const std::vector<std::pair<double, double>>& points)
 
 struct ScaleReport
 {
+  std::string where;  ///< added to titles
   std::vector<ScaleRow> rows;
   Provenance provenance;
 };
 
-/// Throws std::invalid_argument for an unknown method or empty lists.
+/// Throws std::invalid_argument for an unknown method or empty lists and std::runtime_error
+/// ("path: reason") for a log that cannot be used.
 ScaleReport runScale(const ScaleOptions& options);
 
 /// The rows and the fitted exponents as Markdown tables.

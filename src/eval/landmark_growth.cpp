@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "landmark_growth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "GrowthMeter.h"
+#include "landmark_queries.h"
+#include "sigloc/eval/evaluation_data.h"
+#include "sigloc/eval/Random.h"
+
+namespace sigloc::detail
+{
+namespace
+{
+using mrpt::math::TPose2D;
+
+/// One place asked for, and the map's discs by their distance from it.
+struct Place
+{
+  TPose2D truth;
+  std::vector<Feature> observed;
+  std::vector<Feature> nearest_first;
+};
+
+std::vector<Place> placesOf(const LandmarkData& data, const ScaleOptions& options)
+{
+  LandmarksOptions visits;
+  visits.local_map_steps = {options.local_map_steps};
+  const std::vector<Feature> map = mapFromSteps(data, data.steps.size() / 2);
+  std::vector<Place> places;
+  const std::vector<std::size_t> steps = laterVisits(data, visits);
+  for (const std::size_t which : evenlySpaced(steps.size(), options.poses))
+  {
+    const std::size_t step = steps[which];
+    const TPose2D& truth = data.steps[step].truth;
+    places.push_back({truth, localMapAt(data, step, options.local_map_steps).features(), map});
+    const auto distance = [&](const Feature& feature)
+    { return std::hypot(feature.position.x - truth.x, feature.position.y - truth.y); };
+    std::stable_sort(places.back().nearest_first.begin(), places.back().nearest_first.end(),
+                     [&](const Feature& a, const Feature& b) { return distance(a) < distance(b); });
+  }
+  return places;
+}
+
+/// Returns `count` of the features, drawn without regard to what they are; all for 0.
+std::vector<Feature> thinned(std::vector<Feature> features, std::size_t count, Random& random)
+{
+  if (count == 0 || count >= features.size()) return features;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    std::swap(features[i], features[i + random.index(features.size() - i)]);
+  }
+  features.resize(count);
+  return features;
+}
+
+ScaleRow runRow(const std::string& method, const std::vector<Place>& places, std::size_t map_size,
+                std::size_t wanted, const LandmarkData& data, const ScaleOptions& options)
+{
+  GrowthMeter meter(method, wanted);
+  Random random(options.seed, 1000 + wanted);
+  for (const Place& place : places)
+  {
+    std::vector<Feature> nearest = place.nearest_first;
+    nearest.resize(std::min(map_size, nearest.size()));
+    const FeatureMap map(std::move(nearest), std::nullopt, data.map_error);
+    const auto generator = meter.build(map, options.generator);
+    meter.ask(*generator, thinned(place.observed, wanted, random),
+              [&](const FeatureHypothesis& first)
+              { return isRight(poseError(first.pose.mean, place.truth), AccuracyGates{}); });
+  }
+  return meter.row();
+}
+}  // namespace
+
+ScaleReport runLandmarkGrowth(const ScaleOptions& options)
+{
+  const LandmarkData data = readDlr(options.dlr);
+  const std::vector<Place> places = placesOf(data, options);
+  if (places.empty())
+  {
+    throw std::runtime_error(options.dlr.string() + ": no place is visited twice");
+  }
+  ScaleReport report;
+  report.where = " on DLR, local maps of " + std::to_string(options.local_map_steps) + " steps";
+  report.provenance = {options.command, options.seed, data.files};
+  const auto add = [&](const std::string& method, std::size_t map_size, std::size_t wanted)
+  {
+    report.rows.push_back(runRow(method, places, map_size, wanted, data, options));
+    if (options.progress) options.progress(progressLine(report.rows.back()));
+  };
+  const std::size_t whole = places.front().nearest_first.size();
+  for (const std::string& method : options.methods)
+  {
+    for (const std::size_t size : options.map_features) add(method, size, 0);
+    for (const std::size_t wanted : options.observed) add(method, whole, wanted);
+  }
+  return report;
+}
+}  // namespace sigloc::detail
