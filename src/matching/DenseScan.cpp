@@ -13,6 +13,8 @@ using mrpt::math::TPoint2D;
 namespace
 {
 constexpr double kOnSegment = 0.05;  // [m], a return this near a fitted segment lies on it
+constexpr double kSharedLength = 0.2;  // [m] of wall whose returns share one weight
+constexpr double kLeastShare = 0.01;  // of a return that repeats those beside it
 
 /// Indices 0..n-1 in van der Corput order: every prefix is spread evenly.
 std::vector<std::uint32_t> interleavedOrder(std::uint32_t n)
@@ -33,13 +35,19 @@ std::vector<std::uint32_t> interleavedOrder(std::uint32_t n)
   return order;
 }
 
-/// Whether no beam beside a return ends near it: a speck of clutter, or something thin and far.
-bool isIsolated(const std::vector<BeamEnd>& beams, std::size_t i)
+/// How far [m] a beam's neighbour may end from it on the same surface.
+double gapAt(const BeamEnd& beam)
 {
   constexpr double kGap = 0.3;  // [m]
   constexpr double kGapPerRange = 0.05;  // [m/m], beams fan out
+  return kGap + kGapPerRange * beam.point.norm();
+}
+
+/// Whether no beam beside a return ends near it: a speck of clutter, or something thin and far.
+bool isIsolated(const std::vector<BeamEnd>& beams, std::size_t i)
+{
   const BeamEnd& beam = beams[i];
-  const double gap = kGap + kGapPerRange * beam.point.norm();
+  const double gap = gapAt(beam);
   const std::size_t first = i < 2 ? 0 : i - 2;
   const std::size_t last = std::min(beams.size() - 1, i + 2);
   for (std::size_t k = first; k <= last; ++k)
@@ -48,6 +56,26 @@ bool isIsolated(const std::vector<BeamEnd>& beams, std::size_t i)
     if ((beams[k].point - beam.point).norm() < gap) return false;
   }
   return true;
+}
+
+/// The share of kSharedLength that a return stands for, in [kLeastShare, 1]: its mean distance to
+/// the beams beside it on the same surface.
+double lengthShare(const std::vector<BeamEnd>& beams, std::size_t i)
+{
+  const BeamEnd& beam = beams[i];
+  const double gap = gapAt(beam);
+  double sum = 0;
+  int neighbours = 0;
+  for (const std::size_t k : {i - 1, i + 1})
+  {
+    // Before the first beam is far beyond the last.
+    if (k >= beams.size() || beams[k].origin != beam.origin) continue;
+    const double distance = (beams[k].point - beam.point).norm();
+    if (distance >= gap) continue;
+    sum += distance;
+    ++neighbours;
+  }
+  return neighbours == 0 ? 1.0 : std::clamp(sum / neighbours / kSharedLength, kLeastShare, 1.0);
 }
 
 /// An observed segment, as its returns are found.
@@ -98,7 +126,8 @@ DenseScan makeDenseScan(const ObservedScene& scene, std::size_t max_beams)
   const std::size_t count = std::min(total, max_beams);
   DenseScan scan;
   scan.origins = scene.sensor_origins;
-  for (auto* column : {&scan.x, &scan.y, &scan.pull_xx, &scan.pull_xy, &scan.pull_yy})
+  for (auto* column :
+       {&scan.x, &scan.y, &scan.pull_xx, &scan.pull_xy, &scan.pull_yy, &scan.by_length})
   {
     column->reserve(count);
   }
@@ -111,9 +140,12 @@ DenseScan makeDenseScan(const ObservedScene& scene, std::size_t max_beams)
     scan.x.push_back(static_cast<float>(beam.point.x));
     scan.y.push_back(static_cast<float>(beam.point.y));
     addPull(walls, beam.point, scan);
+    scan.by_length.push_back(static_cast<float>(lengthShare(scene.beams, i * total / count)));
     scan.isolated.push_back(isIsolated(scene.beams, i * total / count) ? 1 : 0);
     scan.origin.push_back(beam.origin);
   }
+  const float sum = std::accumulate(scan.by_length.begin(), scan.by_length.end(), 0.0F);
+  for (float& weight : scan.by_length) weight *= static_cast<float>(count) / sum;
   return scan;
 }
 }  // namespace sigloc

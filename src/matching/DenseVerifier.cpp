@@ -109,6 +109,18 @@ class TakenPoses
   std::size_t count_ = 0;
 };
 
+/// The same scan, with the pull of its returns weighed by the wall they stand for.
+DenseScan weighedByLength(DenseScan scan)
+{
+  for (std::size_t i = 0; i < scan.size(); ++i)
+  {
+    scan.pull_xx[i] *= scan.by_length[i];
+    scan.pull_xy[i] *= scan.by_length[i];
+    scan.pull_yy[i] *= scan.by_length[i];
+  }
+  return scan;
+}
+
 /// Calls `visit(i, cell)` for the first `count` returns and the cells they end in.
 template <class Visit>
 void forEachCell(const DenseField& field, const DenseScan& scan, const TPose2D& pose,
@@ -160,18 +172,32 @@ std::vector<RankedPose> DenseVerifier::rank(const DenseScan& scan,
   keepDistinct(poses, max_ranked);
 
   // 4. What may win or be the runner-up is settled on all beams.
+  const DenseScan by_length = weighedByLength(scan);
   const double contender = poses.empty() ? 0 : poses.front().evidence.score - kContender;
   for (std::size_t k = 0; k < std::min(kSettled, poses.size()); ++k)
   {
     RankedPose& pose = poses[k];
     if (pose.evidence.score < contender) break;
-    const TPose2D settled = refine(scan, pose.pose, kSettleSteps, scan.size());
-    const DenseEvidence evidence = evaluate(scan, settled, kRayBeams);
-    castRays(scan, pose.pose, kRayBeams, pose.evidence);
-    if (evidence.score >= pose.evidence.score) pose = {settled, evidence};
+    settle(scan, by_length, pose);
   }
   keepDistinct(poses, max_ranked);
   return poses;
+}
+
+/// Refines a pose on all beams, with every return and with every stretch of wall weighing alike:
+/// where the map's walls are off, many returns from a near one would drown the others. The score
+/// decides.
+void DenseVerifier::settle(const DenseScan& scan, const DenseScan& by_length,
+                           RankedPose& pose) const
+{
+  const TPose2D start = pose.pose;
+  castRays(scan, start, kRayBeams, pose.evidence);
+  for (const DenseScan* weighed : {&scan, &by_length})
+  {
+    const TPose2D settled = refine(*weighed, start, kSettleSteps, scan.size());
+    const DenseEvidence evidence = evaluate(scan, settled, kRayBeams);
+    if (evidence.score >= pose.evidence.score) pose = {settled, evidence};
+  }
 }
 
 std::vector<RankedPose> DenseVerifier::refineBest(const DenseScan& scan,

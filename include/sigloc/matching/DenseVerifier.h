@@ -22,6 +22,8 @@ struct DenseScan
   /// How a return pulls, robot frame: n nᵀ along the unit normal of the wall it lies on; off any
   /// wall half the unit matrix. \cite algorithm eq. (6.4)
   std::vector<float> pull_xx, pull_xy, pull_yy;
+  /// Weight of a return where every stretch of wall weighs alike, instead of every return; mean 1.
+  std::vector<float> by_length;
   std::vector<std::uint8_t> isolated;  ///< not 0: no beam beside it ends near it, may be clutter
   std::vector<std::uint32_t> origin;  ///< index into origins
   std::vector<mrpt::math::TPoint2D> origins;
@@ -98,6 +100,7 @@ class DenseVerifier
   std::vector<RankedPose> refineBest(const DenseScan& scan,
                                      const std::vector<PoseProposal>& proposals,
                                      std::vector<QuickLook> looks) const;
+  void settle(const DenseScan& scan, const DenseScan& by_length, RankedPose& pose) const;
   DenseEvidence evaluate(const DenseScan& scan, const mrpt::math::TPose2D& pose,
                          std::size_t rays) const;
   void castRays(const DenseScan& scan, const mrpt::math::TPose2D& pose, std::size_t rays,
