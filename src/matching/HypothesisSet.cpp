@@ -16,14 +16,6 @@ constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 constexpr std::size_t kMostItems = 4096;  // then the worse half is dropped
 constexpr std::int64_t kHeadingCells = 21;  // of at least kMergeAngle
 
-bool samePlace(const mrpt::math::TPose2D& a, const mrpt::math::TPose2D& b)
-{
-  const double dx = a.x - b.x;
-  const double dy = a.y - b.y;
-  return dx * dx + dy * dy <= kMergeDistance * kMergeDistance &&
-         std::abs(mrpt::math::wrapToPi(a.phi - b.phi)) <= kMergeAngle;
-}
-
 bool ranksBefore(const FeatureHypothesis& a, const FeatureHypothesis& b)
 {
   if (a.log_odds != b.log_odds) return a.log_odds > b.log_odds;
@@ -63,6 +55,14 @@ std::size_t bitOf(const FeaturePairing& pairing)
   return static_cast<std::size_t>(mixed >> 50);  // 14 bits
 }
 }  // namespace
+
+bool samePlace(const mrpt::math::TPose2D& a, const mrpt::math::TPose2D& b)
+{
+  const double dx = a.x - b.x;
+  const double dy = a.y - b.y;
+  return dx * dx + dy * dy <= kMergeDistance * kMergeDistance &&
+         std::abs(mrpt::math::wrapToPi(a.phi - b.phi)) <= kMergeAngle;
+}
 
 void HypothesisSet::enterCells(std::uint32_t index)
 {

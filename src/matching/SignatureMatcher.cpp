@@ -12,6 +12,7 @@
 #include "sigloc/matching/DenseVerifier.h"
 #include "sigloc/matching/GeneratorOptions.h"
 #include "sigloc/matching/generators.h"
+#include "sigloc/matching/HypothesisSet.h"
 #include "sigloc/matching/judging.h"
 #include "sigloc/matching/weighing.h"
 
@@ -24,6 +25,25 @@ namespace
 constexpr double kPoorScore = 0.5;  // an answer below this calls for more proposals
 constexpr std::size_t kMinLandmarks = 2;  // without a laser
 constexpr std::size_t kMaxBeams = 400;  // used of a scene; more are thinned evenly
+
+/// Probability that features alone missed the right place, seen from the place that is best after
+/// all: none where chance is refuted by the features that place explains. \cite algorithm eq. (7.6)
+double missedProbability(const std::vector<FeatureHypothesis>& hypotheses, const TPose2D& best)
+{
+  constexpr double kMissed = 0.2;  // share of queries, where nothing significant was found
+  double chance = 1;
+  for (const FeatureHypothesis& hypothesis : hypotheses)
+  {
+    if (samePlace(hypothesis.pose.mean, best)) chance = std::min(chance, hypothesis.chance);
+  }
+  return kMissed * chance;
+}
+
+bool seesWalls(const ObservedScene& scene)
+{
+  return std::any_of(scene.features.begin(), scene.features.end(),
+                     [](const Feature& feature) { return feature.type == FeatureType::segment; });
+}
 
 std::vector<PoseProposal> proposalsOf(const std::vector<FeatureHypothesis>& hypotheses)
 {
@@ -95,7 +115,7 @@ RelocationResult SignatureMatcher::localize(const ObservedScene& scene,
     // 3. ... and weigh the rivals and "somewhere else"; decide.
     if (generator_)
     {
-      verifyDensely(scene, proposalsOf(hypotheses), region, result);
+      verifyDensely(scene, proposalsOf(hypotheses), hypotheses, region, result);
     }
     else
     {
@@ -103,6 +123,7 @@ RelocationResult SignatureMatcher::localize(const ObservedScene& scene,
     }
     return result;
   }
+  std::optional<double> chance_of_places;
   for (FeatureHypothesis& hypothesis : hypotheses)
   {
     if (result.candidates.size() == options_.max_candidates) break;
@@ -110,10 +131,11 @@ RelocationResult SignatureMatcher::localize(const ObservedScene& scene,
     Candidate candidate;
     candidate.pose = hypothesis.pose;
     candidate.score = hypothesis.log_odds;
+    if (result.candidates.empty() && !seesWalls(scene)) chance_of_places = hypothesis.chance;
     candidate.pairings = std::move(hypothesis.pairings);
     result.candidates.push_back(std::move(candidate));
   }
-  weighByLogOdds(result);
+  weighByLogOdds(result, chance_of_places);
   return result;
 }
 
@@ -139,13 +161,14 @@ void SignatureMatcher::verifyBases(const ObservedScene& scene,
     std::vector<PoseProposal> proposals = proposer_->propose(scene.features, effort);
     result.counters.hypotheses += proposals.size();
     result.candidates.clear();
-    verifyDensely(scene, std::move(proposals), region, result);
+    verifyDensely(scene, std::move(proposals), {}, region, result);
     if (!result.candidates.empty() && result.candidates.front().score >= kPoorScore) return;
   }
 }
 
 void SignatureMatcher::verifyDensely(const ObservedScene& scene,
                                      std::vector<PoseProposal> proposals,
+                                     const std::vector<FeatureHypothesis>& hypotheses,
                                      const std::optional<PoseRegion>& region,
                                      RelocationResult& result) const
 {
@@ -168,6 +191,9 @@ void SignatureMatcher::verifyDensely(const ObservedScene& scene,
     candidate.pose.covariance =
         verifier_->covarianceAt(scan, candidate.pose.mean, map_->error().common_sigma);
   }
-  weighCandidates(result, rivals);
+  const double missed = hypotheses.empty() || result.candidates.empty()
+                            ? 0
+                            : missedProbability(hypotheses, result.candidates.front().pose.mean);
+  weighCandidates(result, rivals, missed);
 }
 }  // namespace sigloc

@@ -24,7 +24,11 @@ constexpr double kLeadSlope = 0.46;  // per unit of log-likelihood ahead of the 
 constexpr double kFitOffset = 11.2;
 constexpr double kPriorOutside = 0.01;  // of a pose outside the region it is said to be in
 constexpr double kChanceScore = 0.4;  // what chance reaches where there is no runner-up
-constexpr double kFeatureTempering = 0.25;  // features of one scan share their errors
+constexpr double kUsualScore = 0.8;  // of the right place
+// Features of a scan share its errors, and buildings repeat their walls; places that were gathered
+// over a drive share less.
+constexpr double kWallTempering = 0.25;
+constexpr double kPlaceTempering = 0.5;
 constexpr double kPriorElsewhere =
     0.002;  // of standing off the map, and of a generator that failed
 constexpr double kLocalized = 0.99;
@@ -95,7 +99,7 @@ double presenceEvidence(const RelocationResult& result, std::size_t k)
   return fitLogOdds(candidates[k]) + leadLogOdds(candidates[k].score, rival_score);
 }
 
-void weighCandidates(RelocationResult& result, const std::vector<Candidate>& outside)
+void weighCandidates(RelocationResult& result, const std::vector<Candidate>& outside, double missed)
 {
   std::vector<Candidate>& candidates = result.candidates;
   if (candidates.empty()) return decide(result);
@@ -106,31 +110,36 @@ void weighCandidates(RelocationResult& result, const std::vector<Candidate>& out
   for (Candidate& candidate : candidates) sum += candidate.probability = weight_of(candidate);
   double sum_outside = 0;
   for (const Candidate& candidate : outside) sum_outside += kPriorOutside * weight_of(candidate);
+  const double sum_missed = missed * std::exp(logLikelihoodOfScore(kUsualScore) - best);
 
   const double here = 1.0 / (1.0 + std::exp(-presenceEvidence(result, 0) - kPriorHereLogOdds));
-  for (Candidate& candidate : candidates) candidate.probability *= here / (sum + sum_outside);
-  result.elsewhere = 1.0 - here * sum / (sum + sum_outside);
+  const double all = sum + sum_outside + sum_missed;
+  for (Candidate& candidate : candidates) candidate.probability *= here / all;
+  result.elsewhere = 1.0 - here * sum / all;
 
   decide(result);
 }
 
-void weighByLogOdds(RelocationResult& result)
+void weighByLogOdds(RelocationResult& result, std::optional<double> chance_of_places)
 {
+  const double tempering = chance_of_places ? kPlaceTempering : kWallTempering;
   std::vector<Candidate>& candidates = result.candidates;
   double largest = 0;  // the clutter hypothesis itself has log-odds 0
   for (const Candidate& candidate : candidates) largest = std::max(largest, candidate.score);
-  double sum = std::exp(-kFeatureTempering * largest);
+  double sum = 0;
   for (Candidate& candidate : candidates)
   {
-    candidate.probability = std::exp(kFeatureTempering * (candidate.score - largest));
+    candidate.probability = std::exp(tempering * (candidate.score - largest));
     sum += candidate.probability;
   }
+  const double accidental =
+      candidates.empty() ? 0 : chance_of_places.value_or(0) * candidates.front().probability;
+  const double all = std::exp(-tempering * largest) + accidental + sum;
   for (Candidate& candidate : candidates)
   {
-    candidate.probability *= (1.0 - kPriorElsewhere) / sum;
+    candidate.probability *= (1.0 - kPriorElsewhere) / all;
   }
-  result.elsewhere =
-      kPriorElsewhere + (1.0 - kPriorElsewhere) * std::exp(-kFeatureTempering * largest) / sum;
+  result.elsewhere = 1.0 - (1.0 - kPriorElsewhere) * sum / all;
   decide(result);
 }
 }  // namespace sigloc

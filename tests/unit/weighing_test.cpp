@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -100,6 +101,46 @@ TEST(Weighing, SpeaksOfNothingWithoutCandidates)
   EXPECT_EQ(none.elsewhere, 1);
   EXPECT_EQ(resultOf({0.1, 0.1}).verdict, Verdict::not_here);
   EXPECT_EQ(resultOf({0.97, 0.4}).verdict, Verdict::localized);
+}
+
+TEST(Weighing, APlaceThatMayHaveBeenMissedRivalsAPoorWinner)
+{
+  const auto first_of = [](double score, double missed)
+  {
+    RelocationResult result = resultOf({score, 0.2});
+    weighCandidates(result, {}, missed);
+    EXPECT_NEAR(sumOf(result), 1.0, 1e-12);
+    return result.candidates.front().probability;
+  };
+  for (double score = 0.3; score < 1.0; score += 0.05)
+  {
+    double last = first_of(score, 0);
+    for (double missed = 0.01; missed < 0.3; missed *= 2)
+    {
+      EXPECT_LT(first_of(score, missed), last) << score << " " << missed;
+      last = first_of(score, missed);
+    }
+  }
+  EXPECT_LT(first_of(0.7, 0.2), 0.9);  // the right place would usually do better
+  EXPECT_GT(first_of(0.97, 0.2), 0.99);  // hardly
+}
+
+TEST(Weighing, ChanceRivalsPlacesThatAreFew)
+{
+  const auto first_of = [](double log_odds, double rival, std::optional<double> chance)
+  {
+    RelocationResult result = resultOf({0.5, 0.4});
+    result.candidates[0].score = log_odds;
+    result.candidates[1].score = rival;
+    weighByLogOdds(result, chance);
+    EXPECT_NEAR(sumOf(result), 1.0, 1e-12);
+    return result.candidates.front().probability;
+  };
+  EXPECT_GT(first_of(15, 0, 1e-4), 0.99);
+  EXPECT_LT(first_of(15, 0, 0.1), 0.95);
+  EXPECT_NEAR(first_of(15, 15, 1e-6), 0.5, 0.01);
+  EXPECT_LT(first_of(15, 0, std::nullopt), first_of(15, 0, 0.0)) << "walls are tempered more";
+  EXPECT_GT(first_of(30, 0, std::nullopt), 0.99);
 }
 
 TEST(Weighing, AnOpenLineIsNeverLocalized)

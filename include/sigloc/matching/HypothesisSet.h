@@ -14,6 +14,9 @@ namespace sigloc
 constexpr double kMergeDistance = 0.5;  // [m]
 constexpr double kMergeAngle = 0.2967;  // [rad], 17 degrees
 
+/// True when two poses are one place.
+bool samePlace(const mrpt::math::TPose2D& a, const mrpt::math::TPose2D& b);
+
 /// Verified hypotheses gathered during one query, equal poses merged through a hash grid of poses:
 /// of several at one place the best stays. \cite algorithm eq. (5.13)
 class HypothesisSet

@@ -112,7 +112,9 @@ class SignatureMatcher
  private:
   void verifyBases(const ObservedScene& scene, const std::optional<PoseRegion>& region,
                    RelocationResult& result) const;
+  /// `hypotheses` that the proposals come from; none where proposals are nearly complete.
   void verifyDensely(const ObservedScene& scene, std::vector<PoseProposal> proposals,
+                     const std::vector<FeatureHypothesis>& hypotheses,
                      const std::optional<PoseRegion>& region, RelocationResult& result) const;
 
   std::shared_ptr<const FeatureMap> map_;

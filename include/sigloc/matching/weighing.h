@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "sigloc/matching/DenseVerifier.h"
@@ -38,10 +39,15 @@ double presenceEvidence(const RelocationResult& result, std::size_t k);
 /// Distributes probability over candidates (best first, scores set) and "elsewhere", and fills the
 /// verdict. A candidate convinces by what it explains and by its lead over the best rival:
 /// look-alikes share the weight, and the runner-up measures what chance reaches. Poses `outside` a
-/// prior region are rivals with a small prior that count as "elsewhere". \cite algorithm eq. (7.3)
-void weighCandidates(RelocationResult& result, const std::vector<Candidate>& outside = {});
+/// prior region are rivals with a small prior that count as "elsewhere". So does the right place if
+/// it was not proposed, the probability of which, before any score is looked at, is `missed`.
+/// \cite algorithm eq. (7.3), (7.6)
+void weighCandidates(RelocationResult& result, const std::vector<Candidate>& outside = {},
+                     double missed = 0);
 
 /// The same for candidates whose scores are log-odds against "all clutter" (maps without a dense
-/// field): the clutter hypothesis itself is what they compete with. \cite algorithm eq. (7.4)
-void weighByLogOdds(RelocationResult& result);
+/// field): the clutter hypothesis itself is what they compete with. Of scenes without walls
+/// `chance_of_places` says how many hypotheses as good as the first chance would give, (5.12).
+/// \cite algorithm eq. (7.4)
+void weighByLogOdds(RelocationResult& result, std::optional<double> chance_of_places = {});
 }  // namespace sigloc
