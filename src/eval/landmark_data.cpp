@@ -222,7 +222,7 @@ LandmarkData readVictoriaPark(const std::filesystem::path& folder)
 
   // The motion is that of a point behind the laser, scans and truth are the laser's. Where the
   // laser is was found by laying 800 scans on the ones before; no truth was needed.
-  const mrpt::math::TPoint2D kLaserFromOdometry{2.73, -0.67};  // [m]
+  const mrpt::math::TPoint2D laser_from_odometry{2.73, -0.67};  // [m]
   constexpr std::size_t kBeams = 361;
   const std::vector<Row> scans = readCsv(data.files[2], kBeams);
   const std::vector<Row> truth = readCsv(data.files[3], 9);
@@ -245,7 +245,7 @@ LandmarkData readVictoriaPark(const std::filesystem::path& folder)
       scan.valid.push_back(range > 0 ? 1 : 0);
     }
     LandmarkStep step;
-    step.motion = motionAt(kLaserFromOdometry, motionOf(motion[k]));
+    step.motion = motionAt(laser_from_odometry, motionOf(motion[k]));
     step.truth = {truth[k][0], truth[k][1], truth[k][2]};
     for (const Feature& feature : observeScene({scan}).features)
     {
