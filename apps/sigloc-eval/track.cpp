@@ -89,7 +89,7 @@ void declareSimulation(CLI::App& command, TrackFlags& flags)
   }
   command.add_option("--drives-per-world", options.drives_per_world, "that share one world")
       ->capture_default_str();
-  command.add_option("--worlds", flags.worlds, "office,corridor,hall,park: kinds, in turn")
+  command.add_option("--worlds", flags.worlds, "office,corridor,hall,park,points: kinds, in turn")
       ->delimiter(',');
   command.add_option("--clutter", options.clutter_share, "share of beams that end too early")
       ->check(CLI::Range(0.0, 1.0))

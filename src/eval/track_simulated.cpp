@@ -54,6 +54,22 @@ WorldOptions drawWorldOptions(WorldKind kind, Random& random)
     options.width = random.uniform(24.0, 50.0);
     options.height = random.uniform(16.0, 30.0);
   }
+  else if (kind == WorldKind::points)
+  {
+    options.density = random.uniform(0.05, 0.2);
+    options.points = 300 + static_cast<std::uint32_t>(random.index(900));
+    options.patches = 1 + static_cast<std::uint32_t>(random.index(4));
+  }
+  return options;
+}
+
+LandmarkSensorOptions drawLandmarkSensor(Random& random)
+{
+  LandmarkSensorOptions options;
+  options.range = random.uniform(5, 10);
+  options.sigma = random.uniform(0.03, 0.08);
+  options.seen_share = random.uniform(0.7, 1.0);
+  options.spurious_share = random.uniform(0.0, 0.4);
   return options;
 }
 
@@ -82,6 +98,7 @@ struct SimulatedPlace
   std::uint64_t seed;
   World world;
   LaserOptions laser;
+  LandmarkSensorOptions landmarks;  // in a world of points
 };
 
 SimulatedPlace makePlace(const SimulatedTrackOptions& options, std::size_t number)
@@ -93,12 +110,36 @@ SimulatedPlace makePlace(const SimulatedTrackOptions& options, std::size_t numbe
                                                : options.kinds[number % options.kinds.size()];
   Random random(seed, kSizeStream);
   const WorldOptions sizes = drawWorldOptions(kind, random);
-  return {kind, seed, makeWorld(kind, sizes, seed), drawLaser(random)};
+  const LaserOptions laser = drawLaser(random);
+  return {kind, seed, makeWorld(kind, sizes, seed), laser, drawLandmarkSensor(random)};
+}
+
+/// The landmarks of a place as they were surveyed, the map as a whole shifted.
+EvaluationMap mapLandmarks(const SimulatedPlace& place, const SimulatedTrackOptions& options)
+{
+  Random random(place.seed, kMapStream);
+  const double dx = options.map_sigma * random.normal();
+  const double dy = options.map_sigma * random.normal();
+  const Bounds& bounds = place.world.bounds;
+  const double border = bounds.x_min + options.mapped_share * (bounds.x_max - bounds.x_min);
+  std::vector<Feature> mapped;
+  for (Feature landmark : LandmarkSimulator(place.world, place.landmarks).mappedLandmarks(random))
+  {
+    if (landmark.position.x > border) continue;
+    landmark.position = {landmark.position.x + dx, landmark.position.y + dy};
+    mapped.push_back(landmark);
+  }
+  MapErrorModel error;
+  error.common_sigma = options.map_sigma;
+  EvaluationMap map;
+  map.features = std::make_shared<const FeatureMap>(std::move(mapped), std::nullopt, error);
+  return map;
 }
 
 /// The map of a mapping run through a place, bent by what its error model states.
 EvaluationMap mapPlace(const SimulatedPlace& place, const SimulatedTrackOptions& options)
 {
+  if (place.kind == WorldKind::points) return mapLandmarks(place, options);
   auto scans =
       simulateMapping(place.world, options.map_spacing, kClearance, place.laser, place.seed);
   const Bounds& bounds = place.world.bounds;
@@ -133,9 +174,16 @@ class DrivenPlace
         map_(map),
         world_(changedWorld(place.world, {options.moved_share, 1.0, options.extra_items, 0.0},
                             place.seed)),
-        space_(world_, kClearance),
-        simulator_(world_, drivingLaser(place.laser, options))
+        space_(world_, kClearance)
   {
+    if (place.kind == WorldKind::points)
+    {
+      landmarks_.emplace(world_, drivingSensor(place.landmarks, options));
+    }
+    else
+    {
+      laser_.emplace(world_, drivingLaser(place.laser, options));
+    }
   }
 
   TrackDrive drive(std::uint64_t seed) const
@@ -152,9 +200,13 @@ class DrivenPlace
       TrackDriveStep step;
       step.step.time = how.step_time * static_cast<double>(i);
       if (options_.odometry) step.step.motion = motions[i];
-      step.step.scans = {simulator_.scan(truth[i], random)};
       step.step.frame = mrpt::obs::CSensoryFrame::Create();
-      step.step.frame->insert(toRangeScan(step.step.scans.front(), step.step.time));
+      if (laser_)
+      {
+        step.step.scans = {laser_->scan(truth[i], random)};
+        step.step.frame->insert(toRangeScan(step.step.scans.front(), step.step.time));
+      }
+      if (landmarks_) step.step.landmarks = landmarks_->observe(truth[i], random).features;
       step.truth = truth[i];
       step.mapped = options_.foreign || detail::isMapped(truth[i], map_.mapped_poses);
       if (i > 0)
@@ -174,11 +226,19 @@ class DrivenPlace
     return laser;
   }
 
+  static LandmarkSensorOptions drivingSensor(LandmarkSensorOptions sensor,
+                                             const SimulatedTrackOptions& options)
+  {
+    if (options.clutter_share > 0) sensor.spurious_share = options.clutter_share;
+    return sensor;
+  }
+
   const SimulatedTrackOptions& options_;
   const EvaluationMap& map_;
   World world_;
   FreeSpace space_;
-  LaserSimulator simulator_;
+  std::optional<LaserSimulator> laser_;  // the one or
+  std::optional<LandmarkSimulator> landmarks_;  // in a world of points, the other
 };
 
 TrackRun runDrive(const TrackingMethodFactory& factory, const DrivenPlace& place,
@@ -211,10 +271,12 @@ void check(const SimulatedTrackOptions& options)
   {
     throw std::invalid_argument("--drives-per-world must be at least 1");
   }
-  if (std::find(options.kinds.begin(), options.kinds.end(), WorldKind::points) !=
-      options.kinds.end())
+  const bool lasers_only = std::any_of(options.methods.begin(), options.methods.end(),
+                                       [](const std::string& name) { return name != "signature"; });
+  if (lasers_only && std::find(options.kinds.begin(), options.kinds.end(), WorldKind::points) !=
+                         options.kinds.end())
   {
-    throw std::invalid_argument("--worlds: no laser sees a world of points");
+    throw std::invalid_argument("--worlds points: only method signature tracks by landmarks");
   }
   if (!(options.mapped_share > 0 && options.mapped_share <= 1))
   {

@@ -53,7 +53,9 @@ class SignatureTracking : public SteppedTracking
 
   TrackClaim step(const RawlogStep& step) override
   {
-    return claimOf(tracker_.step(step.motion, observeScene(step.scans)));
+    ObservedScene scene = observeScene(step.scans);
+    scene.features.insert(scene.features.end(), step.landmarks.begin(), step.landmarks.end());
+    return claimOf(tracker_.step(step.motion, scene));
   }
 
  private:

@@ -286,6 +286,54 @@ World makePark(const WorldOptions& options, Random& random)
   return world;
 }
 
+/// Puts the points of one square patch, turned by quarters, in place of those of others.
+void repeatPatch(World& world, std::uint32_t copies, Random& random)
+{
+  constexpr double kSide = 16;  // [m]
+  const auto columns = static_cast<std::size_t>((world.bounds.x_max - world.bounds.x_min) / kSide);
+  if (copies < 2) return;
+  if (copies > columns * columns)
+  {
+    throw std::invalid_argument("points: the world is too small for so many patches");
+  }
+  const auto patchOf = [&](const TPoint2D& p)
+  {
+    const auto column = static_cast<std::size_t>((p.x - world.bounds.x_min) / kSide);
+    const auto row = static_cast<std::size_t>((p.y - world.bounds.y_min) / kSide);
+    return column < columns && row < columns ? row * columns + column : columns * columns;
+  };
+  std::vector<std::size_t> patches(columns * columns);
+  for (std::size_t k = 0; k < patches.size(); ++k) patches[k] = k;
+  for (std::size_t k = 0; k < copies; ++k)
+  {
+    std::swap(patches[k], patches[k + random.index(patches.size() - k)]);
+  }
+  patches.resize(copies);
+  const auto middleOf = [&](std::size_t patch)
+  {
+    return TPoint2D(world.bounds.x_min + kSide * (static_cast<double>(patch % columns) + 0.5),
+                    world.bounds.y_min + kSide * (static_cast<double>(patch / columns) + 0.5));
+  };
+  std::vector<TPoint2D> pattern;
+  std::vector<TPoint2D> kept;
+  for (const TPoint2D& p : world.points)
+  {
+    const std::size_t patch = patchOf(p);
+    if (patch == patches.front()) pattern.push_back(p - middleOf(patch));
+    const bool replaced = std::find(patches.begin(), patches.end(), patch) != patches.end();
+    if (!replaced) kept.push_back(p);
+  }
+  for (std::size_t k = 0; k < copies; ++k)
+  {
+    for (TPoint2D p : pattern)
+    {
+      for (std::size_t turn = 0; turn < k % 4; ++turn) p = {-p.y, p.x};
+      kept.push_back(middleOf(patches[k]) + p);
+    }
+  }
+  world.points = std::move(kept);
+}
+
 World makePoints(const WorldOptions& options, Random& random)
 {
   World world;
@@ -298,6 +346,7 @@ World makePoints(const WorldOptions& options, Random& random)
     const double x = random.uniform(0, side);
     world.points.push_back({x, random.uniform(0, side)});
   }
+  repeatPatch(world, options.patches, random);
   return world;
 }
 }  // namespace

@@ -39,18 +39,6 @@ bool samePairings(const std::vector<FeaturePairing>& a, const std::vector<Featur
   return a.size() == b.size() && std::all_of(a.begin(), a.end(), in_b);
 }
 
-/// A corner or wall end counts only where the wall it was made of does not: both are the same
-/// beams.
-bool counts(const PreparedScene& scene, const FeaturePairing& pairing,
-            const std::vector<FeaturePairing>& pairings)
-{
-  const std::int32_t parent = scene.views[pairing.observed].feature->parent;
-  if (parent < 0) return true;
-  return std::none_of(pairings.begin(), pairings.end(),
-                      [&](const FeaturePairing& other)
-                      { return other.observed == static_cast<std::uint32_t>(parent); });
-}
-
 /// Largest variance [m^2] along any direction. Asked for every feature at every pose, where
 /// std::hypot would guard against an overflow that cannot come.
 double largestVariance(double xx, double xy, double yy)
@@ -172,6 +160,21 @@ void FeatureVerifier::visitCandidates(const PreparedScene& scene, std::uint32_t 
     map_->grid().visitNear({pose.x + arm.x + tangent.x * at, pose.y + arm.y + tangent.y * at},
                            across, type, visit);
   }
+}
+
+std::vector<FeatureVerifier::Workspace::Match> FeatureVerifier::compatibleAt(
+    const PreparedScene& scene, std::uint32_t q, const PoseEstimate& pose,
+    double relative_sigma) const
+{
+  std::vector<Workspace::Match> compatible;
+  visitCandidates(scene, q, pose, relative_sigma,
+                  [&](std::uint32_t p)
+                  {
+                    double distance = 0;
+                    if (!gatePairing(scene, q, p, pose, relative_sigma, distance)) return;
+                    compatible.push_back({distance, {q, p}});
+                  });
+  return compatible;
 }
 
 std::uint32_t FeatureVerifier::bestCandidate(const PreparedScene& scene,

@@ -78,4 +78,14 @@ PreparedScene::PreparedScene(const std::vector<Feature>& observed, const Prepare
               });
   }
 }
+
+bool counts(const PreparedScene& scene, const FeaturePairing& pairing,
+            const std::vector<FeaturePairing>& pairings)
+{
+  const std::int32_t parent = scene.views[pairing.observed].feature->parent;
+  if (parent < 0) return true;
+  return std::none_of(pairings.begin(), pairings.end(),
+                      [&](const FeaturePairing& other)
+                      { return other.observed == static_cast<std::uint32_t>(parent); });
+}
 }  // namespace sigloc

@@ -10,6 +10,7 @@
 
 #include "sigloc/matching/BaseProposer.h"
 #include "sigloc/matching/DenseVerifier.h"
+#include "sigloc/matching/FeatureVerifier.h"
 #include "sigloc/matching/GeneratorOptions.h"
 #include "sigloc/matching/generators.h"
 #include "sigloc/matching/HypothesisSet.h"
@@ -87,7 +88,9 @@ SignatureMatcher::SignatureMatcher(std::shared_ptr<const FeatureMap> map,
   {
     GeneratorOptions generation;
     generation.seed = options.seed;
-    generator_ = makeGenerator(mode, *map_, generation);
+    feature_verifier_ = std::make_shared<const FeatureVerifier>(
+        std::make_shared<const PreparedMap>(*map_), generation);
+    generator_ = makeGenerator(mode, feature_verifier_);
   }
 }
 

@@ -17,14 +17,21 @@ std::unique_ptr<FeatureHypothesisGenerator> makeGenerator(GenerationMode mode,
 {
   checkOptions(options);
   const auto prepared = std::make_shared<const PreparedMap>(map);
-  const auto verifier = std::make_shared<const FeatureVerifier>(prepared, options);
+  return makeGenerator(mode, std::make_shared<const FeatureVerifier>(prepared, options));
+}
+
+std::unique_ptr<FeatureHypothesisGenerator> makeGenerator(
+    GenerationMode mode, const std::shared_ptr<const FeatureVerifier>& verifier)
+{
   if (mode == GenerationMode::bases)
   {
     throw std::invalid_argument("makeGenerator: mode bases needs a dense field");
   }
-  const double cut_off =
-      mode == GenerationMode::plain ? PairLists::kUncut : PairLists::cutOffFor(*prepared, options);
-  const auto lists = std::make_shared<const PairLists>(*prepared, cut_off);
+  const PreparedMap& prepared = verifier->map();
+  const double cut_off = mode == GenerationMode::plain
+                             ? PairLists::kUncut
+                             : PairLists::cutOffFor(prepared, verifier->options());
+  const auto lists = std::make_shared<const PairLists>(prepared, cut_off);
   switch (mode)
   {
     case GenerationMode::plain:

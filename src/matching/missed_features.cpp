@@ -44,20 +44,12 @@ bool insideBy(const std::vector<TPoint2D>& hull, const TPoint2D& p, double margi
   }
   return true;
 }
-}  // namespace
+using SeenTypes = std::array<bool, kFeatureTypes>;
 
-std::size_t countMissed(const PreparedScene& scene, const PreparedMap& map,
-                        const PoseEstimate& pose, const std::vector<FeaturePairing>& pairings)
+/// Mapped places of these types that lie inside the hull of `places` (map frame), unpaired.
+std::size_t countMissedWithin(std::vector<TPoint2D> places, const SeenTypes& types,
+                              const PreparedMap& map, const std::vector<FeaturePairing>& pairings)
 {
-  std::vector<TPoint2D> places;
-  std::array<bool, kFeatureTypes> seen_types{};
-  for (const FeaturePairing& pairing : pairings)
-  {
-    const DirectedFeature& view = scene.views[pairing.observed];
-    if (!isPointLike(view.type())) continue;
-    places.push_back(pose.place(view.position()));
-    seen_types[typeIndex(view.type())] = true;
-  }
   if (places.size() < 3) return 0;
   TPoint2D middle{0, 0};
   for (const TPoint2D& place : places)
@@ -73,7 +65,7 @@ std::size_t countMissed(const PreparedScene& scene, const PreparedMap& map,
   std::size_t missed = 0;
   for (std::size_t t = 0; t < kFeatureTypes; ++t)
   {
-    if (!seen_types[t]) continue;
+    if (!types[t]) continue;
     map.grid().visitNear(middle, reach, static_cast<FeatureType>(t),
                          [&](std::uint32_t p)
                          {
@@ -84,5 +76,35 @@ std::size_t countMissed(const PreparedScene& scene, const PreparedMap& map,
                          });
   }
   return missed;
+}
+}  // namespace
+
+std::size_t countMissed(const PreparedScene& scene, const PreparedMap& map,
+                        const PoseEstimate& pose, const std::vector<FeaturePairing>& pairings)
+{
+  std::vector<TPoint2D> places;
+  SeenTypes types{};
+  for (const FeaturePairing& pairing : pairings)
+  {
+    const DirectedFeature& view = scene.views[pairing.observed];
+    if (!isPointLike(view.type())) continue;
+    places.push_back(pose.place(view.position()));
+    types[typeIndex(view.type())] = true;
+  }
+  return countMissedWithin(std::move(places), types, map, pairings);
+}
+
+std::size_t countMissedInView(const PreparedScene& scene, const PreparedMap& map,
+                              const PoseEstimate& pose, const std::vector<FeaturePairing>& pairings)
+{
+  std::vector<TPoint2D> places;
+  SeenTypes types{};
+  for (const DirectedFeature& view : scene.views)
+  {
+    if (!isPointLike(view.type()) || hasBearing(view.type())) continue;
+    places.push_back(pose.place(view.position()));
+    types[typeIndex(view.type())] = true;
+  }
+  return countMissedWithin(std::move(places), types, map, pairings);
 }
 }  // namespace sigloc

@@ -16,41 +16,58 @@ namespace
 // equality test on floating point numbers.
 constexpr double kRoundingVariance = 1e-12;  // [m^2], [rad^2]
 
+Symmetric2 pointMapNoise(const DirectedFeature& mapped, double relative_sigma)
+{
+  const auto& q = mapped.feature->position_covariance;
+  const double own = relative_sigma * relative_sigma + kRoundingVariance;
+  return {q(0, 0) + own, q(0, 1), q(1, 1) + own};
+}
+
 PlanarMeasurement pointMeasurement(const PoseEstimate& pose, const DirectedFeature& observed,
                                    const DirectedFeature& mapped, double relative_sigma)
 {
   const TPoint2D arm = pose.turn(observed.position());
   const auto& p = observed.feature->position_covariance;
-  const auto& q = mapped.feature->position_covariance;
   const Symmetric2 seen = rotated({p(0, 0), p(0, 1), p(1, 1)}, pose.c, pose.s);
-  const double own = relative_sigma * relative_sigma + kRoundingVariance;
+  const Symmetric2 own = pointMapNoise(mapped, relative_sigma);
   PlanarMeasurement m;
   m.residual = {mapped.position().x - pose.x - arm.x, mapped.position().y - pose.y - arm.y};
   m.jacobian = {{{1, 0, -arm.y}, {0, 1, arm.x}}};
-  m.noise = {seen.xx + q(0, 0) + own, seen.xy + q(0, 1), seen.yy + q(1, 1) + own};
+  m.noise = {seen.xx + own.xx, seen.xy + own.xy, seen.yy + own.yy};
   return m;
+}
+
+/// What lies from the predicted middle of the observed piece to the mapped line's.
+TPoint2D lineOffset(const PoseEstimate& pose, const TPoint2D& arm, const DirectedFeature& mapped)
+{
+  return {mapped.position().x - pose.x - arm.x, mapped.position().y - pose.y - arm.y};
+}
+
+Symmetric2 lineMapNoise(const TPoint2D& offset, const DirectedFeature& mapped,
+                        double relative_sigma)
+{
+  // The mapped line's angle error lifts or lowers the line at the observed piece by the lever.
+  const double lever = -dot(offset, mapped.tangent());
+  const double angle = mapped.feature->direction_variance;
+  return {angle + kRoundingVariance, lever * angle,
+          varianceAlong(*mapped.feature, mapped.normal) + relative_sigma * relative_sigma +
+              lever * lever * angle + kRoundingVariance};
 }
 
 PlanarMeasurement lineMeasurement(const PoseEstimate& pose, const DirectedFeature& observed,
                                   const DirectedFeature& mapped, double relative_sigma)
 {
   const TPoint2D arm = pose.turn(observed.position());
-  const TPoint2D from_pose{mapped.position().x - pose.x - arm.x,
-                           mapped.position().y - pose.y - arm.y};
-  // The mapped line's angle error lifts or lowers the line at the observed piece by the lever.
-  const double lever = -dot(from_pose, mapped.tangent());
-  const double angle_noise = mapped.feature->direction_variance;
+  const TPoint2D from_pose = lineOffset(pose, arm, mapped);
+  const Symmetric2 own = lineMapNoise(from_pose, mapped, relative_sigma);
   PlanarMeasurement m;
   m.residual = {
       mrpt::math::wrapToPi(mapped.feature->direction - observed.feature->direction - pose.heading),
       dot(from_pose, mapped.normal)};
   const double turn = mapped.normal.y * arm.x - mapped.normal.x * arm.y;
   m.jacobian = {{{0, 0, 1}, {mapped.normal.x, mapped.normal.y, turn}}};
-  m.noise = {observed.feature->direction_variance + angle_noise + kRoundingVariance,
-             lever * angle_noise,
-             varianceAlong(*observed.feature, observed.normal) +
-                 varianceAlong(*mapped.feature, mapped.normal) + relative_sigma * relative_sigma +
-                 lever * lever * angle_noise + kRoundingVariance};
+  m.noise = {observed.feature->direction_variance + own.xx, own.xy,
+             varianceAlong(*observed.feature, observed.normal) + own.yy};
   return m;
 }
 }  // namespace
@@ -60,6 +77,15 @@ PlanarMeasurement placeMeasurement(const PoseEstimate& pose, const DirectedFeatu
 {
   return isSegment(observed.type()) ? lineMeasurement(pose, observed, mapped, relative_sigma)
                                     : pointMeasurement(pose, observed, mapped, relative_sigma);
+}
+
+Symmetric2 mapNoise(const PoseEstimate& pose, const DirectedFeature& observed,
+                    const DirectedFeature& mapped, double relative_sigma)
+{
+  return isSegment(observed.type())
+             ? lineMapNoise(lineOffset(pose, pose.turn(observed.position()), mapped), mapped,
+                            relative_sigma)
+             : pointMapNoise(mapped, relative_sigma);
 }
 
 PlanarMeasurement directionMeasurement(const PoseEstimate& pose, const DirectedFeature& observed,

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "FeatureFollowing.h"
 #include "sigloc/geometry/pose_fusion.h"
 #include "sigloc/matching/DenseVerifier.h"
 #include "sigloc/matching/weighing.h"
@@ -36,15 +37,23 @@ struct HypothesisTracker::State
   State(std::shared_ptr<const SignatureMatcher> m, const TrackerOptions& o)
       : matcher(std::move(m)), options(o), set(o)
   {
+    startAnew();
   }
 
+  void startAnew();
+  void followDensely(const std::optional<MotionIncrement>& motion, const ObservedScene& scene,
+                     double travel);
+  void followByFeatures(const std::optional<MotionIncrement>& motion, double travel);
+  bool seesTooLittle(const ObservedScene& scene) const;
+
   double travelSeen(double assumed);
+  double freshShare() const;
   bool suspicious() const;
   bool wantsRelocation() const;
   void relocate(const ObservedScene& scene, const DenseScan& scan);
   void confirm(const RelocationResult& result, const DenseScan& scan, double fresh_share);
   void weighElsewhere(const RelocationResult& result, double fresh_share);
-  void dealOut(const RelocationResult& result, const DenseScan& scan);
+  Track startAt(const RelocationResult& result, std::size_t k, const DenseScan& scan);
   GaussianPose withCommonError(GaussianPose pose, int sign) const;
   void judgeFirst(const DenseScan& scan);
   void publish(const ObservedScene& scene);
@@ -53,6 +62,7 @@ struct HypothesisTracker::State
   TrackerOptions options;
   std::optional<PoseRegion> region;
   TrackSet set;
+  std::unique_ptr<FeatureFollowing> by_features;  // where no dense field backs the map
   std::uint64_t next_id = 1;
   double travel_step = 0;  // [m], turns included, of the last motion
   double travel_since_relocation = 0;  // [m]
@@ -88,37 +98,82 @@ bool HypothesisTracker::relocated() const
 void HypothesisTracker::reset(const std::optional<PoseRegion>& region)
 {
   state_->region = region;
-  state_->set = TrackSet(state_->options);
-  state_->first_step = true;
-  state_->belief = {};
+  state_->startAnew();
+}
+
+void HypothesisTracker::State::startAnew()
+{
+  set = TrackSet(options);
+  first_step = true;
+  belief = {};
+  if (matcher->featureVerifier() == nullptr) return;
+  by_features = std::make_unique<FeatureFollowing>(matcher, options);
 }
 
 const Belief& HypothesisTracker::step(const std::optional<MotionIncrement>& motion,
                                       const ObservedScene& scene)
 {
   State& s = *state_;
-  double travel = s.set.predict(motion);
   s.relocated = false;
-  const bool sees_enough = scene.beams.size() >= s.matcher->options().min_beams;
-  if (sees_enough && s.matcher->verifier() != nullptr)
+  const bool sees_enough = s.by_features ? s.by_features->look(s.set, motion, scene)
+                                         : scene.beams.size() >= s.matcher->options().min_beams;
+  const double travel = s.set.predict(motion);
+  if (!sees_enough)
   {
-    const DenseScan scan = makeDenseScan(scene, kUpdateBeams);
-    s.set.update(scan, *s.matcher->verifier());
-    if (!motion) travel = s.travelSeen(travel);
     s.travel_since_relocation += travel;
-    s.travelled += travel;
-    s.set.weigh(travel);
-    if (s.wantsRelocation()) s.relocate(scene, scan);
-    s.set.mergeAndPrune();
-    s.judgeFirst(scan);
-    s.first_step = false;
+  }
+  else if (s.by_features)
+  {
+    s.followByFeatures(motion, travel);
   }
   else
   {
-    s.travel_since_relocation += travel;
+    s.followDensely(motion, scene, travel);
   }
   s.publish(scene);
   return s.belief;
+}
+
+void HypothesisTracker::State::followDensely(const std::optional<MotionIncrement>& motion,
+                                             const ObservedScene& scene, double travel)
+{
+  const DenseScan scan = makeDenseScan(scene, kUpdateBeams);
+  set.update(scan, *matcher->verifier());
+  if (!motion) travel = travelSeen(travel);
+  travel_since_relocation += travel;
+  travelled += travel;
+  set.weigh(travel);
+  if (wantsRelocation()) relocate(scene, scan);
+  set.mergeAndPrune();
+  judgeFirst(scan);
+  first_step = false;
+}
+
+void HypothesisTracker::State::followByFeatures(const std::optional<MotionIncrement>& motion,
+                                                double travel)
+{
+  by_features->update(set, travelled + travel, next_id);
+  if (!motion) travel = travelSeen(travel);
+  travel_since_relocation += travel;
+  travelled += travel;
+  by_features->weigh(set, travel);
+  if (wantsRelocation())
+  {
+    const bool settled = belief.verdict == Verdict::localized && !suspicious();
+    by_features->relocate(set, first_step ? region : std::nullopt, freshShare(), settled, next_id);
+    relocated = true;
+    travel_since_relocation = 0;
+  }
+  by_features->remember();
+  set.mergeAndPrune();
+  reliability = set.tracks.empty() ? 0 : by_features->reliabilityOf(set.tracks.front());
+  first_step = false;
+}
+
+/// How much of a relocation is news.
+double HypothesisTracker::State::freshShare() const
+{
+  return first_step ? 1.0 : std::min(1.0, travel_since_relocation / options.evidence_distance);
 }
 
 /// Without odometry only the scans tell whether the robot moves. While the heaviest track stays put
@@ -145,6 +200,7 @@ bool HypothesisTracker::State::suspicious() const
 {
   if (set.tracks.empty()) return false;
   const Track& first = set.heaviest();
+  if (by_features) return FeatureFollowing::doubts(first);
   return first.hypothesis.age > 1 && first.score < first.mean_score - options.score_drop;
 }
 
@@ -162,8 +218,7 @@ bool HypothesisTracker::State::wantsRelocation() const
 /// else", and for places that no track holds. Eq. (8.7) to (8.9)
 void HypothesisTracker::State::relocate(const ObservedScene& scene, const DenseScan& scan)
 {
-  const double fresh_share =
-      first_step ? 1.0 : std::min(1.0, travel_since_relocation / options.evidence_distance);
+  const double fresh_share = freshShare();
   const RelocationResult result = matcher->localize(scene, first_step ? region : std::nullopt);
   relocated = true;
   travel_since_relocation = 0;
@@ -171,7 +226,7 @@ void HypothesisTracker::State::relocate(const ObservedScene& scene, const DenseS
 
   confirm(result, scan, fresh_share);
   weighElsewhere(result, fresh_share);
-  dealOut(result, scan);
+  set.dealOut(result, [&](std::size_t k) { return startAt(result, k, scan); });
 }
 
 /// Evidence for a track counts as far as it rests on structure that is new to the track: another
@@ -234,35 +289,19 @@ void HypothesisTracker::State::weighElsewhere(const RelocationResult& result, do
   set.normalise();
 }
 
-/// The lost share of the belief is dealt out as the relocation says: to the tracks that it
-/// confirms, to new ones, and back to "somewhere else". What is only the floor of "somewhere else"
-/// starts tracks but feeds none: else look-alikes would draw on it at every relocation. Eq. (8.9)
-void HypothesisTracker::State::dealOut(const RelocationResult& result, const DenseScan& scan)
+/// A track at a candidate that no track holds.
+Track HypothesisTracker::State::startAt(const RelocationResult& result, std::size_t k,
+                                        const DenseScan& scan)
 {
-  const double lost = set.elsewhere;
-  const double above_floor = std::max(0.0, lost - options.min_elsewhere);
-  set.elsewhere = lost;
-  for (std::size_t k = 0; k < result.candidates.size(); ++k)
-  {
-    const Candidate& candidate = result.candidates[k];
-    Track* same = set.trackAt(candidate.pose.mean);
-    const double share = (same != nullptr ? above_floor : lost) * candidate.probability;
-    set.elsewhere -= share;
-    if (same != nullptr)
-    {
-      same->hypothesis.weight += share;
-      continue;
-    }
-    Track fresh;
-    fresh.hypothesis.pose = withCommonError(candidate.pose, -1);
-    fresh.hypothesis.weight = share;
-    fresh.hypothesis.id = next_id++;
-    fresh.score = fresh.mean_score = candidate.score;
-    fresh.confirmed =
-        std::clamp(presenceEvidence(result, k) + kPriorHereLogOdds, kMinConfirmed, kMaxConfirmed);
-    fresh.seen.add(scan, candidate.pose.mean, travelled);
-    set.tracks.push_back(std::move(fresh));
-  }
+  const Candidate& candidate = result.candidates[k];
+  Track fresh;
+  fresh.hypothesis.pose = withCommonError(candidate.pose, -1);
+  fresh.hypothesis.id = next_id++;
+  fresh.score = fresh.mean_score = candidate.score;
+  fresh.confirmed =
+      std::clamp(presenceEvidence(result, k) + kPriorHereLogOdds, kMinConfirmed, kMaxConfirmed);
+  fresh.seen.add(scan, candidate.pose.mean, travelled);
+  return fresh;
 }
 
 /// The error that moves a whole neighbourhood of the map belongs in what is told, once: within the
@@ -283,6 +322,13 @@ void HypothesisTracker::State::judgeFirst(const DenseScan& scan)
   reliability = reliabilityOf(matcher->verifier()->evaluate(scan, first));
 }
 
+/// Too little to say that the robot is not here.
+bool HypothesisTracker::State::seesTooLittle(const ObservedScene& scene) const
+{
+  return by_features ? !by_features->seesEnoughToTell()
+                     : scene.beams.size() < matcher->options().min_beams;
+}
+
 void HypothesisTracker::State::publish(const ObservedScene& scene)
 {
   belief = {};
@@ -294,7 +340,7 @@ void HypothesisTracker::State::publish(const ObservedScene& scene)
   }
   if (set.tracks.empty())
   {
-    const bool blind = scene.beams.size() < matcher->options().min_beams;
+    const bool blind = seesTooLittle(scene);
     belief.verdict = blind ? Verdict::too_little_seen : Verdict::not_here;
     belief.probability = set.elsewhere;
     belief.reason = blind ? "fewer returns than needed" : "nothing in the map explains the scan";
@@ -304,7 +350,8 @@ void HypothesisTracker::State::publish(const ObservedScene& scene)
   belief.reliability = reliability;
   const bool open = largestPositionSigma(first.pose) >= kMaxOpenSigma;
   const bool confirmed = set.tracks.front().confirmed >= options.confirmation;
-  const bool doubtful = suspicious();
+  const bool doubtful =
+      suspicious() || (by_features && FeatureFollowing::contradicts(set.tracks.front()));
   if (first.weight >= options.localized_probability && confirmed && !doubtful && !open)
   {
     belief.verdict = Verdict::localized;

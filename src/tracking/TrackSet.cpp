@@ -43,6 +43,11 @@ bool heavier(const Track& a, const Track& b)
 }
 }  // namespace
 
+bool wouldMerge(const TPose2D& a, const TPose2D& b)
+{
+  return coincide(a, b, kMergeDistance, kMergeAngle);
+}
+
 double TrackSet::predict(const std::optional<MotionIncrement>& motion)
 {
   MotionIncrement increment;
@@ -184,19 +189,38 @@ Track* TrackSet::trackAt(const TPose2D& pose)
   return nullptr;
 }
 
+/// What is only the floor of "somewhere else" starts tracks but feeds none: else look-alikes would
+/// draw on it at every relocation.
+void TrackSet::dealOut(const RelocationResult& result,
+                       const std::function<Track(std::size_t k)>& start)
+{
+  const double lost = elsewhere;
+  const double above_floor = std::max(0.0, lost - options_.min_elsewhere);
+  for (std::size_t k = 0; k < result.candidates.size(); ++k)
+  {
+    const Candidate& candidate = result.candidates[k];
+    Track* same = trackAt(candidate.pose.mean);
+    const double share = (same != nullptr ? above_floor : lost) * candidate.probability;
+    elsewhere -= share;
+    if (same == nullptr)
+    {
+      tracks.push_back(start(k));
+      same = &tracks.back();
+    }
+    same->hypothesis.weight += share;
+  }
+}
+
 void TrackSet::mergeAndPrune()
 {
   std::sort(tracks.begin(), tracks.end(), heavier);
   std::vector<Track> kept;
   for (Track& track : tracks)
   {
-    const auto same =
-        std::find_if(kept.begin(), kept.end(),
-                     [&](const Track& other)
-                     {
-                       return coincide(other.hypothesis.pose.mean, track.hypothesis.pose.mean,
-                                       kMergeDistance, kMergeAngle);
-                     });
+    const auto same = std::find_if(
+        kept.begin(), kept.end(),
+        [&](const Track& other)
+        { return wouldMerge(other.hypothesis.pose.mean, track.hypothesis.pose.mean); });
     if (same != kept.end())
     {
       TrackedHypothesis& into = same->hypothesis;

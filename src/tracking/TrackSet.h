@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -10,9 +12,19 @@
 #include "sigloc/matching/DenseVerifier.h"
 #include "sigloc/tracking/Belief.h"
 #include "sigloc/tracking/HypothesisTracker.h"
+#include "sigloc/tracking/MapCorrelation.h"
 
 namespace sigloc
 {
+/// What a track remembers of the mapped features it was paired with.
+struct FeatureMemory
+{
+  MapCorrelation correlation;
+  std::size_t paired = 0;  // in the last step
+  double fresh_share = 0;  // of them, those that were not seen on the last stretch
+  double doubt = 0;  // log-odds lately lost against clutter, at most 0, eq. (8.20)
+};
+
 /// A hypothesis with what the tracker remembers of it.
 struct Track
 {
@@ -21,7 +33,11 @@ struct Track
   double mean_score = 0;  // running mean
   double confirmed = 0;  // log-odds that relocations, each blind to the track, have given it
   SeenStructure seen;  // what that evidence rests on
+  FeatureMemory features;  // in a map without a dense field
 };
+
+/// True for poses so near to each other that their tracks are merged.
+bool wouldMerge(const mrpt::math::TPose2D& a, const mrpt::math::TPose2D& b);
 
 /// The hypotheses that are followed and the weight of "somewhere else"; all weights sum to one.
 /// Each method is one step of \cite algorithm section 8.
@@ -41,6 +57,10 @@ class TrackSet
 
   /// Scales all weights so that they sum to one.
   void normalise();
+
+  /// Deals the lost share of the belief out as a relocation says: to the tracks at its candidates,
+  /// to new ones that `start` makes of candidate k, and back to "somewhere else". Eq. (8.9)
+  void dealOut(const RelocationResult& result, const std::function<Track(std::size_t k)>& start);
 
   /// Joins tracks that have met, gives up the light ones, sorts by weight. Eq. (8.10)
   void mergeAndPrune();

@@ -167,10 +167,25 @@ TEST(SimulatedTrack, ItsCovariancesAreHonest)
   EXPECT_LT(sum / static_cast<double>(count), 4.0);
 }
 
+TEST(SimulatedTrack, FindsAndFollowsRobotsThatSeeLandmarksOnly)
+{
+  SimulatedTrackOptions options = smallOptions();
+  options.drives = 20;
+  options.drives_per_world = 5;
+  options.kinds = {WorldKind::points};
+  const TrackReport report = runSimulatedTrack(options);
+  for (const TrackRun& run : report.methods.front().runs)
+  {
+    EXPECT_TRUE(run.right_at_end) << "drive " << run.start;
+    EXPECT_EQ(run.wrong_steps, 0U) << "drive " << run.start;
+  }
+}
+
 TEST(SimulatedTrack, RefusesOptionsThatMakeNoSense)
 {
   SimulatedTrackOptions options = smallOptions();
   options.kinds = {WorldKind::points};
+  options.methods = {"signature", "mcl"};  // which has no use for landmarks
   EXPECT_THROW(runSimulatedTrack(options), std::invalid_argument);
   options = smallOptions();
   options.mapped_share = 0;

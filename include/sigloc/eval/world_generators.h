@@ -39,6 +39,7 @@ struct WorldOptions
   double jitter = 0;
   double density = 0;
   std::uint32_t points = 1000;
+  std::uint32_t patches = 1;
 
   template <class V>
   static void visitFields(V&& visit)
@@ -60,6 +61,8 @@ struct WorldOptions
     visit(OptionField{"density", &O::density, 0.0, 10.0,
                       "[1/m^2] park: trunks, points: landmarks, 0: the kind's own"});
     visit(OptionField{"points", &O::points, 1U, 2000000U, "[-] points: how many landmarks"});
+    visit(OptionField{"patches", &O::patches, 1U, 1000U,
+                      "[-] points: how often a patch of 16 m repeats"});
   }
 };
 

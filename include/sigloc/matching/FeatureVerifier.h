@@ -64,6 +64,17 @@ class FeatureVerifier
   static double expectedByChance(const PreparedScene& scene, std::uint32_t support,
                                  std::uint32_t base_size, std::uint64_t bases);
 
+  /// Returns the map features that observed feature q may be at an estimated pose: all that pass
+  /// the unary and the location-dependent gates, eq. (3.1) and (3.9) to (3.12), the pose's
+  /// covariance included. `relative_sigma` [m] is the map's own error over the distance in
+  /// question.
+  std::vector<Workspace::Match> compatibleAt(const PreparedScene& scene, std::uint32_t q,
+                                             const PoseEstimate& pose, double relative_sigma) const;
+
+  /// What the normalised innovations of jointly compatible pairings stay below, \cite algorithm
+  /// eq. (5.6).
+  double jointGate(int degrees) const { return chi_square_(degrees); }
+
   const PreparedMap& map() const { return *map_; }
   const GeneratorOptions& options() const { return options_; }
   const BinaryGates& gates() const { return gates_; }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "sigloc/matching/FeatureHypothesis.h"
 #include "sigloc/matching/GeneratorOptions.h"
 #include "sigloc/matching/PreparedMap.h"
 #include "sigloc/signature/binary_constraint.h"
@@ -32,4 +33,9 @@ struct PreparedScene
   double mean_chance = 0;
   double relative_sigma = 0;  ///< [m], the map's relative error over the scene's mean range
 };
+
+/// False for a corner or wall end beside a pairing of the wall it was made of: both are the same
+/// beams. Of `pairing` the observed feature matters.
+bool counts(const PreparedScene& scene, const FeaturePairing& pairing,
+            const std::vector<FeaturePairing>& pairings);
 }  // namespace sigloc

@@ -75,6 +75,7 @@ struct MatcherOptions
 
 class BaseProposer;
 class DenseVerifier;
+class FeatureVerifier;
 struct PoseProposal;
 
 /// Relocation by matching signatures: says where in a known map the observed scene was seen.
@@ -108,6 +109,11 @@ class SignatureMatcher
   const MatcherOptions& options() const { return options_; }
   /// The dense verifier, or null when the map has no dense field or it is switched off.
   const DenseVerifier* verifier() const { return verifier_.get(); }
+  /// What verifies hypotheses by features alone, or null where the dense verifier does.
+  const FeatureVerifier* featureVerifier() const
+  {
+    return verifier_ ? nullptr : feature_verifier_.get();
+  }
 
  private:
   void verifyBases(const ObservedScene& scene, const std::optional<PoseRegion>& region,
@@ -121,6 +127,7 @@ class SignatureMatcher
   MatcherOptions options_;
   std::unique_ptr<const DenseVerifier> verifier_;
   std::unique_ptr<const BaseProposer> proposer_;  // mode (e)
+  std::shared_ptr<const FeatureVerifier> feature_verifier_;  // of modes (a) to (d)
   std::unique_ptr<const FeatureHypothesisGenerator> generator_;  // modes (a) to (d)
 };
 }  // namespace sigloc

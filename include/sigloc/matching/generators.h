@@ -3,6 +3,7 @@
 #pragma once
 
 #include "sigloc/matching/FeatureHypothesis.h"
+#include "sigloc/matching/FeatureVerifier.h"
 #include "sigloc/matching/GenerationMode.h"
 #include "sigloc/matching/GeneratorOptions.h"
 
@@ -18,4 +19,8 @@ class FeatureMap;
 std::unique_ptr<FeatureHypothesisGenerator> makeGenerator(GenerationMode mode,
                                                           const FeatureMap& map,
                                                           const GeneratorOptions& options = {});
+
+/// The same with a verifier that others use too.
+std::unique_ptr<FeatureHypothesisGenerator> makeGenerator(
+    GenerationMode mode, const std::shared_ptr<const FeatureVerifier>& verifier);
 }  // namespace sigloc

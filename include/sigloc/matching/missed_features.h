@@ -17,4 +17,11 @@ namespace sigloc
 /// \cite algorithm eq. (5.11)
 std::size_t countMissed(const PreparedScene& scene, const PreparedMap& map,
                         const PoseEstimate& pose, const std::vector<FeaturePairing>& pairings);
+
+/// The same for everything that was seen, paired or not: the area is then the same for all poses
+/// that are compared. Only points and circles count, walls hide the others.
+/// \cite algorithm eq. (8.14)
+std::size_t countMissedInView(const PreparedScene& scene, const PreparedMap& map,
+                              const PoseEstimate& pose,
+                              const std::vector<FeaturePairing>& pairings);
 }  // namespace sigloc

@@ -14,6 +14,11 @@ namespace sigloc
 PlanarMeasurement placeMeasurement(const PoseEstimate& pose, const DirectedFeature& observed,
                                    const DirectedFeature& mapped, double relative_sigma);
 
+/// The part of a place measurement's noise that is the map's own: it stays the same from look to
+/// look, where the rest is drawn anew. \cite algorithm eq. (8.13)
+Symmetric2 mapNoise(const PoseEstimate& pose, const DirectedFeature& observed,
+                    const DirectedFeature& mapped, double relative_sigma);
+
 /// The direction of a corner or wall end, as a single scalar. \cite algorithm eq. (3.11)
 PlanarMeasurement directionMeasurement(const PoseEstimate& pose, const DirectedFeature& observed,
                                        const DirectedFeature& mapped);

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "command_line.h"
+
+namespace sigloc
+{
+namespace
+{
+using namespace sigloc::test;
+using nlohmann::json;
+
+TEST(Localize, followsARobotThatSeesLandmarksOnly)
+{
+  const TemporaryFolder folder;
+  const CommandResult made = run(
+      folder, "sigloc-simulate",
+      {"--world", "points", "--points", "400", "--seed", "12", "--metres", "20", "--out", "sim"});
+  ASSERT_EQ(made.exit_code, 0) << made.errors;
+  writeText(folder / "run.ini",
+            "[LocalizationExperiment]\nmap_file = sim/map.txt\nrawlog_file = sim/drive.rawlog\n"
+            "ground_truth_path_file = sim/truth.txt\n[sigloc.localize]\npictures = false\n");
+  const CommandResult result =
+      run(folder, "sigloc-localize", {"run.ini", "--out", "out", "--quiet"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+
+  const json summary = json::parse(readBytes(folder / "out/summary.json"));
+  EXPECT_EQ(summary["map_features"], 400);
+  EXPECT_GT(summary["steps"], 70);
+  EXPECT_EQ(summary["final_verdict"], "localized");
+  EXPECT_LT(summary["final_error_m"], 0.5);
+  EXPECT_LT(summary["final_error_deg"], 5);
+  EXPECT_EQ(summary["confidently_wrong_steps"], 0);
+  EXPECT_LT(summary["meters_to_localized"], 5);
+
+  const std::ptrdiff_t steps = summary["steps"];
+  EXPECT_EQ(countLines(readBytes(folder / "out/steps.csv")), steps + 1);
+  EXPECT_EQ(countLines(readBytes(folder / "out/cov_est.txt")), steps);
+  EXPECT_GT(countLines(readBytes(folder / "out/path.tum")), steps / 2);
+  const std::ptrdiff_t beliefs =
+      std::distance(std::filesystem::directory_iterator(folder / "out/belief"), {});
+  EXPECT_GE(beliefs, steps);
+}
+}  // namespace
+}  // namespace sigloc
