@@ -129,8 +129,8 @@ EvaluationMap mapLandmarks(const SimulatedPlace& place, const SimulatedTrackOpti
     landmark.position = {landmark.position.x + dx, landmark.position.y + dy};
     mapped.push_back(landmark);
   }
-  MapErrorModel error;
-  error.common_sigma = options.map_sigma;
+  // The survey states its errors one by one, but for the common one.
+  const MapErrorModel error{0, 0, options.map_sigma};
   EvaluationMap map;
   map.features = std::make_shared<const FeatureMap>(std::move(mapped), std::nullopt, error);
   return map;
