@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sigloc/eval/LaserSimulator.h"
 
+#include <mrpt/math/wrap2pi.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -232,6 +234,32 @@ double WorldRayCaster::cast(const TPoint2D& origin, double angle, double max_ran
   return nearest <= max_range ? nearest : kInfinity;
 }
 
+namespace
+{
+/// Where a beam of a tilted robot goes.
+struct TiltedBeam
+{
+  double turn = 0;  ///< [rad] of its track on the floor against its bearing in the scan
+  double stretch = 1;  ///< its length over that of the track
+  double floor = kInfinity;  ///< [m] along it to the floor
+};
+
+/// `bearing` [rad] in the robot's frame. Level robots get exact zeros and ones.
+TiltedBeam tiltedBeam(double bearing, const LaserOptions& options)
+{
+  TiltedBeam beam;
+  if (options.pitch_deg == 0) return beam;
+  const double pitch = options.pitch_deg * M_PI / 180.0;
+  const double ahead = std::cos(bearing) * std::cos(pitch);
+  const double aside = std::sin(bearing);
+  const double down = std::cos(bearing) * std::sin(pitch);
+  beam.turn = mrpt::math::wrapToPi(std::atan2(aside, ahead) - bearing);
+  beam.stretch = 1 / std::hypot(ahead, aside);
+  if (down > 0) beam.floor = options.height / down;
+  return beam;
+}
+}  // namespace
+
 LaserSimulator::LaserSimulator(const World& world, const LaserOptions& options)
     : caster_(world), options_(options)
 {
@@ -256,10 +284,13 @@ LaserScan LaserSimulator::exactScan(const TPose2D& world_from_robot) const
   const TPose2D world_from_sensor = world_from_robot + scan.robot_from_sensor;
   for (std::uint32_t i = 0; i < options_.beams; ++i)
   {
-    const double angle = world_from_sensor.phi + scan.first_angle + i * scan.angle_step;
-    const double range =
+    const TiltedBeam beam =
+        tiltedBeam(scan.robot_from_sensor.phi + scan.first_angle + i * scan.angle_step, options_);
+    const double angle = world_from_sensor.phi + scan.first_angle + i * scan.angle_step + beam.turn;
+    const double track =
         caster_.cast({world_from_sensor.x, world_from_sensor.y}, angle, options_.max_range);
-    const bool hit = std::isfinite(range);
+    const double range = std::min(track * beam.stretch, beam.floor);
+    const bool hit = range <= options_.max_range;
     scan.ranges[i] = hit ? static_cast<float>(range) : 0.0F;
     scan.valid[i] = hit ? 1 : 0;
   }

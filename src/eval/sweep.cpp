@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sigloc/eval/sweep.h"
 
+#include <mrpt/math/wrap2pi.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -105,14 +107,58 @@ TPose2D randomPose(const FreeSpace& mapped, const World& asked, Random& random)
   throw std::invalid_argument("sweep: no room left for a robot");
 }
 
+/// A robot on its way through an open door, either way.
+TPose2D poseInDoor(const World& asked, Random& random)
+{
+  std::vector<const Door*> open;
+  for (const Door& door : asked.doors)
+  {
+    if (!door.closed) open.push_back(&door);
+  }
+  if (open.empty()) throw std::invalid_argument("sweep: a world without doors has no thresholds");
+  const WallSegment& leaf = open[random.index(open.size())]->leaf;
+  const TPoint2D along = leaf.end - leaf.start;
+  constexpr double kMostAskew = M_PI / 6;  // [rad]
+  const TPoint2D place = leaf.start + along * random.uniform(0.45, 0.55);
+  const double across = std::atan2(along.y, along.x) + (random.chance(0.5) ? 0.5 : -0.5) * M_PI;
+  return {place.x, place.y, mrpt::math::wrapToPi(across + random.uniform(-kMostAskew, kMostAskew))};
+}
+
+/// The robot's laser when its rear (+1) or front (-1) wheels stand that high.
+LaserOptions tiltedLaser(LaserOptions laser, double threshold, double side)
+{
+  constexpr double kWheelBase = 0.4;  // [m]
+  laser.pitch_deg = side * std::atan(threshold / kWheelBase) * 180 / M_PI;
+  return laser;
+}
+
+/// The scans of robots on the thresholds of doors, climbing and descending in turn.
+std::vector<EvaluationQuery> queriesInDoors(const World& asked, const SweepConditions& conditions,
+                                            const WorldName& name, std::uint32_t count)
+{
+  const LaserSimulator nose_up(asked, tiltedLaser(conditions.laser, *conditions.threshold, -1));
+  const LaserSimulator nose_down(asked, tiltedLaser(conditions.laser, *conditions.threshold, 1));
+  Random places(name.seed, 23);
+  std::vector<EvaluationQuery> queries(count);
+  for (std::uint32_t i = 0; i < count; ++i)
+  {
+    Random noise(name.seed, 1000 + i);
+    queries[i].name = std::to_string(i);
+    queries[i].truth = poseInDoor(asked, places);
+    queries[i].scans = {(i % 2 == 0 ? nose_up : nose_down).scan(*queries[i].truth, noise)};
+  }
+  return queries;
+}
+
 /// The scans of robots at random places. Places and noise come from streams that no value of the
 /// swept quantity touches, so that values are compared on like queries.
 std::vector<EvaluationQuery> queriesIn(const World& mapped, const World& asked,
-                                       const LaserOptions& laser, const WorldName& name,
+                                       const SweepConditions& conditions, const WorldName& name,
                                        std::uint32_t count)
 {
+  if (conditions.threshold) return queriesInDoors(asked, conditions, name, count);
   const FreeSpace space(mapped, kClearance);
-  const LaserSimulator simulator(asked, laser);
+  const LaserSimulator simulator(asked, conditions.laser);
   Random places(name.seed, 22);
   std::vector<EvaluationQuery> queries(count);
   for (std::uint32_t i = 0; i < count; ++i)
@@ -164,8 +210,7 @@ class WorldRun
         methods_ = makeMethods(map_, options_);
       }
       const World asked = worldWhenAsked(mapped_, conditions, name.seed);
-      const auto queries =
-          queriesIn(mapped_, asked, conditions.laser, name, options_.queries_per_world);
+      const auto queries = queriesIn(mapped_, asked, conditions, name, options_.queries_per_world);
       ask(name, queries, i, share_before + static_cast<double>(i) * value_share, value_share);
     }
   }

@@ -125,6 +125,50 @@ TEST(LaserSimulator, SensorPoseMovesTheScan)
             LaserSimulator(world, {}).exactScan(sensor).ranges);
 }
 
+TEST(LaserSimulator, BeamsOfATiltedRobotEndOnTheFloor)
+{
+  World world;
+  world.bounds = {-50, 50, -50, 50};
+  world.walls = {{{2, 10}, {2, -10}}, {{-4, 10}, {-4, -10}}};
+  LaserOptions options;
+  options.fov_deg = 360;
+  options.beams = 360;
+  options.height = 0.3;
+  const auto ranges = [&](double pitch_deg)
+  {
+    options.pitch_deg = pitch_deg;
+    return LaserSimulator(world, options).exactScan({0, 0, 0});
+  };
+  const double pitch = 5 * M_PI / 180;
+  const LaserScan down = ranges(5);
+  const LaserScan up = ranges(-5);
+  const auto at = [](const LaserScan& scan, double bearing_deg)
+  {
+    const double i = (bearing_deg * M_PI / 180 - scan.first_angle) / scan.angle_step;
+    return scan.ranges.at(static_cast<std::size_t>(std::lround(i)));
+  };
+  const double ahead = 0.5;  // where the beam nearest to the front lies
+  const double off = ahead * M_PI / 180;
+  // Nose down: the wall ahead comes before the floor, the one behind is seen from below.
+  EXPECT_NEAR(at(down, ahead), 2 / (std::cos(off) * std::cos(pitch)), 1e-3);
+  EXPECT_NEAR(at(down, 180 - ahead), 4 / (std::cos(off) * std::cos(pitch)), 1e-3);
+  // Nose up: the floor behind comes before the wall.
+  EXPECT_NEAR(at(up, 180 - ahead), 0.3 / (std::cos(off) * std::sin(pitch)), 1e-3);
+  EXPECT_NEAR(at(up, ahead), 2 / (std::cos(off) * std::cos(pitch)), 1e-3);
+  // Without walls only the floor is left, from abeam on to the front.
+  world.walls.clear();
+  options.max_range = 100;
+  const LaserScan bare = ranges(5);
+  for (std::size_t i = 0; i < bare.ranges.size(); ++i)
+  {
+    const double bearing = bare.first_angle + static_cast<double>(i) * bare.angle_step;
+    const double floor = 0.3 / (std::cos(bearing) * std::sin(pitch));
+    EXPECT_EQ(bare.valid[i] != 0, floor > 0 && floor <= 100);
+    if (bare.valid[i] == 0) continue;
+    EXPECT_NEAR(bare.ranges[i], floor, 1e-3 * floor);
+  }
+}
+
 TEST(LaserSimulator, NoiseHasTheStatedStandardDeviation)
 {
   const World world = makeWorld(WorldKind::office, {}, 1);

@@ -151,6 +151,20 @@ TEST(Sweep, KeepsTheAngleBetweenBeams)
   EXPECT_EQ(full.laser.beams, 480U);
 }
 
+TEST(Sweep, RobotsOnThresholdsStandInDoorsAndSeeTheFloor)
+{
+  SweepOptions options = smallSweep("thresholds", {0, 0.05});
+  options.queries_per_world = 8;
+  const SweepReport report = runSweep(options);
+  ASSERT_EQ(report.rows.size(), 2U);
+  for (std::size_t i = 0; i < 8; ++i)
+  {
+    EXPECT_EQ(report.rows[0].records[i].answer.truth, report.rows[1].records[i].answer.truth);
+  }
+  options.worlds = {WorldKind::hall};
+  EXPECT_THROW(runSweep(options), std::invalid_argument) << "no doors in it";
+}
+
 TEST(Sweep, RefusesWhatMakesNoSense)
 {
   EXPECT_THROW(runSweep(smallSweep("weather", {1})), std::invalid_argument);

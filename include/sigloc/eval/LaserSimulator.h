@@ -27,6 +27,8 @@ struct LaserOptions
   double sensor_x = 0;
   double sensor_y = 0;
   double sensor_phi_deg = 0;
+  double height = 0.3;
+  double pitch_deg = 0;
 
   template <class V>
   static void visitFields(V&& visit)
@@ -47,6 +49,9 @@ struct LaserOptions
     visit(OptionField{"sensor_y", &O::sensor_y, -10.0, 10.0, "[m] mounting place"});
     visit(OptionField{"sensor_phi_deg", &O::sensor_phi_deg, -360.0, 360.0,
                       "[deg] mounting direction"});
+    visit(OptionField{"height", &O::height, 0.01, 10.0, "[m] above the floor"});
+    visit(OptionField{"pitch_deg", &O::pitch_deg, -30.0, 30.0,
+                      "[deg] how far the robot's nose is down: beams end on the floor"});
   }
 };
 
@@ -88,7 +93,8 @@ class LaserSimulator
   /// Throws std::invalid_argument for options out of range.
   explicit LaserSimulator(const World& world, const LaserOptions& options = {});
 
-  /// Returns the scan taken by a robot at a pose, without noise or clutter.
+  /// Returns the scan taken by a robot at a pose, without noise or clutter. Surfaces are as high as
+  /// any beam of a tilted robot asks for.
   LaserScan exactScan(const mrpt::math::TPose2D& world_from_robot) const;
 
   /// Returns the scan with noise and clutter: each beam is, with probability clutter_share,

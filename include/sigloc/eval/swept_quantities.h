@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,9 @@ struct SweepConditions
   double unmapped_items = 0;  ///< [1/(100 m^2)] pieces that appear between mapping and asking
   double map_sigma = 0;  ///< [m] of the position of every mapping scan, a degree an 0.05 m with it
   LaserOptions laser;  ///< of the robot that is asked; mapping has its own
+  /// [m] height of the door thresholds that robots stand on, with the front or the rear wheels;
+  /// none: they stand anywhere.
+  std::optional<double> threshold;
 
   SweepConditions() { world.jitter = 0.1; }
 };
@@ -44,7 +48,8 @@ struct SweptQuantity
   std::function<void(double value, SweepConditions& conditions)> set;
 };
 
-/// All of them: noise, clutter, fov, range, map-noise, furniture, unmapped, doors, repeats.
+/// All of them: noise, clutter, fov, range, map-noise, furniture, unmapped, doors,
+/// thresholds, repeats.
 const std::vector<SweptQuantity>& sweptQuantities();
 
 /// Throws std::invalid_argument for a value that is out of range or given twice.
