@@ -51,6 +51,20 @@ TrackDrive readDrive(const TrackOptions& options, const std::vector<TPose2D>& ma
   return drive;
 }
 
+detail::LoggedDrive readLog(const TrackOptions& options)
+{
+  if (!options.landmarks.empty())
+  {
+    return detail::readLandmarkDrive(options.landmarks, options.landmark_folder);
+  }
+  detail::LoggedDrive log;
+  log.map = readEvaluationMap(options.map);
+  log.drive = readDrive(options, log.map.mapped_poses);
+  log.files = {options.map, options.rawlog, options.ground_truth};
+  if (!options.start_from.empty()) log.files.push_back(options.start_from);
+  return log;
+}
+
 // Summed in another order, the same way has another last digit.
 constexpr double kRounding = 1e-6;  // [m]
 
@@ -68,7 +82,8 @@ std::vector<std::size_t> startsOf(const TrackDrive& drive, const TrackOptions& o
   }
   if (allowed.empty())
   {
-    throw std::runtime_error(options.rawlog.string() + ": no step with truth has " +
+    const auto& path = options.landmarks.empty() ? options.rawlog : options.landmark_folder;
+    throw std::runtime_error(path.string() + ": no step with truth has " +
                              std::to_string(options.travel) + " m of drive after it");
   }
   const double from = drive.steps[allowed.front()].travelled;
@@ -155,27 +170,25 @@ TrackReport runTrack(const TrackOptions& options)
 {
   if (options.starts == 0) throw std::invalid_argument("--starts must be at least 1");
   checkTrackingMethods(options.methods);
-  const EvaluationMap map = readEvaluationMap(options.map);
-  const TrackDrive drive = readDrive(options, map.mapped_poses);
+  const detail::LoggedDrive log = readLog(options);
+  const auto& [map, drive, files] = log;
   const std::vector<std::size_t> starts = startsOf(drive, options);
   TrackReport report;
   report.map_features = map.features->features().size();
   report.map_build_seconds = map.build_seconds;
   report.complete = drive.complete;
-  report.provenance = {
-      options.command, options.method.seed, {options.map, options.rawlog, options.ground_truth}};
-  if (!options.start_from.empty()) report.provenance.data_files.push_back(options.start_from);
+  report.provenance = {options.command, options.method.seed, files};
   for (const std::string& name : options.methods)
   {
     resetPeakMemory();
-    const auto factory = makeTrackingMethod(name, map, options.method);
+    const auto factory = makeTrackingMethod(name, log.map, options.method);
     TrackMethodReport method{name, std::vector<TrackRun>(starts.size()), 0};
     std::atomic<std::size_t> done{0};
     std::mutex mutex;
     runParallel(starts.size(), options.threads,
                 [&](std::size_t i)
                 {
-                  method.runs[i] = runOnce(*factory, drive, starts, i, options);
+                  method.runs[i] = runOnce(*factory, log.drive, starts, i, options);
                   const double share =
                       static_cast<double>(++done) / static_cast<double>(starts.size());
                   const std::lock_guard<std::mutex> lock(mutex);

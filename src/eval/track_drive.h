@@ -5,7 +5,9 @@
 #include <mrpt/math/TPose2D.h>
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "sigloc/bridge/RawlogReader.h"
@@ -29,6 +31,19 @@ struct TrackDrive
   bool foreign = false;  ///< the drive is of another place than the map: every claim is wrong
   bool complete = true;  ///< false when the log was truncated
 };
+
+/// A log to wake up in, and the map.
+struct LoggedDrive
+{
+  EvaluationMap map;
+  TrackDrive drive;
+  std::vector<std::filesystem::path> files;
+};
+
+/// Reads a landmark log, "dlr" or "victoria-park", from its folder. The map of the first is what
+/// the first half of the path saw, the drive the second half. Throws std::invalid_argument for
+/// another name and std::runtime_error ("path: reason").
+LoggedDrive readLandmarkDrive(const std::string& dataset, const std::filesystem::path& folder);
 
 /// Steps [first, last) of a drive.
 struct TrackLeg

@@ -14,8 +14,6 @@
 
 namespace sigloc
 {
-using mrpt::math::TPose2D;
-
 namespace
 {
 constexpr std::size_t kAnchors = 3;  // observed features that bases start from

@@ -131,5 +131,15 @@ TEST(Track, RefusesALogThatIsTooShort)
   options.starts = 0;
   EXPECT_THROW(runTrack(options), std::invalid_argument);
 }
+TEST(Track, NamesALandmarkLogThatItCannotRead)
+{
+  TrackOptions options;
+  options.methods = {"signature"};
+  options.landmarks = "no-such-set";
+  options.landmark_folder = "/nowhere";
+  EXPECT_THROW(runTrack(options), std::invalid_argument);
+  options.landmarks = "dlr";
+  EXPECT_THROW(runTrack(options), std::runtime_error);
+}
 }  // namespace
 }  // namespace sigloc

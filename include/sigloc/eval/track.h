@@ -19,6 +19,8 @@ namespace sigloc
 /// drives on. With `kidnap` it is carried to another start half-way.
 struct TrackOptions
 {
+  std::string landmarks;  ///< "dlr" or "victoria-park": a landmark log in place of what follows
+  std::filesystem::path landmark_folder;
   std::filesystem::path map;
   std::filesystem::path rawlog;
   std::filesystem::path ground_truth;
