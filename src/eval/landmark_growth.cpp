@@ -32,6 +32,7 @@ std::vector<Place> placesOf(const LandmarkData& data, const ScaleOptions& option
   const std::vector<Feature> map = mapFromSteps(data, data.steps.size() / 2);
   std::vector<Place> places;
   const std::vector<std::size_t> steps = laterVisits(data, visits);
+  places.reserve(steps.size());
   for (const std::size_t which : evenlySpaced(steps.size(), options.poses))
   {
     const std::size_t step = steps[which];

@@ -7,11 +7,11 @@
 
 #include <fcntl.h>
 #include <spawn.h>
-#include <stdlib.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
+#include <cstdlib>
 #include <fstream>
 #include <iomanip>
 #include <regex>
@@ -184,8 +184,8 @@ std::vector<TimedClaim> readClaims(const fs::path& folder, const fs::path& log, 
 class StockMonteCarlo : public TrackingMethod
 {
  public:
-  StockMonteCarlo(fs::path map, MonteCarloSettings settings)
-      : map_(std::move(map)), settings_(std::move(settings))
+  StockMonteCarlo(fs::path map, const MonteCarloSettings& settings)
+      : map_(std::move(map)), settings_(settings)
   {
   }
 
@@ -211,8 +211,8 @@ class StockMonteCarlo : public TrackingMethod
 class StockFactory : public TrackingMethodFactory
 {
  public:
-  StockFactory(const EvaluationMap& map, MonteCarloSettings settings)
-      : settings_(std::move(settings)), map_(map.file)
+  StockFactory(const EvaluationMap& map, const MonteCarloSettings& settings)
+      : settings_(settings), map_(map.file)
   {
     if (isSimplemap(map.file)) return;
     // A grid with the right likelihood options in it, which the program takes over.

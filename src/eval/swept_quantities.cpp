@@ -110,6 +110,7 @@ const std::vector<SweptQuantity>& sweptQuantities()
 const SweptQuantity& sweptQuantity(const std::string& name)
 {
   std::vector<std::string> known;
+  known.reserve(sweptQuantities().size());
   for (const SweptQuantity& quantity : sweptQuantities())
   {
     if (quantity.name == name) return quantity;
