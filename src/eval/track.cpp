@@ -68,7 +68,11 @@ detail::LoggedDrive readLog(const TrackOptions& options)
 // Summed in another order, the same way has another last digit.
 constexpr double kRounding = 1e-6;  // [m]
 
-// Places equally spaced in the distance travelled, so that no luck is chosen.
+constexpr double kLongestStep = 1.0;  // [m] that the way between two allowed starts counts at most
+
+// Places equally spaced in the distance travelled, so that no luck is chosen. Where the log leaves
+// the places that are allowed, the way counts no more: else the last place before would be asked
+// again and again.
 std::vector<std::size_t> startsOf(const TrackDrive& drive, const TrackOptions& options)
 {
   std::vector<std::size_t> allowed;
@@ -86,19 +90,20 @@ std::vector<std::size_t> startsOf(const TrackDrive& drive, const TrackOptions& o
     throw std::runtime_error(path.string() + ": no step with truth has " +
                              std::to_string(options.travel) + " m of drive after it");
   }
-  const double from = drive.steps[allowed.front()].travelled;
-  const double span = drive.steps[allowed.back()].travelled - from;
+  std::vector<double> way = {0};
+  for (std::size_t k = 1; k < allowed.size(); ++k)
+  {
+    const double step = drive.steps[allowed[k]].travelled - drive.steps[allowed[k - 1]].travelled;
+    way.push_back(way.back() + std::min(step, kLongestStep));
+  }
   std::vector<std::size_t> starts;
   for (std::uint32_t k = 0; k < options.starts; ++k)
   {
-    const double wanted = from + span * k / std::max(1U, options.starts - 1);
-    const auto nearest = std::min_element(allowed.begin(), allowed.end(),
-                                          [&](std::size_t a, std::size_t b)
-                                          {
-                                            return std::abs(drive.steps[a].travelled - wanted) <
-                                                   std::abs(drive.steps[b].travelled - wanted);
-                                          });
-    starts.push_back(*nearest);
+    const double wanted = way.back() * k / std::max(1U, options.starts - 1);
+    const auto nearest = std::min_element(way.begin(), way.end(),
+                                          [&](double a, double b)
+                                          { return std::abs(a - wanted) < std::abs(b - wanted); });
+    starts.push_back(allowed[static_cast<std::size_t>(nearest - way.begin())]);
   }
   return starts;
 }

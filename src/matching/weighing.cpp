@@ -77,6 +77,20 @@ double reliabilityOf(const DenseEvidence& evidence)
   return std::clamp((evidence.fine - 0.5 * evidence.through_wall) / seen, 0.0, 1.0);
 }
 
+double followedLogOdds(const DenseEvidence& evidence)
+{
+  constexpr double kMisfitOfChance = 0.25;  // where the map explains no more than a foreign one
+  constexpr double kFloor = 0.03;
+  constexpr double kSlope = 2.1;
+  constexpr double kThrough = 17.0;
+  // What ends where the map knows nothing says nothing.
+  const double known = 1.0 - evidence.unknown;
+  if (known <= 0) return 0;
+  const double misfit = std::max(0.0, 1.0 - evidence.coarse / known);
+  return known * (kSlope * std::log(kMisfitOfChance / (misfit + kFloor)) -
+                  kThrough * evidence.through_wall);
+}
+
 double fitLogOdds(const Candidate& candidate)
 {
   // A return in free space may be an occlusion: it speaks against the pose's rank, not against
@@ -91,12 +105,16 @@ double leadLogOdds(double score, double rival_score)
   return kLeadSlope * (logLikelihoodOfScore(score) - logLikelihoodOfScore(rival_score));
 }
 
+double rivalScore(const RelocationResult& result, std::size_t k)
+{
+  const std::size_t rival = k == 0 ? 1 : 0;
+  return rival < result.candidates.size() ? result.candidates[rival].score : kChanceScore;
+}
+
 double presenceEvidence(const RelocationResult& result, std::size_t k)
 {
-  const std::vector<Candidate>& candidates = result.candidates;
-  const std::size_t rival = k == 0 ? 1 : 0;
-  const double rival_score = rival < candidates.size() ? candidates[rival].score : kChanceScore;
-  return fitLogOdds(candidates[k]) + leadLogOdds(candidates[k].score, rival_score);
+  const Candidate& candidate = result.candidates[k];
+  return fitLogOdds(candidate) + leadLogOdds(candidate.score, rivalScore(result, k));
 }
 
 void weighCandidates(RelocationResult& result, const std::vector<Candidate>& outside, double missed)

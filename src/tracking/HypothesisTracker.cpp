@@ -27,6 +27,8 @@ constexpr double kMaxLost = 3.0;
 constexpr double kMaxConfirmed = 12.0;  // what was confirmed long ago can still be lost
 constexpr double kMinConfirmed = -1.0;  // what look-alikes hid for long can still be confirmed
 constexpr double kMaxAgainst = 2.0;  // log-odds a metre
+constexpr double kUnfollowed = -11.7;  // log-odds of a pose before anything has come into view
+constexpr double kLeadFollowed = 13.0;  // per score ahead of the relocation's best other pose
 constexpr double kFarBetter = 4.0;  // log-likelihood
 constexpr double kSure = 0.9;  // a relocation that overrules all tracks
 
@@ -142,6 +144,7 @@ void HypothesisTracker::State::followDensely(const std::optional<MotionIncrement
   if (!motion) travel = travelSeen(travel);
   travel_since_relocation += travel;
   travelled += travel;
+  set.follow(scan, travelled, travel);
   set.weigh(travel);
   if (wantsRelocation()) relocate(scene, scan);
   set.mergeAndPrune();
@@ -209,9 +212,11 @@ bool HypothesisTracker::State::suspicious() const
 bool HypothesisTracker::State::wantsRelocation() const
 {
   if (first_step || suspicious()) return true;
-  return travel_since_relocation >= (belief.verdict == Verdict::localized
-                                         ? options.confirmation_distance
-                                         : options.relocation_distance);
+  const bool held = !set.tracks.empty() &&
+                    set.heaviest().hypothesis.weight >= options.localized_probability &&
+                    set.heaviest().held();
+  return travel_since_relocation >=
+         (held ? options.confirmation_distance : options.relocation_distance);
 }
 
 /// A relocation knows nothing of the tracks, which makes it evidence: for a track, for "somewhere
@@ -238,6 +243,7 @@ void HypothesisTracker::State::confirm(const RelocationResult& result, const Den
   for (Track& track : set.tracks)
   {
     double evidence = -kMaxAgainst;
+    double lead = 0;
     if (!result.candidates.empty())
     {
       // For a track that the relocation did not find: what its best answer would be there.
@@ -248,12 +254,14 @@ void HypothesisTracker::State::confirm(const RelocationResult& result, const Den
     {
       if (set.trackAt(result.candidates[k].pose.mean) != &track) continue;
       evidence = presenceEvidence(result, k);
+      lead = std::max(0.0, result.candidates[k].score - rivalScore(result, k));
     }
     const double novelty = track.seen.add(scan, track.hypothesis.pose.mean, travelled);
     const double gain =
         evidence > 0 ? novelty * std::min(evidence, kMaxConfirmed)
                      : fresh_share * std::clamp(evidence + kPriorHereLogOdds, -kMaxAgainst, 0.0);
     track.confirmed = std::clamp(track.confirmed + gain, kMinConfirmed, kMaxConfirmed);
+    track.addFollowed(novelty * kLeadFollowed * lead);
   }
 }
 
@@ -275,14 +283,14 @@ void HypothesisTracker::State::weighElsewhere(const RelocationResult& result, do
   const double fit =
       result.candidates.empty() ? 0 : fitLogOdds(result.candidates.front()) + kPriorHereLogOdds;
   double here = std::clamp(fit + leadLogOdds(best_tracked, best_untracked), -kMaxLost, kMaxLost);
-  const bool held =
-      std::any_of(set.tracks.begin(), set.tracks.end(),
-                  [&](const Track& track) { return track.confirmed >= options.confirmation; });
+  const bool held = std::any_of(set.tracks.begin(), set.tracks.end(),
+                                [](const Track& track) { return track.held(); });
   const bool beaten =
       logLikelihoodOfScore(best_untracked) - logLikelihoodOfScore(best_tracked) > kFarBetter;
-  if (held && !beaten) here = std::max(here, 0.0);
+  const bool firm = held && !beaten;
+  if (firm) here = std::max(here, 0.0);
   set.elsewhere *= std::exp(-fresh_share * here);
-  const bool overruled = !result.candidates.empty() &&
+  const bool overruled = !firm && !result.candidates.empty() &&
                          result.candidates.front().probability >= kSure &&
                          set.trackAt(result.candidates.front().pose.mean) == nullptr;
   if (overruled) set.elsewhere = std::max(set.elsewhere, options.suspicion);
@@ -298,9 +306,14 @@ Track HypothesisTracker::State::startAt(const RelocationResult& result, std::siz
   fresh.hypothesis.pose = withCommonError(candidate.pose, -1);
   fresh.hypothesis.id = next_id++;
   fresh.score = fresh.mean_score = candidate.score;
-  fresh.confirmed =
-      std::clamp(presenceEvidence(result, k) + kPriorHereLogOdds, kMinConfirmed, kMaxConfirmed);
-  fresh.seen.add(scan, candidate.pose.mean, travelled);
+  const double view = fresh.seen.add(scan, candidate.pose.mean, travelled);
+  fresh.on_the_way = fresh.seen;
+  const double evidence = presenceEvidence(result, k);
+  fresh.confirmed = std::clamp(kPriorHereLogOdds + std::min(evidence, view * evidence),
+                               kMinConfirmed, kMaxConfirmed);
+  fresh.evidence = matcher->verifier()->evaluate(scan, candidate.pose.mean);
+  const double lead = std::max(0.0, candidate.score - rivalScore(result, k));
+  fresh.followed = kUnfollowed + view * (followedLogOdds(fresh.evidence) + kLeadFollowed * lead);
   return fresh;
 }
 
@@ -349,7 +362,7 @@ void HypothesisTracker::State::publish(const ObservedScene& scene)
   const TrackedHypothesis& first = belief.hypotheses.front();
   belief.reliability = reliability;
   const bool open = largestPositionSigma(first.pose) >= kMaxOpenSigma;
-  const bool confirmed = set.tracks.front().confirmed >= options.confirmation;
+  const bool confirmed = set.tracks.front().presence() >= options.confirmation;
   const bool doubtful =
       suspicious() || (by_features && FeatureFollowing::contradicts(set.tracks.front()));
   if (first.weight >= options.localized_probability && confirmed && !doubtful && !open)

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SeenStructure.h"
 
+#include <algorithm>
 #include <cmath>
-#include <set>
+#include <vector>
 
 namespace sigloc
 {
@@ -11,6 +12,7 @@ namespace
 {
 constexpr double kCell = 0.5;  // [m]
 constexpr double kMemory = 10.0;  // [m] of travel
+constexpr std::size_t kFullView = 20;  // cells: 10 m of walls
 
 std::uint64_t cellOf(double x, double y)
 {
@@ -26,13 +28,17 @@ double SeenStructure::add(const DenseScan& scan, const mrpt::math::TPose2D& map_
 {
   const double c = std::cos(map_from_robot.phi);
   const double s = std::sin(map_from_robot.phi);
-  std::set<std::uint64_t> cells;
+  std::vector<std::uint64_t> cells;
+  cells.reserve(scan.size());
   for (std::size_t i = 0; i < scan.size(); ++i)
   {
+    if (scan.isolated[i] != 0) continue;
     const auto x = static_cast<double>(scan.x[i]);
     const auto y = static_cast<double>(scan.y[i]);
-    cells.insert(cellOf(map_from_robot.x + c * x - s * y, map_from_robot.y + s * x + c * y));
+    cells.push_back(cellOf(map_from_robot.x + c * x - s * y, map_from_robot.y + s * x + c * y));
   }
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
   std::size_t fresh = 0;
   for (const std::uint64_t cell : cells)
   {
@@ -40,6 +46,6 @@ double SeenStructure::add(const DenseScan& scan, const mrpt::math::TPose2D& map_
     fresh += is_new || travelled - known->second > kMemory;
     known->second = travelled;
   }
-  return cells.empty() ? 0 : static_cast<double>(fresh) / static_cast<double>(cells.size());
+  return static_cast<double>(fresh) / static_cast<double>(std::max(kFullView, cells.size()));
 }
 }  // namespace sigloc

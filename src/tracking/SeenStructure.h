@@ -17,8 +17,9 @@ class SeenStructure
 {
  public:
   /// Returns the share of the cells that the returns end in, seen from `map_from_robot`, that were
-  /// not seen within the last 10 m of travel, in [0, 1], and remembers them all. `travelled` [m]
-  /// counts from any start and never falls.
+  /// not seen within the last 10 m of travel, in [0, 1], and remembers them all. A view of few
+  /// cells counts as part of a view, isolated returns as nothing. `travelled` [m] counts from any
+  /// start and never falls.
   double add(const DenseScan& scan, const mrpt::math::TPose2D& map_from_robot, double travelled);
 
  private:

@@ -26,6 +26,9 @@ constexpr double kMergeDistance = 0.3;  // [m]
 constexpr double kMergeAngle = 10.0 * M_PI / 180.0;
 constexpr double kMaxRelative = 3.0;  // log-odds one unit of travel can tell at most
 constexpr double kMaxLost = 3.0;
+constexpr double kMinFollowed = -13.0;
+constexpr double kMaxFollowed = 18.0;
+constexpr double kMostNews = 4.0;  // views that a metre can bring
 constexpr double kScoreMemory = 0.9;  // of the running mean of the score, per step
 constexpr double kCorrelation = 12.0;  // scans of neighbouring steps share their errors
 constexpr double kMinSigma = 0.005;  // [m], floor of a step's motion
@@ -46,6 +49,11 @@ bool heavier(const Track& a, const Track& b)
 bool wouldMerge(const TPose2D& a, const TPose2D& b)
 {
   return coincide(a, b, kMergeDistance, kMergeAngle);
+}
+
+void Track::addFollowed(double log_odds)
+{
+  followed = std::clamp(followed + log_odds, kMinFollowed, kMaxFollowed);
 }
 
 double TrackSet::predict(const std::optional<MotionIncrement>& motion)
@@ -122,7 +130,7 @@ void TrackSet::updatePose(Track& track, const DenseScan& scan, const DenseVerifi
 {
   constexpr double kClearlyBetter = 0.15;  // of the score
   GaussianPose& pose = track.hypothesis.pose;
-  const double predicted_score = verifier.evaluate(scan, pose.mean).score;
+  const DenseEvidence predicted = verifier.evaluate(scan, pose.mean);
   GaussianPose measured;
   measured.mean = has_odometry_ ? verifier.refine(scan, pose.mean, kUpdateSteps, scan.size())
                                 : searchedPose(pose.mean, scan, verifier);
@@ -131,20 +139,30 @@ void TrackSet::updatePose(Track& track, const DenseScan& scan, const DenseVerifi
   {
     for (int c = 0; c < 3; ++c) measured.covariance(r, c) *= kCorrelation;
   }
-  const double measured_score = verifier.evaluate(scan, measured.mean).score;
+  const DenseEvidence found = verifier.evaluate(scan, measured.mean);
+  track.evidence = predicted;
   if (squaredMahalanobisDistance(pose, measured) < kUpdateGate)
   {
     pose = fusePoses(pose, measured);
-    track.score = std::max(predicted_score, measured_score);
+    if (found.score > predicted.score) track.evidence = found;
   }
-  else if (measured_score > predicted_score + kClearlyBetter)
+  else if (found.score > predicted.score + kClearlyBetter)
   {
     pose = measured;
-    track.score = measured_score;
+    track.evidence = found;
   }
-  else
+  track.score = track.evidence.score;
+}
+
+void TrackSet::follow(const DenseScan& scan, double travelled, double travel)
+{
+  // A robot that stands still sees new cells by noise alone.
+  const double most = kMostNews * travel;
+  for (Track& track : tracks)
   {
-    track.score = predicted_score;
+    const double novelty =
+        std::min(most, track.on_the_way.add(scan, track.hypothesis.pose.mean, travelled));
+    track.addFollowed(novelty * followedLogOdds(track.evidence));
   }
 }
 
@@ -229,6 +247,7 @@ void TrackSet::mergeAndPrune()
       into.weight += track.hypothesis.weight;
       into.id = std::min(into.id, track.hypothesis.id);
       same->confirmed = std::max(same->confirmed, track.confirmed);
+      same->followed = std::max(same->followed, track.followed);
       into.age = std::max(into.age, track.hypothesis.age);
     }
     else if (kept.size() < options_.max_hypotheses &&

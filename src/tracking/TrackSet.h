@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -30,10 +31,22 @@ struct Track
 {
   TrackedHypothesis hypothesis;
   double score = 0;  // of the last scan
+  DenseEvidence evidence;  // of the last scan
   double mean_score = 0;  // running mean
   double confirmed = 0;  // log-odds that relocations, each blind to the track, have given it
   SeenStructure seen;  // what that evidence rests on
+  double followed = 0;  // log-odds from how the map explained what came into view on the way
+  SeenStructure on_the_way;  // what has come into view
   FeatureMemory features;  // in a map without a dense field
+
+  /// Adds to `followed`, within its bounds.
+  void addFollowed(double log_odds);
+
+  /// Log-odds of standing in the map at all, eq. (8.22)
+  double presence() const { return confirmed + followed; }
+
+  /// Whether a relocation or the way has told enough not to give the track up for a look-alike.
+  bool held() const { return std::max(confirmed, presence()) >= 4.0; }
 };
 
 /// True for poses so near to each other that their tracks are merged.
@@ -54,6 +67,10 @@ class TrackSet
 
   /// Weighs rivals against each other, the best against "somewhere else". Eq. (8.5), (8.6)
   void weigh(double travel);
+
+  /// Adds to every track what the parts of the scan tell that came into view with the last `travel`
+  /// [m] of `travelled`. Eq. (8.21)
+  void follow(const DenseScan& scan, double travelled, double travel);
 
   /// Scales all weights so that they sum to one.
   void normalise();

@@ -44,7 +44,9 @@ TEST(SimulatedTrack, GivesTheSameStepsOnOneAndTwoThreads)
 
 TEST(SimulatedTrack, VisitsAllKindsOfWorldsAndFindsTheRobot)
 {
-  const TrackReport report = runSimulatedTrack(smallOptions());
+  SimulatedTrackOptions options = smallOptions();
+  options.travel = 12;
+  const TrackReport report = runSimulatedTrack(options);
   std::size_t right = 0;
   std::vector<std::string> groups;
   for (const TrackRun& run : report.methods.front().runs)

@@ -151,5 +151,37 @@ TEST(Weighing, AnOpenLineIsNeverLocalized)
   weighCandidates(result);
   EXPECT_EQ(result.verdict, Verdict::ambiguous);
 }
+TEST(FollowedLogOdds, FallsWithWhatTheMapDoesNotExplain)
+{
+  DenseEvidence right;
+  right.coarse = 0.99;
+  right.through_wall = 0.02;
+  DenseEvidence foreign;
+  foreign.coarse = 0.76;
+  foreign.through_wall = 0.18;
+  EXPECT_GT(followedLogOdds(right), 3.0);
+  EXPECT_LT(followedLogOdds(foreign), -2.0);
+  double last = followedLogOdds(right);
+  for (int k = 0; k < 9; ++k)
+  {
+    right.coarse -= 0.1;
+    const double now = followedLogOdds(right);
+    EXPECT_LT(now, last);
+    last = now;
+  }
+}
+
+TEST(FollowedLogOdds, UnknownLandSaysNothing)
+{
+  DenseEvidence known;
+  known.coarse = 0.9;
+  DenseEvidence half = known;
+  half.coarse = 0.45;
+  half.unknown = 0.5;
+  EXPECT_NEAR(followedLogOdds(half), 0.5 * followedLogOdds(known), 1e-12);
+  DenseEvidence none;
+  none.unknown = 1.0;
+  EXPECT_EQ(followedLogOdds(none), 0.0);
+}
 }  // namespace
 }  // namespace sigloc

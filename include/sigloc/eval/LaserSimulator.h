@@ -49,7 +49,7 @@ struct LaserOptions
     visit(OptionField{"sensor_y", &O::sensor_y, -10.0, 10.0, "[m] mounting place"});
     visit(OptionField{"sensor_phi_deg", &O::sensor_phi_deg, -360.0, 360.0,
                       "[deg] mounting direction"});
-    visit(OptionField{"height", &O::height, 0.01, 10.0, "[m] above the floor"});
+    visit(OptionField{"sensor_z", &O::height, 0.01, 10.0, "[m] above the floor"});
     visit(OptionField{"pitch_deg", &O::pitch_deg, -30.0, 30.0,
                       "[deg] how far the robot's nose is down: beams end on the floor"});
   }

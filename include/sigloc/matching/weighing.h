@@ -18,6 +18,11 @@ double logLikelihoodOfScore(double score);
 /// cut short, the share on walls, less what came through walls. \cite algorithm eq. (8.11)
 double reliabilityOf(const DenseEvidence& evidence);
 
+/// Returns what a tracked pose's scan adds to the log-odds of standing in the map, were all that it
+/// sees new to the track: how much of it the map explains, and how little it contradicts.
+/// \cite algorithm eq. (8.21)
+double followedLogOdds(const DenseEvidence& evidence);
+
 /// Prior log-odds of standing in the map: one wake-up in fourteen is somewhere else.
 /// \cite algorithm eq. (7.2)
 constexpr double kPriorHereLogOdds = 2.6;
@@ -30,6 +35,10 @@ double fitLogOdds(const Candidate& candidate);
 /// Returns how much the log-odds of (7.2) gain from the lead of a score over the best rival's.
 /// \cite algorithm eq. (7.2)
 double leadLogOdds(double score, double rival_score);
+
+/// Returns the score of the best candidate but the k-th, or what chance reaches where there is
+/// none.
+double rivalScore(const RelocationResult& result, std::size_t k);
 
 /// Returns how much candidate k's scan speaks for standing in the map at all: the log-odds (7.2)
 /// without their prior, the best other candidate being the rival. Evidence of one scan, to be added

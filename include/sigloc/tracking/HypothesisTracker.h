@@ -50,16 +50,16 @@ struct TrackerOptions
     visit(OptionField{"min_elsewhere", &O::min_elsewhere, 0.0, 0.5,
                       "[-] the weight of somewhere else never falls below this"});
     visit(OptionField{"relocation_distance", &O::relocation_distance, 0.0, 100.0,
-                      "[m] travel between two relocations while not localized"});
+                      "[m] travel between two relocations while nothing is held"});
     visit(OptionField{"confirmation_distance", &O::confirmation_distance, 0.0, 1000.0,
-                      "[m] travel between two relocations while localized"});
+                      "[m] travel between two relocations while one pose is held"});
     visit(OptionField{"score_drop", &O::score_drop, 0.01, 1.0,
                       "[-] fall of the score below its running mean that calls for a relocation"});
     visit(OptionField{
         "suspicion", &O::suspicion, 0.0, 1.0,
         "[-] weight of somewhere else when relocation finds the robot far from all tracks"});
     visit(OptionField{"confirmation", &O::confirmation, 0.0, 20.0,
-                      "[-] log-odds that relocations must have given a localized hypothesis"});
+                      "[-] log-odds of standing in the map that a localized hypothesis must have"});
     visit(OptionField{"free_motion_sigma", &O::free_motion_sigma, 0.001, 10.0,
                       "[m] standard deviation of a step without odometry"});
     visit(OptionField{"free_turn_sigma", &O::free_turn_sigma, 0.001, 3.0,
