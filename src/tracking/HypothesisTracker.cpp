@@ -13,6 +13,7 @@
 #include "sigloc/geometry/pose_fusion.h"
 #include "sigloc/matching/DenseVerifier.h"
 #include "sigloc/matching/weighing.h"
+#include "sigloc/tracking/rivals.h"
 #include "TrackSet.h"
 
 namespace sigloc
@@ -31,6 +32,11 @@ constexpr double kUnfollowed = -11.7;  // log-odds of a pose before anything has
 constexpr double kLeadFollowed = 13.0;  // per score ahead of the relocation's best other pose
 constexpr double kFarBetter = 4.0;  // log-likelihood
 constexpr double kSure = 0.9;  // a relocation that overrules all tracks
+
+const DenseField* fieldOf(const FeatureMap& map)
+{
+  return map.field() ? &*map.field() : nullptr;
+}
 
 }  // namespace
 
@@ -381,10 +387,11 @@ void HypothesisTracker::State::publish(const ObservedScene& scene)
   {
     belief.verdict = Verdict::ambiguous;
     belief.probability = 1.0 - first.weight;
-    belief.reason = open         ? "the position is open along a line"
-                    : !confirmed ? "relocation has not confirmed the hypothesis yet"
-                    : doubtful   ? "the hypothesis explains much less than it used to"
-                                 : std::to_string(set.tracks.size()) + " hypotheses remain";
+    const bool rivalled = first.weight < options.localized_probability;
+    belief.reason = open       ? "the position is open along a line"
+                    : doubtful ? "the hypothesis explains much less than it used to"
+                    : rivalled ? describeRivals(belief.hypotheses, fieldOf(matcher->map()))
+                               : "too little has been seen that only this map explains";
   }
 }
 }  // namespace sigloc

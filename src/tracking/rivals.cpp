@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sigloc/tracking/rivals.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "sigloc/matching/distinguishing_place.h"
+
+namespace sigloc
+{
+using mrpt::math::TPose2D;
+
+std::string describeRivals(const std::vector<TrackedHypothesis>& hypotheses,
+                           const DenseField* field)
+{
+  if (hypotheses.size() < 2) return "one hypothesis remains, beside somewhere else";
+  const TPose2D& first = hypotheses[0].pose.mean;
+  const TPose2D& second = hypotheses[1].pose.mean;
+  char text[160];
+  std::snprintf(text, sizeof text, "%zu hypotheses remain; the next, %.2g, is %.1f m away",
+                hypotheses.size(), hypotheses[1].weight,
+                std::hypot(second.x - first.x, second.y - first.y));
+  std::string line = text;
+  if (field == nullptr) return line;
+  const auto place = distinguishingPlace(*field, first, second);
+  if (!place) return line + " and looks the same for 8 m around";
+  std::snprintf(text, sizeof text, " and differs %.1f m off at %.0f deg",
+                std::hypot(place->x, place->y), std::atan2(place->y, place->x) * 180.0 / M_PI);
+  return line + text;
+}
+}  // namespace sigloc
