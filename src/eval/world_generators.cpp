@@ -296,7 +296,7 @@ void repeatPatch(World& world, std::uint32_t copies, Random& random)
   {
     throw std::invalid_argument("points: the world is too small for so many patches");
   }
-  const auto patchOf = [&](const TPoint2D& p)
+  const auto patch_of = [&](const TPoint2D& p)
   {
     const auto column = static_cast<std::size_t>((p.x - world.bounds.x_min) / kSide);
     const auto row = static_cast<std::size_t>((p.y - world.bounds.y_min) / kSide);
@@ -309,17 +309,19 @@ void repeatPatch(World& world, std::uint32_t copies, Random& random)
     std::swap(patches[k], patches[k + random.index(patches.size() - k)]);
   }
   patches.resize(copies);
-  const auto middleOf = [&](std::size_t patch)
+  const auto middle_of = [&](std::size_t patch)
   {
-    return TPoint2D(world.bounds.x_min + kSide * (static_cast<double>(patch % columns) + 0.5),
-                    world.bounds.y_min + kSide * (static_cast<double>(patch / columns) + 0.5));
+    const std::size_t column = patch % columns;
+    const std::size_t row = patch / columns;
+    return TPoint2D(world.bounds.x_min + kSide * (static_cast<double>(column) + 0.5),
+                    world.bounds.y_min + kSide * (static_cast<double>(row) + 0.5));
   };
   std::vector<TPoint2D> pattern;
   std::vector<TPoint2D> kept;
   for (const TPoint2D& p : world.points)
   {
-    const std::size_t patch = patchOf(p);
-    if (patch == patches.front()) pattern.push_back(p - middleOf(patch));
+    const std::size_t patch = patch_of(p);
+    if (patch == patches.front()) pattern.push_back(p - middle_of(patch));
     const bool replaced = std::find(patches.begin(), patches.end(), patch) != patches.end();
     if (!replaced) kept.push_back(p);
   }
@@ -328,7 +330,7 @@ void repeatPatch(World& world, std::uint32_t copies, Random& random)
     for (TPoint2D p : pattern)
     {
       for (std::size_t turn = 0; turn < k % 4; ++turn) p = {-p.y, p.x};
-      kept.push_back(middleOf(patches[k]) + p);
+      kept.push_back(middle_of(patches[k]) + p);
     }
   }
   world.points = std::move(kept);
