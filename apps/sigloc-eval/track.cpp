@@ -95,10 +95,15 @@ void declareSimulation(CLI::App& command, TrackFlags& flags)
           .add_option("--simulate", options.drives,
                       "drives in simulated worlds, instead of --map, --rawlog, --ground-truth")
           ->check(CLI::PositiveNumber);
-  for (const char* of_logs :
-       {"--map", "--rawlog", "--ground-truth", "--start-from", "--map-from-truth", "--starts"})
+  for (const char* of_logs : {"--map", "--rawlog", "--ground-truth", "--start-from",
+                              "--map-from-truth", "--starts", "--landmarks", "--landmark-folder"})
   {
     simulate->excludes(command.get_option(of_logs));
+  }
+  for (const char* of_scans :
+       {"--map", "--rawlog", "--ground-truth", "--start-from", "--map-from-truth"})
+  {
+    command.get_option("--landmarks")->excludes(command.get_option(of_scans));
   }
   command.add_option("--drives-per-world", options.drives_per_world, "that share one world")
       ->capture_default_str();

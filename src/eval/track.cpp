@@ -174,6 +174,10 @@ void judgeRun(TrackRun& run)
 TrackReport runTrack(const TrackOptions& options)
 {
   if (options.starts == 0) throw std::invalid_argument("--starts must be at least 1");
+  if (!(options.travel >= 0 && std::isfinite(options.travel)))
+  {
+    throw std::invalid_argument("--travel must be a length of at least 0 m");
+  }
   checkTrackingMethods(options.methods);
   const detail::LoggedDrive log = readLog(options);
   const auto& [map, drive, files] = log;

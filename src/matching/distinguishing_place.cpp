@@ -12,6 +12,7 @@ using mrpt::math::TPose2D;
 namespace
 {
 constexpr double kReach = 8.0;  // [m]
+constexpr double kNearest = 0.5;  // [m], nearer is the robot's own place
 constexpr double kSpacing = 0.3;  // [m]
 constexpr double kWall = 0.2;  // [m], a wall is so near that no sample steps over it
 constexpr double kClear = 0.5;  // [m]
@@ -41,7 +42,7 @@ std::optional<TPoint2D> distinguishingPlace(const DenseField& field, const TPose
     for (int ix = -samples; ix <= samples; ++ix)
     {
       const double square = kSpacing * kSpacing * (ix * ix + iy * iy);
-      if (square >= least) continue;
+      if (square >= least || square < kNearest * kNearest) continue;
       const auto x = static_cast<float>(kSpacing * ix);
       const auto y = static_cast<float>(kSpacing * iy);
       if (!differ(cells.at(at_a.placedX(x, y), at_a.placedY(x, y)),

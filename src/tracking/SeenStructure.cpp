@@ -12,7 +12,7 @@ namespace
 {
 constexpr double kCell = 0.5;  // [m]
 constexpr double kMemory = 10.0;  // [m] of travel
-constexpr std::size_t kFullView = 20;  // cells: 10 m of walls
+constexpr std::size_t kFullView = 14;  // cells: 7 m of walls
 
 std::uint64_t cellOf(double x, double y)
 {

@@ -18,14 +18,14 @@ std::string describeRivals(const std::vector<TrackedHypothesis>& hypotheses,
   const TPose2D& first = hypotheses[0].pose.mean;
   const TPose2D& second = hypotheses[1].pose.mean;
   char text[160];
-  std::snprintf(text, sizeof text, "%zu hypotheses remain; the next, %.2g, is %.1f m away",
-                hypotheses.size(), hypotheses[1].weight,
-                std::hypot(second.x - first.x, second.y - first.y));
+  std::snprintf(
+      text, sizeof text, "%zu hypotheses remain; the next, of weight %.2g, is %.1f m away",
+      hypotheses.size(), hypotheses[1].weight, std::hypot(second.x - first.x, second.y - first.y));
   std::string line = text;
   if (field == nullptr) return line;
   const auto place = distinguishingPlace(*field, first, second);
-  if (!place) return line + " and looks the same for 8 m around";
-  std::snprintf(text, sizeof text, " and differs %.1f m off at %.0f deg",
+  if (!place) return line + " and the map shows no difference within 8 m";
+  std::snprintf(text, sizeof text, " and the map differs %.1f m from the robot at %.0f deg",
                 std::hypot(place->x, place->y), std::atan2(place->y, place->x) * 180.0 / M_PI);
   return line + text;
 }

@@ -70,6 +70,18 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"StartsOfASimulation",
                 {"track", "--simulate", "2", "--starts", "3", "--out", "out"},
                 "--starts"},
+        Refusal{"NegativeTravel",
+                {"track", "--landmarks", "dlr", "--landmark-folder", ".", "--travel", "-5", "--out",
+                 "out"},
+                "--travel must be a length"},
+        Refusal{"LandmarksOfASimulation",
+                {"track", "--landmarks", "dlr", "--landmark-folder", ".", "--simulate", "2",
+                 "--out", "out"},
+                "--landmarks"},
+        Refusal{
+            "MapOfALandmarkLog",
+            {"track", "--landmarks", "dlr", "--landmark-folder", ".", "--map", "x", "--out", "out"},
+            "--map"},
         Refusal{"ClutterOfALog", {"track", "--clutter", "0.3", "--out", "out"}, "--simulate"},
         Refusal{
             "UnknownRelocation",

@@ -67,18 +67,18 @@ TEST(Rivals, EqualRoomsLookTheSame)
 {
   const DenseField field = twoRooms(0, 0);
   EXPECT_FALSE(distinguishingPlace(field, {5, 5, 0.3}, {15, 5, 0.3}).has_value());
-  EXPECT_EQ(
-      describeRivals(inBoth(0.3), &field),
-      "2 hypotheses remain; the next, 0.39, is 10.0 m away and looks the same for 8 m around");
+  EXPECT_EQ(describeRivals(inBoth(0.3), &field),
+            "2 hypotheses remain; the next, of weight 0.39, is 10.0 m away and the map shows no "
+            "difference within 8 m");
 }
 
 TEST(Rivals, AreDescribedWithAndWithoutAField)
 {
   const DenseField field = twoRooms(0, 2.4);
   const std::string line = describeRivals(inBoth(M_PI / 2), &field);
-  EXPECT_NE(line.find("m off at"), std::string::npos) << line;
+  EXPECT_NE(line.find("m from the robot at"), std::string::npos) << line;
   EXPECT_EQ(describeRivals(inBoth(0), nullptr),
-            "2 hypotheses remain; the next, 0.39, is 10.0 m away");
+            "2 hypotheses remain; the next, of weight 0.39, is 10.0 m away");
 }
 }  // namespace
 }  // namespace sigloc

@@ -12,9 +12,9 @@
 namespace sigloc
 {
 /// Returns where to look to tell two poses apart: the place nearest to the robot, in its own frame
-/// [m] and at most 8 m away, where the map has a wall from one pose and nothing but known free
-/// space within 0.5 m from the other. None where the map looks the same around both. Samples 0.3 m
-/// apart.
+/// [m] and 0.5 m to 8 m away, behind walls or not, where the map has a wall from one pose and
+/// nothing but known free space within 0.5 m from the other. None where the map looks the same
+/// around both. Samples 0.3 m apart.
 std::optional<mrpt::math::TPoint2D> distinguishingPlace(const DenseField& field,
                                                         const mrpt::math::TPose2D& a,
                                                         const mrpt::math::TPose2D& b);
