@@ -11,12 +11,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <tuple>
 
 #include "sigloc/bridge/scan_conversion.h"
 #include "sigloc/bridge/scene_building.h"
 #include "sigloc/bridge/sigmap_file.h"
-#include "sigloc/map/map_extension.h"
 
 namespace sigloc
 {
@@ -95,31 +93,45 @@ SignatureMap::SignatureMap(FeatureMap map)
 {
 }
 
-SignatureMap::Derived& SignatureMap::Derived::operator=(const Derived& other)
+SignatureMap::Learnt::Learnt(const Learnt& other)
+{
+  const std::lock_guard<std::mutex> lock(other.mutex);
+  builder = other.builder;
+}
+
+SignatureMap::Learnt& SignatureMap::Learnt::operator=(const Learnt& other)
 {
   if (this == &other) return *this;
-  const std::lock_guard<std::mutex> lock(mutex);
+  const std::scoped_lock lock(mutex, other.mutex);
+  builder = other.builder;
   model.reset();
   observations.clear();
   return *this;
 }
 
+/// What inserted scans come on top of; null for nothing.
+std::shared_ptr<const FeatureMap> SignatureMap::baseMap() const
+{
+  const bool from_nothing = prepared_map_->empty() && !prepared_map_->field();
+  return from_nothing ? nullptr : prepared_map_;
+}
+
 std::shared_ptr<const SignatureMap::Model> SignatureMap::model() const
 {
-  const std::lock_guard<std::mutex> lock(derived_.mutex);
-  if (derived_.model) return derived_.model;
-  std::shared_ptr<const FeatureMap> map = prepared_map_;
-  const auto& [building, extraction] =
-      std::tie(insertion_options.building, insertion_options.extraction);
-  if (!scans_.empty())
-  {
-    const bool from_nothing = prepared_map_->empty() && !prepared_map_->field();
-    map = std::make_shared<FeatureMap>(
-        from_nothing ? buildMapFromScans(scans_, building, extraction)
-                     : extendMap(*prepared_map_, scans_, building, extraction));
-  }
-  derived_.model = std::make_shared<Model>(Model{map, NearestFeature(map->features())});
-  return derived_.model;
+  const std::lock_guard<std::mutex> lock(learnt_.mutex);
+  if (learnt_.model) return learnt_.model;
+  const std::shared_ptr<const FeatureMap> map =
+      learnt_.builder ? std::make_shared<FeatureMap>(learnt_.builder->map()) : prepared_map_;
+  learnt_.model = std::make_shared<Model>(Model{map, NearestFeature(map->features())});
+  return learnt_.model;
+}
+
+/// The dense field with every scan inserted so far, or null; valid until the next insertion.
+const DenseField* SignatureMap::field() const
+{
+  const std::lock_guard<std::mutex> lock(learnt_.mutex);
+  if (learnt_.builder) return learnt_.builder->field();
+  return prepared_map_->field() ? &*prepared_map_->field() : nullptr;
 }
 
 std::shared_ptr<const FeatureMap> SignatureMap::featureMap() const
@@ -129,7 +141,9 @@ std::shared_ptr<const FeatureMap> SignatureMap::featureMap() const
 
 bool SignatureMap::isEmpty() const
 {
-  return scans_.empty() && prepared_map_->empty() && !prepared_map_->field();
+  if (baseMap()) return false;
+  const std::lock_guard<std::mutex> lock(learnt_.mutex);
+  return !learnt_.builder;
 }
 
 std::string SignatureMap::asString() const
@@ -154,9 +168,8 @@ void SignatureMap::saveMetricMapRepresentationToFile(const std::string& prefix) 
 
 void SignatureMap::internal_clear()
 {
-  scans_.clear();
   if (genericMapParams.enableObservationInsertion) prepared_map_ = std::make_shared<FeatureMap>();
-  derived_ = Derived();
+  learnt_ = Learnt();
 }
 
 bool SignatureMap::internal_insertObservation(const CObservation& observation,
@@ -171,12 +184,16 @@ bool SignatureMap::internal_insertObservation(const CObservation& observation,
   {
     return false;
   }
-  PosedScans posed;
-  if (robot_pose) posed.map_from_robot = CPose2D(*robot_pose).asTPose();
-  posed.scans.push_back(std::move(*scan));
-  scans_.push_back(std::move(posed));
-  const std::lock_guard<std::mutex> lock(derived_.mutex);
-  derived_.model.reset();
+  PosedScans look;
+  if (robot_pose) look.map_from_robot = CPose2D(*robot_pose).asTPose();
+  look.scans.push_back(std::move(*scan));
+  const std::lock_guard<std::mutex> lock(learnt_.mutex);
+  // Only what takes in the scan is kept.
+  std::optional<MapBuilder> first;
+  if (!learnt_.builder) first.emplace(insertion_options.building, baseMap());
+  (first ? *first : *learnt_.builder).add(look, insertion_options.extraction);
+  if (first) learnt_.builder = std::move(first);
+  learnt_.model.reset();
   return true;
 }
 
@@ -191,8 +208,8 @@ std::shared_ptr<const SignatureMap::PreparedObservation> SignatureMap::prepared(
     const CObservation& observation) const
 {
   const std::uint64_t fingerprint = fingerprintOf(observation);
-  const std::lock_guard<std::mutex> lock(derived_.mutex);
-  auto& kept = derived_.observations;
+  const std::lock_guard<std::mutex> lock(learnt_.mutex);
+  auto& kept = learnt_.observations;
   for (const auto& entry : kept)
   {
     if (entry->fingerprint == fingerprint) return entry;
@@ -221,14 +238,18 @@ double SignatureMap::internal_computeObservationLikelihood(const CObservation& o
 {
   // A multi-map asks every map about every observation.
   if (!internal_canComputeObservationLikelihood(observation)) return 0;
-  const auto current = model();
   const auto seen = prepared(observation);
   const TPose2D pose = CPose2D(taken_from).asTPose();
   const PointLikelihoodOptions& options = likelihood_options.points;
-  const auto& field = current->map->field();
-  return logLikelihood(current->nearest, seen->landmarks, pose, options) +
-         (field ? logLikelihood(*field, seen->returns, pose, options)
-                : logLikelihood(current->nearest, seen->returns, pose, options));
+  double sum = 0;
+  const DenseField* dense = field();
+  if (dense != nullptr) sum += logLikelihood(*dense, seen->returns, pose, options);
+  // Gathering features takes longer than learning a scan: only where they say something.
+  if (seen->landmarks.empty() && dense != nullptr) return sum;
+  const auto current = model();
+  sum += logLikelihood(current->nearest, seen->landmarks, pose, options);
+  if (dense == nullptr) sum += logLikelihood(current->nearest, seen->returns, pose, options);
+  return sum;
 }
 
 void SignatureMap::determineMatching2D(const mrpt::maps::CMetricMap* other_map,
@@ -307,7 +328,7 @@ float SignatureMap::squareDistanceToClosestCorrespondence(float x, float y) cons
 
 void SignatureMap::auxParticleFilterCleanUp()
 {
-  const std::lock_guard<std::mutex> lock(derived_.mutex);
-  derived_.observations.clear();
+  const std::lock_guard<std::mutex> lock(learnt_.mutex);
+  learnt_.observations.clear();
 }
 }  // namespace sigloc

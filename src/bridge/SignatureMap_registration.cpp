@@ -7,10 +7,10 @@
 #include <mrpt/serialization/CArchive.h>
 
 #include <algorithm>
-#include <map>
 #include <sstream>
-#include <stdexcept>
 
+#include "map_builder_archive.h"
+#include "options_archive.h"
 #include "sigloc/bridge/sigmap_file.h"
 #include "sigloc/bridge/SignatureMap.h"
 
@@ -32,8 +32,6 @@ using mrpt::serialization::CArchive;
 
 namespace
 {
-constexpr std::uint32_t kMostOptions = 1000;
-
 /// Copies the keys of a section that `wanted` accepts.
 template <class Wanted>
 mrpt::config::CConfigFileMemory copyOf(const CConfigFileBase& source, const std::string& section,
@@ -53,42 +51,6 @@ bool isBuildingKey(const std::string& key)
 {
   const auto keys = optionKeys<MapBuildingOptions>();
   return std::find(keys.begin(), keys.end(), key) != keys.end();
-}
-
-// Options are stored by name, so that later versions may add and drop some.
-template <class Options>
-void writeOptions(const Options& options, CArchive& out)
-{
-  out << static_cast<std::uint32_t>(optionKeys<Options>().size());
-  Options::visitFields(
-      [&](const auto& field)
-      { out << std::string(field.key) << static_cast<double>(options.*(field.member)); });
-}
-
-template <class Options>
-Options readOptions(CArchive& in)
-{
-  std::uint32_t count = 0;
-  in >> count;
-  if (count > kMostOptions) throw std::runtime_error("SignatureMap: damaged options");
-  std::map<std::string, double> stored;
-  for (std::uint32_t i = 0; i < count; ++i)
-  {
-    std::string key;
-    double value = 0;
-    in >> key >> value;
-    stored[key] = value;
-  }
-  Options options;
-  Options::visitFields(
-      [&](const auto& field)
-      {
-        using T = std::decay_t<decltype(options.*(field.member))>;
-        const auto entry = stored.find(field.key);
-        if (entry != stored.end()) options.*(field.member) = static_cast<T>(entry->second);
-      });
-  checkOptions(options);
-  return options;
 }
 }  // namespace
 
@@ -152,27 +114,33 @@ mrpt::maps::CMetricMap* SignatureMap::internal_CreateFromMapDefinition(
 
 std::uint8_t SignatureMap::serializeGetVersion() const
 {
-  return 0;
+  return 1;
 }
 
 void SignatureMap::serializeTo(CArchive& out) const
 {
   out << genericMapParams;
-  writeOptions(insertion_options.building, out);
-  writeOptions(insertion_options.extraction, out);
-  writeOptions(likelihood_options.points, out);
-  writeFeatureMap(*featureMap(), out);
+  detail::writeOptions(insertion_options.building, out);
+  detail::writeOptions(insertion_options.extraction, out);
+  detail::writeOptions(likelihood_options.points, out);
+  writeFeatureMap(*prepared_map_, out);
+  const std::lock_guard<std::mutex> lock(learnt_.mutex);
+  out << learnt_.builder.has_value();
+  if (learnt_.builder) detail::writeMapBuilder(*learnt_.builder, out);
 }
 
 void SignatureMap::serializeFrom(CArchive& in, std::uint8_t version)
 {
-  if (version != 0) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
+  if (version > 1) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
   in >> genericMapParams;
-  insertion_options.building = readOptions<MapBuildingOptions>(in);
-  insertion_options.extraction = readOptions<FeatureExtractorOptions>(in);
-  likelihood_options.points = readOptions<PointLikelihoodOptions>(in);
-  scans_.clear();
+  insertion_options.building = detail::readOptions<MapBuildingOptions>(in);
+  insertion_options.extraction = detail::readOptions<FeatureExtractorOptions>(in);
+  likelihood_options.points = detail::readOptions<PointLikelihoodOptions>(in);
   prepared_map_ = std::make_shared<FeatureMap>(readFeatureMap(in));
-  derived_ = Derived();
+  learnt_ = Learnt();
+  // Version 0 stored the finished map alone.
+  bool has_builder = false;
+  if (version >= 1) in >> has_builder;
+  if (has_builder) learnt_.builder = detail::readMapBuilder(in, baseMap());
 }
 }  // namespace sigloc

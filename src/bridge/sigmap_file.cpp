@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "feature_archive.h"
 #include "gzip_input.h"
 #include "gzip_output.h"
 
@@ -28,36 +29,6 @@ constexpr std::uint64_t kMostCells = 1ULL << 31U;
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& reason)
 {
   throw std::runtime_error(path.string() + ": " + reason);
-}
-
-void writeFeature(const Feature& feature, CArchive& out)
-{
-  out << static_cast<std::uint8_t>(feature.type) << static_cast<std::uint8_t>(feature.side)
-      << feature.start_seen << feature.end_seen << feature.position.x << feature.position.y
-      << feature.direction << feature.size << feature.position_covariance(0, 0)
-      << feature.position_covariance(0, 1) << feature.position_covariance(1, 0)
-      << feature.position_covariance(1, 1) << feature.direction_variance << feature.size_variance
-      << feature.label << feature.sightings << feature.parent;
-}
-
-Feature readFeature(CArchive& in)
-{
-  Feature feature;
-  std::uint8_t type = 0;
-  std::uint8_t side = 0;
-  auto& covariance = feature.position_covariance;
-  in >> type >> side >> feature.start_seen >> feature.end_seen >> feature.position.x >>
-      feature.position.y >> feature.direction >> feature.size >> covariance(0, 0) >>
-      covariance(0, 1) >> covariance(1, 0) >> covariance(1, 1) >> feature.direction_variance >>
-      feature.size_variance >> feature.label >> feature.sightings >> feature.parent;
-  if (type > static_cast<std::uint8_t>(FeatureType::wall_end) ||
-      side > static_cast<std::uint8_t>(WallSide::end))
-  {
-    throw std::runtime_error("unknown feature type");
-  }
-  feature.type = static_cast<FeatureType>(type);
-  feature.side = static_cast<WallSide>(side);
-  return feature;
 }
 
 // Cells go out in blocks of four planes: equal bytes stand together, so that the lowest level of
@@ -122,7 +93,7 @@ void writeFeatureMap(const FeatureMap& map, CArchive& out)
   const MapErrorModel& error = map.error();
   out << error.relative_constant << error.relative_slope << error.common_sigma;
   out << static_cast<std::uint32_t>(map.features().size());
-  for (const Feature& feature : map.features()) writeFeature(feature, out);
+  for (const Feature& feature : map.features()) detail::writeFeature(feature, out);
   out << map.field().has_value();
   if (map.field()) writeField(*map.field(), out);
 }
@@ -145,7 +116,7 @@ FeatureMap readFeatureMap(CArchive& in)
   in >> count;
   std::vector<Feature> features;
   features.reserve(std::min<std::size_t>(count, kFirstReserve));
-  for (std::uint32_t i = 0; i < count; ++i) features.push_back(readFeature(in));
+  for (std::uint32_t i = 0; i < count; ++i) features.push_back(detail::readFeature(in));
   bool has_field = false;
   in >> has_field;
   std::optional<DenseField> field;

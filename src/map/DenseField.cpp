@@ -26,6 +26,12 @@ std::int32_t truncationRadius(double resolution)
   return std::min(127, static_cast<std::int32_t>(std::floor(by_distance)));
 }
 
+/// Half the width [cells] of the window in which a wall's ridge is sought.
+std::int32_t ridgeRadius(double resolution)
+{
+  return static_cast<std::int32_t>(std::lround(kRidgeRadius / resolution));
+}
+
 void checkRaster(const OccupancyRaster& raster)
 {
   const RasterFrame& frame = raster.frame;
@@ -90,7 +96,7 @@ std::vector<TPoint2Df> wallRidges(const OccupancyRaster& raster)
   const double resolution = raster.frame.resolution;
   const auto width = static_cast<std::int32_t>(raster.frame.width);
   const auto height = static_cast<std::int32_t>(raster.frame.height);
-  const auto radius = static_cast<std::int32_t>(std::lround(kRidgeRadius / resolution));
+  const std::int32_t radius = ridgeRadius(resolution);
   const auto at = [&](std::int32_t x, std::int32_t y)
   { return static_cast<std::size_t>(y) * raster.frame.width + static_cast<std::size_t>(x); };
   const double falloff = 0.5 * resolution * resolution / (kRidgeSigma * kRidgeSigma);
@@ -176,6 +182,11 @@ class RowEnvelope
 double truncationDistance(double resolution)
 {
   return truncationRadius(resolution) * resolution;
+}
+
+std::int32_t fieldReach(double resolution)
+{
+  return truncationRadius(resolution) + ridgeRadius(resolution);
 }
 
 DenseField buildDenseField(const OccupancyRaster& raster)

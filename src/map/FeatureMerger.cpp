@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace sigloc
 {
@@ -50,6 +51,22 @@ bool directed(FeatureType type)
   return type == FeatureType::corner || type == FeatureType::wall_end;
 }
 }  // namespace
+
+FeatureMerger::FeatureMerger(const MapBuildingOptions& options, std::vector<MergedSegment> segments,
+                             std::vector<MergedPlace> places)
+    : options_(options), segments_(std::move(segments)), places_(std::move(places))
+{
+  for (std::uint32_t k = 0; k < segments_.size(); ++k)
+  {
+    segments_[k].last_scan = 0;
+    registerSegment(k, segments_[k].line);
+  }
+  for (std::uint32_t k = 0; k < places_.size(); ++k)
+  {
+    places_[k].last_scan = 0;
+    registerPlace(k);
+  }
+}
 
 void FeatureMerger::add(const std::vector<Feature>& features_in_map)
 {
@@ -169,6 +186,12 @@ void FeatureMerger::registerSegment(std::uint32_t index, const Feature& segment)
             });
 }
 
+void FeatureMerger::registerPlace(std::uint32_t index)
+{
+  const TPoint2D& p = places_[index].feature.position;
+  place_cells_[cellKey(p.x, p.y, kPlaceCell)].push_back(index);
+}
+
 void FeatureMerger::addPlace(const Feature& place)
 {
   const double reach = options_.merge_point_distance;
@@ -208,9 +231,8 @@ void FeatureMerger::addPlace(const Feature& place)
     fresh.cosine_sum = std::cos(place.direction);
     fresh.sine_sum = std::sin(place.direction);
     fresh.last_scan = scan_;
-    place_cells_[cellKey(place.position.x, place.position.y, kPlaceCell)].push_back(
-        static_cast<std::uint32_t>(places_.size()));
     places_.push_back(fresh);
+    registerPlace(static_cast<std::uint32_t>(places_.size() - 1));
     return;
   }
   MergedPlace& merged = places_[static_cast<std::size_t>(best)];

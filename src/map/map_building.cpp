@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sigloc/map/map_building.h"
 
-#include <mrpt/math/wrap2pi.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -11,11 +9,12 @@
 
 #include "sigloc/map/FeatureMerger.h"
 #include "sigloc/map/RayCaster.h"
+#include "scene_in_map.h"
+#include "wall_end_lengths.h"
 
 namespace sigloc
 {
 using mrpt::math::TPoint2D;
-using mrpt::math::TPose2D;
 
 namespace
 {
@@ -23,54 +22,6 @@ constexpr std::size_t kCastBeams = 360;
 constexpr double kCastClearance = 0.2;  // [m], a scanner does not stand nearer to a wall
 constexpr double kCastSigma = 0.02;  // [m], of a cast range: the raster's cells
 constexpr double kCellsOffLine = 1.2;  // [cells]
-constexpr double kEndOnLine = 0.2;  // [m], distance of a wall end from the line it ends
-
-/// The length of a mapped wall end is that of the linked wall behind it.
-void setWallEndLengths(std::vector<Feature>& features)
-{
-  const std::vector<WallLine> lines = linkWalls(features);
-  for (Feature& end : features)
-  {
-    if (end.type != FeatureType::wall_end) continue;
-    const double normal = end.direction + (end.side == WallSide::start ? 0.5 : -0.5) * M_PI;
-    const TPoint2D into_wall = directionVector(end);
-    for (const WallLine& line : lines)
-    {
-      if (std::abs(mrpt::math::wrapToPi(line.direction - normal)) > 0.15) continue;
-      for (const std::uint32_t k : line.members)
-      {
-        const Feature& segment = features[k];
-        const TPoint2D n = directionVector(segment);
-        const TPoint2D to_end = end.position - segment.position;
-        if (std::abs(n.x * to_end.x + n.y * to_end.y) > kEndOnLine) continue;
-        for (const TPoint2D& tip : {segmentStart(segment), segmentEnd(segment)})
-        {
-          const TPoint2D d = tip - end.position;
-          end.size = std::max(end.size, d.x * into_wall.x + d.y * into_wall.y);
-        }
-      }
-    }
-  }
-}
-
-FeatureMap finish(const FeatureMerger& merger, const OccupancyRaster& raster,
-                  const MapProvenance& provenance)
-{
-  std::vector<Feature> features = merger.features();
-  setWallEndLengths(features);
-  return FeatureMap(std::move(features), buildDenseField(raster), {}, provenance);
-}
-
-void addScene(const ObservedScene& scene, const TPose2D& map_from_robot, FeatureMerger& merger)
-{
-  std::vector<Feature> features;
-  features.reserve(scene.features.size());
-  for (const Feature& feature : scene.features)
-  {
-    features.push_back(transformed(map_from_robot, feature));
-  }
-  merger.add(features);
-}
 
 /// The free place nearest to the middle of a block of the raster, with clearance to any wall.
 std::optional<TPoint2D> standingPlace(const DenseField& field, std::uint32_t x0, std::uint32_t y0,
@@ -120,19 +71,6 @@ LaserScan castScan(const RayCaster& caster, const TPoint2D& place, double range)
 }
 }  // namespace
 
-FeatureMap buildMapFromScans(const std::vector<PosedScans>& scans,
-                             const MapBuildingOptions& options,
-                             const FeatureExtractorOptions& extraction,
-                             const MapProvenance& provenance)
-{
-  FeatureMerger merger(options);
-  for (const PosedScans& posed : scans)
-  {
-    addScene(observeScene(posed.scans, extraction), posed.map_from_robot, merger);
-  }
-  return finish(merger, rasterFromScans(scans, options), provenance);
-}
-
 FeatureMap buildMapFromRaster(const OccupancyRaster& raster, const MapBuildingOptions& options,
                               const FeatureExtractorOptions& extraction,
                               const MapProvenance& provenance)
@@ -161,7 +99,7 @@ FeatureMap buildMapFromRaster(const OccupancyRaster& raster, const MapBuildingOp
       const auto place = standingPlace(field, x, y, block);
       if (!place) continue;
       const LaserScan scan = castScan(caster, *place, options.cast_range);
-      addScene(observeScene({scan}, cast_extraction), {place->x, place->y, 0}, merger);
+      merger.add(inMap(observeScene({scan}, cast_extraction), {place->x, place->y, 0}));
     }
   }
   std::vector<Feature> features = merger.features();

@@ -16,6 +16,7 @@
 
 #include "sigloc/map/FeatureMap.h"
 #include "sigloc/map/map_building.h"
+#include "sigloc/map/MapBuilder.h"
 #include "sigloc/map/NearestFeature.h"
 #include "sigloc/map/point_likelihood.h"
 
@@ -29,6 +30,10 @@ namespace sigloc
 /// name a prepared map, `sigmap_file`. Stock programs that read a simplemap clear all maps and
 /// insert its scans; a prepared map stays through that when its `enableObservationInsertion` is
 /// false.
+///
+/// Inserted scans are learnt one by one, each at the cost of what it sees, and are not kept. The
+/// likelihood of scans follows at once; features are gathered from what was learnt when they are
+/// asked for.
 ///
 /// Const member functions may be called from several threads at once.
 class SignatureMap : public mrpt::maps::CMetricMap
@@ -63,7 +68,9 @@ class SignatureMap : public mrpt::maps::CMetricMap
                           const std::string& section) const override;
   };
 
-  TInsertionOptions insertion_options;  ///< effective for scans inserted from now on
+  /// `extraction` is effective for scans inserted from now on, `building` for those after the map
+  /// was empty or loaded.
+  TInsertionOptions insertion_options;
   TLikelihoodOptions likelihood_options;
 
   /// The map, with every scan inserted so far; built on demand, never null. What is inserted later
@@ -110,13 +117,15 @@ class SignatureMap : public mrpt::maps::CMetricMap
     std::vector<mrpt::math::TPoint2D> returns;  // of a laser, robot frame
     std::vector<mrpt::math::TPoint2D> landmarks;  // robot frame
   };
-  /// Derived on demand, under the mutex; a copy of the map derives its own.
-  struct Derived
+  /// What was inserted, and what is derived on demand, under the mutex; a copy of the map derives
+  /// its own.
+  struct Learnt
   {
-    Derived() = default;
-    Derived(const Derived&) {}
-    Derived& operator=(const Derived&);
-    std::mutex mutex;
+    Learnt() = default;
+    Learnt(const Learnt& other);
+    Learnt& operator=(const Learnt& other);
+    mutable std::mutex mutex;
+    std::optional<MapBuilder> builder;  // of the scans, on top of the prepared map
     std::shared_ptr<const Model> model;
     std::deque<std::shared_ptr<const PreparedObservation>> observations;
   };
@@ -131,12 +140,13 @@ class SignatureMap : public mrpt::maps::CMetricMap
   bool internal_canComputeObservationLikelihood(
       const mrpt::obs::CObservation& observation) const override;
 
+  std::shared_ptr<const FeatureMap> baseMap() const;
   std::shared_ptr<const Model> model() const;
+  const DenseField* field() const;
   std::shared_ptr<const PreparedObservation> prepared(
       const mrpt::obs::CObservation& observation) const;
 
   std::shared_ptr<const FeatureMap> prepared_map_ = std::make_shared<FeatureMap>();
-  std::vector<PosedScans> scans_;  // inserted since
-  mutable Derived derived_;
+  mutable Learnt learnt_;
 };
 }  // namespace sigloc

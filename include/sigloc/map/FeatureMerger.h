@@ -17,7 +17,28 @@ namespace sigloc
 class FeatureMerger
 {
  public:
+  /// A wall piece as weighted second moments of all its sightings plus its extent.
+  struct MergedSegment
+  {
+    double weight = 0;  ///< [m], summed length of the sightings
+    mrpt::math::TPoint2D weighted_sum;
+    double xx = 0, xy = 0, yy = 0;  ///< raw second moments
+    Feature line;  ///< current estimate
+    std::uint32_t sightings = 0;
+    std::uint32_t last_scan = 0;
+  };
+  /// Sightings of anything else as running means.
+  struct MergedPlace
+  {
+    Feature feature;
+    double cosine_sum = 0, sine_sum = 0;
+    std::uint32_t count = 1;  ///< of observations; several of one scan are one sighting
+    std::uint32_t last_scan = 0;
+  };
   explicit FeatureMerger(const MapBuildingOptions& options) : options_(options) {}
+  /// Goes on from what another one has gathered.
+  FeatureMerger(const MapBuildingOptions& options, std::vector<MergedSegment> segments,
+                std::vector<MergedPlace> places);
 
   /// Adds the features of one scan, given in the map frame.
   void add(const std::vector<Feature>& features_in_map);
@@ -26,28 +47,15 @@ class FeatureMerger
   /// the walls that meet in convex corners.
   std::vector<Feature> features() const;
 
+  const std::vector<MergedSegment>& segments() const { return segments_; }
+  const std::vector<MergedPlace>& places() const { return places_; }
+
  private:
-  /// A wall piece as weighted second moments of all its sightings plus its extent.
-  struct MergedSegment
-  {
-    double weight = 0;
-    mrpt::math::TPoint2D weighted_sum;
-    double xx = 0, xy = 0, yy = 0;  // raw second moments
-    Feature line;  // current estimate
-    std::uint32_t sightings = 0;
-    std::uint32_t last_scan = 0;
-  };
-  struct MergedPlace
-  {
-    Feature feature;
-    double cosine_sum = 0, sine_sum = 0;
-    std::uint32_t count = 1;  // of observations; several of one scan are one sighting
-    std::uint32_t last_scan = 0;
-  };
   using Cells = std::unordered_map<std::uint64_t, std::vector<std::uint32_t>>;
 
   void addSegment(const Feature& segment);
   void addPlace(const Feature& place);
+  void registerPlace(std::uint32_t index);
   void absorb(MergedSegment& merged, const Feature& segment);
   bool fits(const Feature& mapped, const Feature& segment, double& offset) const;
   void registerSegment(std::uint32_t index, const Feature& segment);

@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mrpt/math/TPoint2D.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "sigloc/map/map_building.h"
+
+namespace sigloc
+{
+/// A cell of an unbounded raster: it covers [anchor + resolution * x, anchor + resolution * (x +
+/// 1)).
+struct CellIndex
+{
+  std::int32_t x = 0;
+  std::int32_t y = 0;
+};
+
+/// A rectangle of cells, from its lower left cell to the one beyond its upper right.
+struct CellBox
+{
+  CellIndex low;
+  CellIndex high;
+  std::int32_t width() const { return high.x - low.x; }
+  std::int32_t height() const { return high.y - low.y; }
+};
+
+/// Counts, cell by cell, the looks that hit it and the beams that hit and passed it. Cells are kept
+/// in tiles that are made where beams go: memory grows with the area seen. \cite algorithm section
+/// 6.1
+class BeamCounts
+{
+ public:
+  static constexpr std::int32_t kTileCells = 32;
+
+  struct Count
+  {
+    std::uint32_t last_look = 0;  ///< that hit it; 0: none, or one of an earlier session
+    std::uint16_t hits = 0;  ///< beams that ended here; all counts saturate
+    std::uint16_t passes = 0;  ///< beams that went on
+    std::uint16_t looks = 0;  ///< that hit it
+  };
+  struct Tile
+  {
+    std::array<Count, static_cast<std::size_t>(kTileCells) * kTileCells> counts;
+    bool changed = false;
+  };
+  /// Box around all that was counted [m].
+  struct Extent
+  {
+    mrpt::math::TPoint2D low{1e12, 1e12};
+    mrpt::math::TPoint2D high{-1e12, -1e12};
+    void add(const mrpt::math::TPoint2D& p);
+    bool empty() const { return low.x > high.x; }
+  };
+
+  /// `resolution` in metres; a corner of some cell is at `anchor` [m].
+  explicit BeamCounts(double resolution, const mrpt::math::TPoint2D& anchor = {0, 0});
+
+  /// Counts the beams of one look up to `max_range` [m]. Throws std::invalid_argument, with nothing
+  /// counted, for a pose that is not finite or when what was seen spreads over too large an area.
+  void add(const PosedScans& look, double max_range);
+
+  /// What is known of each cell of a tile by now, row by row; unknown where no tile is.
+  /// Eq. (6.1), (6.2)
+  using TileStates = std::array<CellState, static_cast<std::size_t>(kTileCells) * kTileCells>;
+  TileStates statesOf(const CellIndex& name, std::uint32_t min_looks) const;
+
+  /// All that was counted, with a border. Not for an empty extent.
+  CellBox box() const;
+  RasterFrame frameOf(const CellBox& box) const;
+  /// The states of all cells of a box.
+  OccupancyRaster raster(const CellBox& box, std::uint32_t min_looks) const;
+
+  /// True when states may have changed since `takeChangedTiles` was called last.
+  bool changed() const { return !changed_.empty(); }
+  /// Lower left cells of the tiles in which they may have, in order.
+  std::vector<CellIndex> takeChangedTiles();
+
+  bool empty() const { return extent_.empty(); }
+  double resolution() const { return resolution_; }
+  const mrpt::math::TPoint2D& anchor() const { return anchor_; }
+  std::uint64_t cellsCounted() const { return cells_counted_; }  ///< work done, in cells
+
+  // For storing. Tiles are named by their lower left cell.
+  const Extent& extent() const { return extent_; }
+  std::vector<CellIndex> tileNames() const;  ///< in order
+  const Tile& tile(const CellIndex& name) const;
+  /// Puts stored counts in place. Throws std::invalid_argument for a name that no tile has.
+  void restore(const Extent& extent, const CellIndex& name, const Tile& tile);
+
+ private:
+  /// A tile found last: beams stay in one for many cells.
+  struct Cursor
+  {
+    std::uint64_t key = ~0ULL;
+    Tile* tile = nullptr;
+  };
+  Count& countAt(const CellIndex& cell, Cursor& cursor);
+  void markChanged(std::uint64_t key, Tile& tile);
+  const Count* find(const CellIndex& cell) const;
+  void touchNeighbours(const CellIndex& hit);
+  void addBeam(const mrpt::math::TPoint2D& origin, const mrpt::math::TPoint2D& end, Cursor& cursor);
+  CellIndex cellOf(const mrpt::math::TPoint2D& p) const;
+  bool hitOften(const CellIndex& cell, const Count& count, std::uint32_t min_looks) const;
+  CellState stateOf(const CellIndex& cell, const Count& count, std::uint32_t min_looks) const;
+
+  double resolution_;
+  mrpt::math::TPoint2D anchor_;
+  std::unordered_map<std::uint64_t, Tile> tiles_;
+  std::vector<std::uint64_t> changed_;  // keys of changed tiles, each once
+  Extent extent_;
+  std::uint32_t look_ = 0;
+  std::uint64_t cells_counted_ = 0;
+};
+}  // namespace sigloc

@@ -1,0 +1,232 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sigloc/map/GrowingField.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace sigloc
+{
+namespace
+{
+constexpr std::int32_t kLeastMargin = 64;  // [cells], of unknown cells to grow into
+constexpr std::int32_t kBlock = 32;  // [cells], what is solved at once at least
+
+CellBox unionOf(const CellBox& a, const CellBox& b)
+{
+  return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y)},
+          {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y)}};
+}
+
+CellBox intersection(const CellBox& a, const CellBox& b)
+{
+  return {{std::max(a.low.x, b.low.x), std::max(a.low.y, b.low.y)},
+          {std::min(a.high.x, b.high.x), std::min(a.high.y, b.high.y)}};
+}
+
+CellBox widened(const CellBox& box, std::int32_t by)
+{
+  return {{box.low.x - by, box.low.y - by}, {box.high.x + by, box.high.y + by}};
+}
+
+std::int64_t freeCellsOf(const DenseField& field)
+{
+  return std::count_if(field.cells.begin(), field.cells.end(),
+                       [](const DenseCell& cell) { return cell.state == CellState::free; });
+}
+
+CellBox boxOf(const RasterFrame& frame, const CellIndex& low)
+{
+  return {low,
+          {low.x + static_cast<std::int32_t>(frame.width),
+           low.y + static_cast<std::int32_t>(frame.height)}};
+}
+
+/// Rounds down, for negative numbers too.
+std::int32_t blockOf(std::int32_t cell)
+{
+  return cell >= 0 ? cell / kBlock : -((kBlock - 1 - cell) / kBlock);
+}
+}  // namespace
+
+GrowingField::GrowingField(DenseField base)
+    : field_(std::move(base)),
+      box_(boxOf(field_.frame, {0, 0})),
+      tight_(box_),
+      tight_frame_(field_.frame),
+      free_cells_(freeCellsOf(field_))
+{
+}
+
+void GrowingField::update(BeamCounts& counts, std::uint32_t min_looks)
+{
+  if (!counts.changed()) return;
+  if (field_.cells.empty())
+  {
+    counts.takeChangedTiles();
+    field_ = buildDenseField(counts.raster(counts.box(), min_looks));
+    tight_ = box_ = counts.box();
+    tight_frame_ = field_.frame;
+    free_cells_ = freeCellsOf(field_);
+    cells_solved_ += field_.cells.size();
+    return;
+  }
+  growTo(counts.box(), counts);
+  std::vector<CellBox> changed;
+  for (const CellIndex& name : counts.takeChangedTiles())
+  {
+    CellBox box{};
+    if (takeStates(name, counts.statesOf(name, min_looks), box)) changed.push_back(box);
+  }
+  solveAround(changed);
+  const double r = field_.frame.resolution;
+  field_.free_area = static_cast<double>(free_cells_) * r * r;
+}
+
+DenseCell& GrowingField::at(std::int32_t x, std::int32_t y)
+{
+  return field_.cells[static_cast<std::size_t>(y - box_.low.y) * field_.frame.width +
+                      static_cast<std::size_t>(x - box_.low.x)];
+}
+
+/// Makes room with a margin in proportion to what is there, so that copying stays cheap on average.
+void GrowingField::growTo(const CellBox& wanted, const BeamCounts& counts)
+{
+  tight_ = unionOf(tight_, wanted);
+  tight_frame_ = counts.frameOf(tight_);
+  CellBox grown = unionOf(box_, tight_);
+  const std::int32_t margin_x = std::max(kLeastMargin, grown.width() / 4);
+  const std::int32_t margin_y = std::max(kLeastMargin, grown.height() / 4);
+  if (grown.low.x < box_.low.x) grown.low.x -= margin_x;
+  if (grown.low.y < box_.low.y) grown.low.y -= margin_y;
+  if (grown.high.x > box_.high.x) grown.high.x += margin_x;
+  if (grown.high.y > box_.high.y) grown.high.y += margin_y;
+  if (grown.width() == box_.width() && grown.height() == box_.height()) return;
+
+  DenseField larger;
+  larger.frame = counts.frameOf(grown);
+  larger.wall_cells = field_.wall_cells;
+  larger.cells.resize(std::size_t{larger.frame.width} * larger.frame.height);
+  for (std::int32_t y = box_.low.y; y < box_.high.y; ++y)
+  {
+    const DenseCell* row = &at(box_.low.x, y);
+    const std::size_t first = static_cast<std::size_t>(y - grown.low.y) * larger.frame.width +
+                              static_cast<std::size_t>(box_.low.x - grown.low.x);
+    std::copy(row, row + box_.width(),
+              larger.cells.begin() + static_cast<std::ptrdiff_t>(first));
+  }
+  field_ = std::move(larger);
+  box_ = grown;
+}
+
+void GrowingField::setState(DenseCell& cell, CellState state)
+{
+  if (cell.state == CellState::free) --free_cells_;
+  if (state == CellState::free) ++free_cells_;
+  if (isWall(cell.state)) --field_.wall_cells;
+  if (isWall(state)) ++field_.wall_cells;
+  cell.state = state;
+}
+
+/// Returns true, and the box of cells, when walls have come, gone or become solid.
+bool GrowingField::takeStates(const CellIndex& first, const BeamCounts::TileStates& states,
+                              CellBox& changed)
+{
+  bool any = false;
+  std::size_t i = 0;
+  for (std::int32_t y = first.y; y < first.y + BeamCounts::kTileCells; ++y)
+  {
+    for (std::int32_t x = first.x; x < first.x + BeamCounts::kTileCells; ++x, ++i)
+    {
+      // The tiles at the border reach beyond the field.
+      if (states[i] == CellState::unknown) continue;
+      DenseCell& cell = at(x, y);
+      if (cell.state == states[i]) continue;
+      const bool of_wall = isWall(cell.state) || isWall(states[i]);
+      setState(cell, states[i]);
+      if (!of_wall) continue;
+      const CellBox own{{x, y}, {x + 1, y + 1}};
+      changed = any ? unionOf(changed, own) : own;
+      any = true;
+    }
+  }
+  return any;
+}
+
+/// Solves the blocks that a change reaches, those beside each other in one go.
+void GrowingField::solveAround(const std::vector<CellBox>& changed)
+{
+  const std::int32_t reach = fieldReach(field_.frame.resolution);
+  std::vector<std::pair<std::int32_t, std::int32_t>> blocks;  // row, column
+  for (const CellBox& box : changed)
+  {
+    const CellBox reached = intersection(widened(box, reach), box_);
+    for (std::int32_t y = blockOf(reached.low.y); y <= blockOf(reached.high.y - 1); ++y)
+    {
+      for (std::int32_t x = blockOf(reached.low.x); x <= blockOf(reached.high.x - 1); ++x)
+      {
+        blocks.emplace_back(y, x);
+      }
+    }
+  }
+  std::sort(blocks.begin(), blocks.end());
+  blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+  for (std::size_t i = 0; i < blocks.size();)
+  {
+    std::size_t next = i + 1;
+    const auto [row, column] = blocks[i];
+    const auto follows = [&](std::size_t k)
+    { return blocks[k] == std::make_pair(row, column + static_cast<std::int32_t>(k - i)); };
+    while (next < blocks.size() && follows(next)) ++next;
+    const std::int32_t count = static_cast<std::int32_t>(next - i);
+    const CellBox run{{column * kBlock, row * kBlock},
+                      {(column + count) * kBlock, (row + 1) * kBlock}};
+    solve(intersection(run, box_));
+    i = next;
+  }
+}
+
+/// Solves a box anew from the states in and around it.
+void GrowingField::solve(const CellBox& box)
+{
+  const CellBox window = intersection(widened(box, fieldReach(field_.frame.resolution)), box_);
+  OccupancyRaster raster;
+  raster.frame.resolution = field_.frame.resolution;
+  raster.frame.width = static_cast<std::uint32_t>(window.width());
+  raster.frame.height = static_cast<std::uint32_t>(window.height());
+  raster.cells.reserve(std::size_t{raster.frame.width} * raster.frame.height);
+  for (std::int32_t y = window.low.y; y < window.high.y; ++y)
+  {
+    for (std::int32_t x = window.low.x; x < window.high.x; ++x)
+    {
+      raster.cells.push_back(at(x, y).state);
+    }
+  }
+  const DenseField solved = buildDenseField(raster);
+  cells_solved_ += solved.cells.size();
+  for (std::int32_t y = box.low.y; y < box.high.y; ++y)
+  {
+    const DenseCell* row =
+        &solved.cells[static_cast<std::size_t>(y - window.low.y) * solved.frame.width +
+                      static_cast<std::size_t>(box.low.x - window.low.x)];
+    std::copy(row, row + box.width(), &at(box.low.x, y));
+  }
+}
+
+DenseField GrowingField::cropped() const
+{
+  DenseField field;
+  field.frame = tight_frame_;
+  field.free_area = field_.free_area;
+  field.wall_cells = field_.wall_cells;
+  field.cells.reserve(std::size_t{field.frame.width} * field.frame.height);
+  for (std::int32_t y = tight_.low.y; y < tight_.high.y; ++y)
+  {
+    const auto row = field_.cells.begin() +
+                     static_cast<std::ptrdiff_t>(y - box_.low.y) * field_.frame.width +
+                     (tight_.low.x - box_.low.x);
+    field.cells.insert(field.cells.end(), row, row + tight_.width());
+  }
+  return field;
+}
+}  // namespace sigloc

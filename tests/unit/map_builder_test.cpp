@@ -1,0 +1,159 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sigloc/map/MapBuilder.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <stdexcept>
+
+#include "bridge/sample_maps.h"
+
+using namespace sigloc;
+using mrpt::math::TPose2D;
+
+namespace
+{
+constexpr double kHalf = 3.0;  // [m], of the rooms
+constexpr double kDoor = 0.6;  // [m], half its width
+
+/// What is seen from within a square room around `centre` with a door in its right wall.
+PosedScans lookAround(const TPose2D& pose, const mrpt::math::TPoint2D& centre)
+{
+  LaserScan scan;
+  scan.first_angle = -M_PI;
+  scan.angle_step = 2 * M_PI / 360;
+  scan.max_range = 20;
+  for (int i = 0; i < 360; ++i)
+  {
+    const double angle = pose.phi + scan.first_angle + i * scan.angle_step;
+    const double c = std::cos(angle);
+    const double s = std::sin(angle);
+    const double to_x = (std::copysign(kHalf, c) + centre.x - pose.x) / c;
+    const double to_y = (std::copysign(kHalf, s) + centre.y - pose.y) / s;
+    const bool through_door =
+        to_x < to_y && c > 0 && std::abs(pose.y + to_x * s - centre.y) < kDoor;
+    scan.ranges.push_back(static_cast<float>(std::min(to_x, to_y)));
+    scan.valid.push_back(through_door ? 0 : 1);
+  }
+  return {pose, {scan}};
+}
+
+/// Looks from random places of rooms that lie in all directions from the first one.
+std::vector<PosedScans> tour(std::size_t looks, std::uint32_t seed)
+{
+  const std::vector<mrpt::math::TPoint2D> rooms = {{0, 0}, {6.2, 0}, {-6.2, 0.1}, {0, -6.2},
+                                                   {0.1, 9}, {-20, -14}, {31, 6}};
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> shift(-2.2, 2.2);
+  std::vector<PosedScans> all;
+  for (std::size_t i = 0; i < looks; ++i)
+  {
+    const auto& room = rooms[(i / 3) % rooms.size()];
+    const double x = room.x + shift(random);
+    const double y = room.y + shift(random);
+    all.push_back(lookAround({x, y, shift(random)}, room));
+  }
+  return all;
+}
+}  // namespace
+
+TEST(MapBuilder, LearnsLookByLookWhatABatchLearns)
+{
+  for (const std::uint32_t min_hits : {1U, 3U})
+  {
+    MapBuildingOptions options;
+    options.min_hits = min_hits;
+    const std::vector<PosedScans> looks = tour(42, 7);
+    MapBuilder asked_often(options);
+    MapBuilder asked_once(options);
+    for (std::size_t i = 0; i < looks.size(); ++i)
+    {
+      asked_often.add(looks[i]);
+      asked_once.add(looks[i]);
+      if (i % 2 == 0) asked_often.field();
+      if (i % 7 != 0) continue;
+      const std::vector<PosedScans> so_far(looks.begin(),
+                                           looks.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+      test::expectSameMap(asked_often.map(), buildMapFromScans(so_far, options));
+    }
+    test::expectSameMap(asked_often.map(), asked_once.map());
+    test::expectSameField(*asked_often.map().field(),
+                          buildDenseField(rasterFromScans(looks, options)));
+  }
+}
+
+TEST(MapBuilder, ExtendsAMapLookByLook)
+{
+  const std::vector<PosedScans> looks = tour(30, 8);
+  const std::vector<PosedScans> first(looks.begin(), looks.begin() + 9);
+  const auto base = std::make_shared<FeatureMap>(buildMapFromScans(first));
+  MapBuilder builder({}, base);
+  test::expectSameMap(builder.map(), *base);
+  for (std::size_t i = 9; i < looks.size(); ++i)
+  {
+    builder.add(looks[i]);
+    builder.field();
+  }
+  const FeatureMap extended = builder.map();
+  OccupancyRaster raster;
+  raster.frame = extended.field()->frame;
+  for (const DenseCell& cell : extended.field()->cells) raster.cells.push_back(cell.state);
+  test::expectSameField(*extended.field(), buildDenseField(raster));
+  ASSERT_GT(extended.features().size(), base->features().size());
+  for (std::size_t k = 0; k < base->features().size(); ++k)
+  {
+    test::expectSameFeature(extended.features()[k], base->features()[k]);
+  }
+}
+
+TEST(MapBuilder, ALookCostsWhatItSees)
+{
+  // The rooms are visited in turn: the map is complete after one round.
+  const std::vector<PosedScans> looks = tour(21 * 6, 9);
+  MapBuilder builder;
+  std::vector<std::uint64_t> work;  // of each round
+  std::uint64_t before = 0;
+  for (std::size_t i = 0; i < looks.size(); ++i)
+  {
+    builder.add(looks[i]);
+    builder.field();
+    if (i % 21 != 20) continue;
+    const std::uint64_t now = builder.cellsCounted() + builder.cellsSolved();
+    work.push_back(now - before);
+    before = now;
+  }
+  const std::size_t map_cells = builder.map().field()->cells.size();
+  for (const std::uint64_t round : work) EXPECT_LT(round, 21 * map_cells / 4);
+  EXPECT_LT(work.back(), work.front());
+}
+
+TEST(MapBuilder, TakesNothingInFromALookThatItRefuses)
+{
+  const std::vector<PosedScans> looks = tour(6, 10);
+  MapBuilder builder;
+  for (const PosedScans& look : looks) builder.add(look);
+  const FeatureMap before = builder.map();
+  PosedScans astray = looks.front();
+  astray.map_from_robot.x = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(builder.add(astray), std::invalid_argument);
+  astray.map_from_robot.x = 1e7;
+  EXPECT_THROW(builder.add(astray), std::invalid_argument);
+  PosedScans broken = looks.front();
+  broken.scans.front().valid.pop_back();
+  EXPECT_THROW(builder.add(broken), std::invalid_argument);
+  test::expectSameMap(builder.map(), before);
+}
+
+TEST(MapBuilder, IsEmptyUntilSomethingIsSeen)
+{
+  MapBuilder builder;
+  PosedScans blind = tour(1, 11).front();
+  blind.scans.front().valid.assign(blind.scans.front().valid.size(), 0);
+  builder.add(blind);
+  EXPECT_TRUE(builder.empty());
+  EXPECT_EQ(builder.field(), nullptr);
+  EXPECT_TRUE(builder.map().empty());
+}
