@@ -216,16 +216,8 @@ void SignatureMonteCarlo2D::drawFrom(const RelocationResult& result)
   const std::size_t fresh = lost_ ? particles_when_lost_ : drawn;
   elsewhere_ = std::max(elsewhere_ * result.elsewhere, tracking_.min_elsewhere);
   if (fresh == 0) return;
-  Belief proposed;
-  for (const Candidate& candidate : result.candidates)
-  {
-    TrackedHypothesis hypothesis;
-    hypothesis.pose = candidate.pose;
-    hypothesis.weight = candidate.probability;
-    proposed.hypotheses.push_back(hypothesis);
-  }
   auto& random = mrpt::random::getRandomGenerator();
-  const auto seeds = toParticles(proposed, fresh, random.drawUniform32bit());
+  const auto seeds = toParticles(toBelief(result), fresh, random.drawUniform32bit());
   const std::size_t kept = particles_when_lost_ - fresh;
   CParticleList particles;
   if (kept > 0)

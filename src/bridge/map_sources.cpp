@@ -25,7 +25,7 @@ namespace sigloc
 namespace
 {
 /// Raised whenever the same source and options give another map than before.
-constexpr int kBuildVersion = 4;
+constexpr int kBuildVersion = 5;
 
 enum class Format
 {

@@ -57,6 +57,22 @@ const TrackedHypothesis& firstOf(const Belief& belief)
 }
 }  // namespace
 
+Belief toBelief(const RelocationResult& result)
+{
+  Belief belief;
+  for (const Candidate& candidate : result.candidates)
+  {
+    TrackedHypothesis hypothesis;
+    hypothesis.pose = candidate.pose;
+    hypothesis.weight = candidate.probability;
+    belief.hypotheses.push_back(hypothesis);
+  }
+  belief.elsewhere = result.elsewhere;
+  belief.verdict = result.verdict;
+  belief.probability = result.probability;
+  return belief;
+}
+
 mrpt::poses::CPosePDFSOG toSumOfGaussians(const Belief& belief)
 {
   const std::vector<double> weights = normalizedWeights(belief);

@@ -315,32 +315,37 @@ FeatureExtractorOptions thresholdsFor(double range_sigma, FeatureExtractorOption
 }
 }  // namespace
 
+void appendScan(ScanPoints scan, const TPose2D& robot_from_sensor, double range_sigma,
+                const FeatureExtractorOptions& configured, ObservedScene& scene)
+{
+  const FeatureExtractorOptions options = thresholdsFor(range_sigma, configured);
+  // The second look sees what speckles had hidden from each other.
+  for (int look = 0; look < 2; ++look) dropSpeckles(scan, options);
+  startAtBreak(scan, options);
+
+  const auto origin = static_cast<std::uint32_t>(scene.sensor_origins.size());
+  scene.sensor_origins.emplace_back(robot_from_sensor.x, robot_from_sensor.y);
+  for (const TPoint2D& point : scan.points)
+  {
+    scene.beams.push_back({robot_from_sensor.composePoint(point), origin});
+  }
+  const auto first_feature = static_cast<std::int32_t>(scene.features.size());
+  for (Feature feature : featuresOfScan(scan, std::max(range_sigma, 0.001), options))
+  {
+    if (feature.parent >= 0) feature.parent += first_feature;
+    scene.features.push_back(transformed(robot_from_sensor, feature));
+  }
+}
+
 ObservedScene observeScene(const std::vector<LaserScan>& scans,
-                           const FeatureExtractorOptions& configured)
+                           const FeatureExtractorOptions& options)
 {
   ObservedScene scene;
   for (const LaserScan& scan : scans)
   {
     checkScan(scan);
-    const FeatureExtractorOptions options = thresholdsFor(scan.range_sigma, configured);
-    ScanPoints points = validPoints(scan, options);
-    // The second look sees what speckles had hidden from each other.
-    for (int look = 0; look < 2; ++look) dropSpeckles(points, options);
-    startAtBreak(points, options);
-
-    const auto origin = static_cast<std::uint32_t>(scene.sensor_origins.size());
-    const TPose2D& robot_from_sensor = scan.robot_from_sensor;
-    scene.sensor_origins.emplace_back(robot_from_sensor.x, robot_from_sensor.y);
-    for (const TPoint2D& point : points.points)
-    {
-      scene.beams.push_back({robot_from_sensor.composePoint(point), origin});
-    }
-    const auto first_feature = static_cast<std::int32_t>(scene.features.size());
-    for (Feature feature : featuresOfScan(points, std::max(scan.range_sigma, 0.001), options))
-    {
-      if (feature.parent >= 0) feature.parent += first_feature;
-      scene.features.push_back(transformed(robot_from_sensor, feature));
-    }
+    appendScan(validPoints(scan, options), scan.robot_from_sensor, scan.range_sigma, options,
+               scene);
   }
   return scene;
 }

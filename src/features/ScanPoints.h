@@ -46,4 +46,8 @@ std::vector<PointRange> clustersOf(const ScanPoints& scan, const FeatureExtracto
 /// In a full-circle scan the first and the last return are neighbours.
 bool jumpsFarther(const ScanPoints& scan, std::size_t edge, int step,
                   const FeatureExtractorOptions& options);
+
+/// Appends the features and returns of a scan to a scene in the robot frame.
+void appendScan(ScanPoints scan, const mrpt::math::TPose2D& robot_from_sensor, double range_sigma,
+                const FeatureExtractorOptions& configured, ObservedScene& scene);
 }  // namespace sigloc

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 #include <mrpt/config/CConfigFileMemory.h>
+#include <mrpt/io/CFileGZInputStream.h>
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/maps/CMultiMetricMap.h>
 #include <mrpt/maps/COccupancyGridMap2D.h>
@@ -11,15 +12,19 @@
 #include <mrpt/obs/CObservationBearingRange.h>
 #include <mrpt/opengl/CSetOfObjects.h>
 
+#include <cmath>
+#include <stdexcept>
 #include <thread>
 
 #include "bridge/rawlog_files.h"
 #include "bridge/sample_maps.h"
 #include "sigloc/bridge/map_sources.h"
+#include "sigloc/bridge/scan_conversion.h"
 #include "sigloc/bridge/sigmap_file.h"
 
 using namespace sigloc;
 using namespace sigloc::test;
+using mrpt::math::TPose2D;
 using mrpt::poses::CPose3D;
 
 namespace
@@ -237,6 +242,74 @@ TEST(SignatureMap, SurvivesSerialization)
   expectSameMap(*copy->featureMap(), *map.featureMap());
   EXPECT_EQ(copy->insertion_options.building.merge_gap, 0.7);
   EXPECT_EQ(copy->likelihood_options.points.max_points, 17U);
+}
+
+TEST(SignatureMap, LearnsOnAfterSerialization)
+{
+  for (const bool prepared : {false, true})
+  {
+    SignatureMap map = prepared ? SignatureMap(sampleMap(60, 40)) : SignatureMap();
+    const auto insert = [&](SignatureMap& into, double x)
+    {
+      into.insertObservation(*roomScan({x, 0, 0.1}), CPose3D(x, 0, 0, 0.1, 0, 0));
+    };
+    for (const double x : {-1.5, -0.5, 0.5}) insert(map, x);
+    mrpt::io::CMemoryStream memory;
+    auto archive = mrpt::serialization::archiveFrom(memory);
+    archive << map;
+    memory.Seek(0);
+    SignatureMap copy;
+    archive >> copy;
+    expectSameMap(*copy.featureMap(), *map.featureMap());
+    for (SignatureMap* each : {&map, &copy}) insert(*each, 1.5);
+    expectSameMap(*copy.featureMap(), *map.featureMap());
+  }
+}
+
+TEST(SignatureMap, ReadsItsFirstVersion)
+{
+  mrpt::io::CFileGZInputStream file(SIGLOC_GOLDEN_FOLDER "/signature_map_v0.gz");
+  auto archive = mrpt::serialization::archiveFrom(file);
+  SignatureMap map;
+  archive >> map;
+  expectSameMap(*map.featureMap(), sampleMap(24, 18));
+  EXPECT_EQ(map.insertion_options.building.merge_gap, 0.7);
+  EXPECT_EQ(map.likelihood_options.points.max_points, 17U);
+}
+
+TEST(SignatureMap, AnswersBetweenInsertionsAsIfBuiltAtOnce)
+{
+  SignatureMap asked_often;
+  SignatureMap asked_once;
+  const auto query = roomScan({0.3, 0.1, 0.2}, 9);
+  const CPose3D pose(0.3, 0.1, 0, 0.2, 0, 0);
+  double often = 0;
+  std::vector<PosedScans> looks;
+  for (int i = 0; i < 12; ++i)
+  {
+    const TPose2D at(0.3 * i - 1.6, 0.1 * i - 0.5, 0.2 * i);
+    const auto scan = roomScan(at, i);
+    looks.push_back({at, {*toLaserScan(*scan)}});
+    for (SignatureMap* map : {&asked_often, &asked_once})
+    {
+      map->insertObservation(*scan, CPose3D(at.x, at.y, 0, at.phi, 0, 0));
+    }
+    often = asked_often.computeObservationLikelihood(*query, pose);
+    if (i % 4 == 0) EXPECT_FALSE(asked_often.featureMap()->lines().empty());
+  }
+  EXPECT_EQ(asked_once.computeObservationLikelihood(*query, pose), often);
+  expectSameMap(*asked_often.featureMap(), *asked_once.featureMap());
+  const SignatureMap batch(buildMapFromScans(looks));
+  expectSameMap(*asked_often.featureMap(), *batch.featureMap());
+  EXPECT_EQ(batch.computeObservationLikelihood(*query, pose), often);
+}
+
+TEST(SignatureMap, RefusesAPoseThatIsNone)
+{
+  SignatureMap map;
+  const CPose3D nowhere(std::nan(""), 0, 0, 0, 0, 0);
+  EXPECT_THROW(map.insertObservation(*roomScan({0, 0, 0}), nowhere), std::invalid_argument);
+  EXPECT_TRUE(map.isEmpty());
 }
 
 TEST(SignatureMap, IsMadeFromAnIniAndDeepCopiedInAMultiMap)

@@ -10,10 +10,14 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "sigloc/matching/SignatureMatcher.h"
 #include "sigloc/tracking/Belief.h"
 
 namespace sigloc
 {
+/// The candidates of one relocation as hypotheses, weighted by their probabilities.
+Belief toBelief(const RelocationResult& result);
+
 /// The hypotheses as a sum of Gaussians: log-weights normalised over the hypotheses (MRPT has no
 /// place for "somewhere else"), headings wrapped. Empty belief: no mode.
 mrpt::poses::CPosePDFSOG toSumOfGaussians(const Belief& belief);

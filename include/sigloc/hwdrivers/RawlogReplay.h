@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mrpt/hwdrivers/CGenericSensor.h>
+#include <mrpt/io/CFileGZInputStream.h>
+#include <mrpt/poses/CPose2D.h>
+
+#include <cstddef>
+#include <string>
+
+namespace sigloc
+{
+/// A sensor that plays a rawlog of either kind, one entry each time it is asked; the motion of
+/// action/frame pairs comes out as odometry. Times stay those of the log; what has no label gets the
+/// sensor's.
+///
+/// Keys of its ini section:
+///
+/// * `rawlog`: the file
+/// * `stop_after_end_s`: rawlog-grabber writes half of what waits at a time; so long [s] after the
+///   log's end it is told to stop (10; 0: never)
+class RawlogReplay : public mrpt::hwdrivers::CGenericSensor
+{
+  DEFINE_GENERIC_SENSOR(RawlogReplay)
+
+ public:
+  /// Throws std::runtime_error with path and reason for a file that can't be opened.
+  void initialize() override;
+  /// Throws std::runtime_error some time after the log has ended, which ends rawlog-grabber.
+  void doProcess() override;
+
+ private:
+  void loadConfig_sensorSpecific(const mrpt::config::CConfigFileBase& source,
+                                 const std::string& section) override;
+  bool playNext();
+
+  std::string path_;
+  double stop_after_end_ = 10;  // [s]
+  mrpt::io::CFileGZInputStream file_;
+  std::size_t entry_ = 0;
+  double idle_ = 0;  // [s] since the end
+  mrpt::poses::CPose2D odometry_;
+};
+}  // namespace sigloc

@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sigloc/hwdrivers/RawlogReplay.h"
+
+#include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CActionRobotMovement2D.h>
+#include <mrpt/obs/CObservationOdometry.h>
+#include <mrpt/obs/CRawlog.h>
+#include <mrpt/obs/CSensoryFrame.h>
+#include <mrpt/serialization/CArchive.h>
+
+#include <stdexcept>
+
+IMPLEMENTS_GENERIC_SENSOR(RawlogReplay, sigloc)
+
+namespace sigloc
+{
+using mrpt::obs::CActionCollection;
+using mrpt::obs::CObservation;
+using mrpt::obs::CObservationOdometry;
+using mrpt::obs::CSensoryFrame;
+
+void RawlogReplay::loadConfig_sensorSpecific(const mrpt::config::CConfigFileBase& source,
+                                             const std::string& section)
+{
+  path_ = source.read_string(section, "rawlog", "", true);
+  stop_after_end_ = source.read_double(section, "stop_after_end_s", stop_after_end_);
+}
+
+void RawlogReplay::initialize()
+{
+  if (!file_.open(path_)) throw std::runtime_error(path_ + ": cannot read");
+  m_state = ssWorking;
+}
+
+void RawlogReplay::doProcess()
+{
+  if (idle_ == 0 && playNext()) return;
+  idle_ += 1 / m_process_rate;
+  if (stop_after_end_ > 0 && idle_ > stop_after_end_)
+  {
+    throw std::runtime_error(path_ + ": played to its end");
+  }
+}
+
+/// Returns false at the end of the log.
+bool RawlogReplay::playNext()
+{
+  auto archive = mrpt::serialization::archiveFrom(file_);
+  CActionCollection::Ptr actions;
+  CSensoryFrame::Ptr frame;
+  CObservation::Ptr observation;
+  if (!mrpt::obs::CRawlog::getActionObservationPairOrObservation(archive, actions, frame,
+                                                                 observation, entry_))
+  {
+    return false;
+  }
+  const auto label = [&](const CObservation::Ptr& seen)
+  {
+    // What has no label can't be exported or removed by stock programs.
+    if (seen->sensorLabel.empty()) seen->sensorLabel = m_sensorLabel;
+    return seen;
+  };
+  if (observation) appendObservation(label(observation));
+  if (!frame || frame->size() == 0) return true;
+  const auto movement = actions ? actions->getBestMovementEstimation() : nullptr;
+  if (movement)
+  {
+    odometry_ = odometry_ + movement->poseChange->getMeanVal();
+    auto odometry = CObservationOdometry::Create();
+    odometry->timestamp = (*frame->begin())->timestamp;
+    odometry->sensorLabel = "ODOMETRY";
+    odometry->odometry = odometry_;
+    appendObservation(odometry);
+  }
+  for (const CObservation::Ptr& seen : *frame) appendObservation(label(seen));
+  return true;
+}
+}  // namespace sigloc

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sigloc/map/map_scene.h"
+
+#include <cmath>
+
+#include "sigloc/map/RayCaster.h"
+
+namespace sigloc
+{
+using mrpt::math::TPoint2D;
+
+namespace
+{
+constexpr std::size_t kBeams = 360;
+constexpr double kRange = 30.0;  // [m]
+
+bool isFree(const DenseField& field, const TPoint2D& place)
+{
+  const double x = std::floor((place.x - field.frame.origin.x) / field.frame.resolution);
+  const double y = std::floor((place.y - field.frame.origin.y) / field.frame.resolution);
+  if (!(x >= 0 && y >= 0 && x < field.frame.width && y < field.frame.height)) return false;
+  const std::size_t cell =
+      static_cast<std::size_t>(y) * field.frame.width + static_cast<std::size_t>(x);
+  return field.cells[cell].state == CellState::free;
+}
+}  // namespace
+
+ObservedScene sceneOfMap(const FeatureMap& map)
+{
+  ObservedScene scene;
+  scene.features = map.features();
+  const TPoint2D origin(0, 0);
+  if (!map.field() || !isFree(*map.field(), origin)) return scene;
+  scene.sensor_origins.push_back(origin);
+  const RayCaster caster(*map.field());
+  for (std::size_t i = 0; i < kBeams; ++i)
+  {
+    const double angle = 2 * M_PI * static_cast<double>(i) / static_cast<double>(kBeams);
+    const auto range = caster.cast(origin, angle, kRange);
+    if (!range) continue;
+    scene.beams.push_back({{*range * std::cos(angle), *range * std::sin(angle)}, 0});
+  }
+  return scene;
+}
+}  // namespace sigloc

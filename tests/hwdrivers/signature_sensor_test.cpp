@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sigloc/hwdrivers/SignatureSensor.h"
+
+#include <gtest/gtest.h>
+#include <mrpt/config/CConfigFileMemory.h>
+#include <mrpt/obs/CObservationOdometry.h>
+
+#include <cmath>
+
+#include "bridge/rawlog_files.h"
+#include "sigloc/bridge/ObservationSignatures.h"
+
+using namespace sigloc;
+using namespace sigloc::test;
+using mrpt::hwdrivers::CGenericSensor;
+
+namespace
+{
+mrpt::config::CConfigFileMemory config(const std::string& rawlog, const std::string& more = {})
+{
+  mrpt::config::CConfigFileMemory ini;
+  ini.setContent(
+      "[L]\ndriver=SignatureSensor\nprocess_rate=100\nsensorLabel=FRONT\n"
+      "laser_driver=RawlogReplay\nstop_after_end_s=0.05\nrawlog=" +
+      rawlog + "\n" + more);
+  return ini;
+}
+
+CGenericSensor::Ptr sensorWith(const mrpt::config::CConfigFileMemory& ini)
+{
+  auto sensor = CGenericSensor::createSensorPtr("SignatureSensor");
+  sensor->loadConfig(ini, "L");
+  sensor->initialize();
+  return sensor;
+}
+
+std::vector<mrpt::obs::CObservation::Ptr> playAll(CGenericSensor& sensor)
+{
+  std::vector<mrpt::obs::CObservation::Ptr> all;
+  try
+  {
+    for (int i = 0; i < 1000; ++i)
+    {
+      sensor.doProcess();
+      for (const auto& [time, object] : sensor.getObservations())
+      {
+        all.push_back(std::dynamic_pointer_cast<mrpt::obs::CObservation>(object));
+      }
+    }
+  }
+  catch (const std::runtime_error& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("played to its end"), std::string::npos);
+  }
+  return all;
+}
+}  // namespace
+
+TEST(SignatureSensor, AddsSignaturesToWhatALogHolds)
+{
+  const TemporaryFolder folder;
+  const auto path = folder / "in.rawlog";
+  writeObjects(path, {makeScan(1, 3.0F, "FRONT"), makeOdometry(1.5, {1, 0, 0}),
+                      makeScan(2, 4.0F, "")});
+  const auto sensor = sensorWith(config(path.string()));
+  const auto all = playAll(*sensor);
+  ASSERT_EQ(all.size(), 5U);
+  EXPECT_EQ(all[0]->sensorLabel, "FRONT");
+  EXPECT_EQ(all[1]->sensorLabel, "FRONT_SIGNATURES");
+  EXPECT_EQ(all[1]->timestamp, all[0]->timestamp);
+  EXPECT_EQ(all[2]->sensorLabel, "ODOMETRY");
+  EXPECT_EQ(all[3]->sensorLabel, "FRONT") << "what had no label";
+  EXPECT_TRUE(std::dynamic_pointer_cast<ObservationSignatures>(all[4]));
+}
+
+TEST(SignatureSensor, TurnsTheMotionOfPairsIntoOdometry)
+{
+  const TemporaryFolder folder;
+  const auto path = folder / "in.rawlog";
+  const auto covariance = mrpt::math::CMatrixDouble33();
+  writeObjects(path, {makeAction({0.5, 0, M_PI / 2}, covariance), makeFrame(makeScan(1)),
+                      makeAction({0.5, 0, 0}, covariance), makeFrame(makeScan(2))});
+  const auto sensor = sensorWith(config(path.string()));
+  const auto all = playAll(*sensor);
+  ASSERT_EQ(all.size(), 6U);
+  const auto last = std::dynamic_pointer_cast<mrpt::obs::CObservationOdometry>(all[3]);
+  ASSERT_TRUE(last);
+  EXPECT_NEAR(last->odometry.x(), 0.5, 1e-9);
+  EXPECT_NEAR(last->odometry.y(), 0.5, 1e-9);
+  EXPECT_EQ(last->timestamp, all[4]->timestamp);
+}
+
+TEST(SignatureSensor, RefusesWhatItDoesNotKnow)
+{
+  const auto message = [](const mrpt::config::CConfigFileMemory& ini)
+  { return messageOf<std::exception>([&] { sensorWith(ini); }); };
+  EXPECT_NE(message(config("/nonexistent.rawlog")).find("/nonexistent.rawlog"), std::string::npos);
+  EXPECT_NE(message(config("x", "features.min_segmnt_length=1\n")).find("min_segmnt_length"),
+            std::string::npos);
+  auto unknown = config("x");
+  unknown.write("L", "laser_driver", std::string("CNoSuchLaser"));
+  EXPECT_NE(message(unknown).find("CNoSuchLaser"), std::string::npos);
+  auto itself = config("x");
+  itself.write("L", "laser_driver", std::string("SignatureSensor"));
+  EXPECT_NE(message(itself).find("no such sensor"), std::string::npos);
+}
