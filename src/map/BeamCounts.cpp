@@ -48,6 +48,18 @@ void increase(std::uint16_t& count)
   if (count < 65535) ++count;
 }
 
+/// Rounds down; for numbers that are known to fit, which spares a call a cell.
+std::int32_t roundDown(double value)
+{
+  const auto truncated = static_cast<std::int32_t>(value);
+  return value < truncated ? truncated - 1 : truncated;
+}
+
+CellIndex cellAt(const TPoint2D& p, const TPoint2D& anchor, double resolution)
+{
+  return {roundDown((p.x - anchor.x) / resolution), roundDown((p.y - anchor.y) / resolution)};
+}
+
 /// Rounds down, for negative numbers too.
 std::int32_t tileOf(std::int32_t cell)
 {
@@ -117,21 +129,12 @@ void BeamCounts::add(const PosedScans& look, double max_range)
                 { addBeam(origin, end, cursor); });
 }
 
-CellIndex BeamCounts::cellOf(const TPoint2D& p) const
-{
-  return {static_cast<std::int32_t>(std::floor((p.x - anchor_.x) / resolution_)),
-          static_cast<std::int32_t>(std::floor((p.y - anchor_.y) / resolution_))};
-}
-
-BeamCounts::Count& BeamCounts::countAt(const CellIndex& cell, Cursor& cursor)
+BeamCounts::Cursor BeamCounts::enterTile(const CellIndex& cell)
 {
   const std::uint64_t key = keyOf(cell);
-  if (key != cursor.key || cursor.tile == nullptr)
-  {
-    cursor = {key, &tiles_[key]};
-    markChanged(key, *cursor.tile);
-  }
-  return cursor.tile->counts[indexInTile(cell)];
+  const Cursor cursor{key, &tiles_[key]};
+  markChanged(key, *cursor.tile);
+  return cursor;
 }
 
 void BeamCounts::markChanged(std::uint64_t key, Tile& tile)
@@ -146,15 +149,22 @@ void BeamCounts::addBeam(const TPoint2D& origin, const TPoint2D& end, Cursor& cu
 {
   const TPoint2D beam = end - origin;
   const double length = beam.norm();
-  const auto steps = static_cast<std::int64_t>(length / resolution_ - 1.0);
+  const double resolution = resolution_;
+  const TPoint2D anchor = anchor_;
+  const auto count_of = [&](const CellIndex& cell) -> Count&
+  {
+    if (keyOf(cell) != cursor.key || cursor.tile == nullptr) cursor = enterTile(cell);
+    return cursor.tile->counts[indexInTile(cell)];
+  };
+  const auto steps = static_cast<std::int64_t>(length / resolution - 1.0);
   for (std::int64_t k = 0; k < steps; ++k)
   {
-    const double share = static_cast<double>(k) * resolution_ / length;
-    increase(countAt(cellOf(origin + beam * share), cursor).passes);
+    const double share = static_cast<double>(k) * resolution / length;
+    increase(count_of(cellAt(origin + beam * share, anchor, resolution)).passes);
   }
   cells_counted_ += static_cast<std::uint64_t>(std::max<std::int64_t>(steps, 0)) + 1;
-  const CellIndex hit_cell = cellOf(end);
-  Count& hit = countAt(hit_cell, cursor);
+  const CellIndex hit_cell = cellAt(end, anchor, resolution);
+  Count& hit = count_of(hit_cell);
   increase(hit.hits);
   if (hit.last_look == look_) return;
   hit.last_look = look_;
@@ -189,12 +199,10 @@ const BeamCounts::Count* BeamCounts::find(const CellIndex& cell) const
   return tile == tiles_.end() ? nullptr : &tile->second.counts[indexInTile(cell)];
 }
 
-/// A cell was hit often enough by itself or, once hit, together with its neighbours: a far wall
-/// spreads over two or three cells.
-bool BeamCounts::hitOften(const CellIndex& cell, const Count& count, std::uint32_t min_looks) const
+/// A cell that was hit, but not often enough by itself, may be so together with its neighbours: a
+/// far wall spreads over two or three cells.
+bool BeamCounts::hitOftenAround(const CellIndex& cell, std::uint32_t min_looks) const
 {
-  if (count.looks == 0) return false;
-  if (count.looks >= min_looks) return true;
   std::uint32_t sum = 0;
   for (std::int32_t y = cell.y - 1; y <= cell.y + 1; ++y)
   {
@@ -207,28 +215,25 @@ bool BeamCounts::hitOften(const CellIndex& cell, const Count& count, std::uint32
   return sum >= min_looks;
 }
 
-CellState BeamCounts::stateOf(const CellIndex& cell, const Count& count,
-                              std::uint32_t min_looks) const
-{
-  if (!hitOften(cell, count, min_looks))
-  {
-    return count.passes > 0 ? CellState::free : CellState::unknown;
-  }
-  const bool solid = count.looks >= kSolidLooks && count.hits >= count.passes;
-  return solid ? CellState::solid_wall : CellState::wall;
-}
-
 BeamCounts::TileStates BeamCounts::statesOf(const CellIndex& name, std::uint32_t min_looks) const
 {
   TileStates states{};
   const auto tile = tiles_.find(keyOf(name));
   if (tile == tiles_.end()) return states;
+  const auto state_of = [&](const CellIndex& cell, const Count& count)
+  {
+    const bool wall =
+        count.looks > 0 && (count.looks >= min_looks || hitOftenAround(cell, min_looks));
+    if (!wall) return count.passes > 0 ? CellState::free : CellState::unknown;
+    const bool solid = count.looks >= kSolidLooks && count.hits >= count.passes;
+    return solid ? CellState::solid_wall : CellState::wall;
+  };
   std::size_t i = 0;
   for (std::int32_t y = 0; y < kTile; ++y)
   {
     for (std::int32_t x = 0; x < kTile; ++x, ++i)
     {
-      states[i] = stateOf({name.x + x, name.y + y}, tile->second.counts[i], min_looks);
+      states[i] = state_of({name.x + x, name.y + y}, tile->second.counts[i]);
     }
   }
   return states;
@@ -238,7 +243,7 @@ CellBox BeamCounts::box() const
 {
   const TPoint2D border(kBorder, kBorder);
   const TPoint2D high = extent_.high + border - anchor_;
-  return {cellOf(extent_.low - border),
+  return {cellAt(extent_.low - border, anchor_, resolution_),
           {static_cast<std::int32_t>(std::ceil(high.x / resolution_)),
            static_cast<std::int32_t>(std::ceil(high.y / resolution_))}};
 }

@@ -100,6 +100,11 @@ std::vector<TPoint2Df> wallRidges(const OccupancyRaster& raster)
   const auto at = [&](std::int32_t x, std::int32_t y)
   { return static_cast<std::size_t>(y) * raster.frame.width + static_cast<std::size_t>(x); };
   const double falloff = 0.5 * resolution * resolution / (kRidgeSigma * kRidgeSigma);
+  std::vector<double> weights;  // by squared distance [cells^2]
+  for (std::int32_t squared = 0; squared <= 2 * radius * radius; ++squared)
+  {
+    weights.push_back(std::exp(-falloff * squared));
+  }
   std::vector<TPoint2Df> ridges(raster.cells.size());
   for (std::int32_t y = 0; y < height; ++y)
   {
@@ -114,7 +119,7 @@ std::vector<TPoint2Df> wallRidges(const OccupancyRaster& raster)
         {
           const CellState state = raster.cells[at(x + i, y + j)];
           if (!isWall(state)) continue;
-          const double weight = std::exp(-falloff * (i * i + j * j)) *
+          const double weight = weights[static_cast<std::size_t>(i * i + j * j)] *
                                 (state == CellState::solid_wall ? kSolidWeight : 1.0);
           sum += weight;
           moment += TPoint2D(i, j) * weight;

@@ -83,12 +83,6 @@ void GrowingField::update(BeamCounts& counts, std::uint32_t min_looks)
   field_.free_area = static_cast<double>(free_cells_) * r * r;
 }
 
-DenseCell& GrowingField::at(std::int32_t x, std::int32_t y)
-{
-  return field_.cells[static_cast<std::size_t>(y - box_.low.y) * field_.frame.width +
-                      static_cast<std::size_t>(x - box_.low.x)];
-}
-
 /// Makes room with a margin in proportion to what is there, so that copying stays cheap on average.
 void GrowingField::growTo(const CellBox& wanted, const BeamCounts& counts)
 {

@@ -29,7 +29,7 @@ mrpt::config::CConfigFileMemory config(const std::string& rawlog, const std::str
 
 CGenericSensor::Ptr sensorWith(const mrpt::config::CConfigFileMemory& ini)
 {
-  auto sensor = CGenericSensor::createSensorPtr("SignatureSensor");
+  auto sensor = CGenericSensor::createSensorPtr(SignatureSensor::classSignatureSensor.className);
   sensor->loadConfig(ini, "L");
   sensor->initialize();
   return sensor;

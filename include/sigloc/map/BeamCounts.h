@@ -102,14 +102,12 @@ class BeamCounts
     std::uint64_t key = ~0ULL;
     Tile* tile = nullptr;
   };
-  Count& countAt(const CellIndex& cell, Cursor& cursor);
+  Cursor enterTile(const CellIndex& cell);
   void markChanged(std::uint64_t key, Tile& tile);
   const Count* find(const CellIndex& cell) const;
   void touchNeighbours(const CellIndex& hit);
   void addBeam(const mrpt::math::TPoint2D& origin, const mrpt::math::TPoint2D& end, Cursor& cursor);
-  CellIndex cellOf(const mrpt::math::TPoint2D& p) const;
-  bool hitOften(const CellIndex& cell, const Count& count, std::uint32_t min_looks) const;
-  CellState stateOf(const CellIndex& cell, const Count& count, std::uint32_t min_looks) const;
+  bool hitOftenAround(const CellIndex& cell, std::uint32_t min_looks) const;
 
   double resolution_;
   mrpt::math::TPoint2D anchor_;

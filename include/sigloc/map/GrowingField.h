@@ -38,7 +38,11 @@ class GrowingField
   void setState(DenseCell& cell, CellState state);
   void solveAround(const std::vector<CellBox>& changed);
   void solve(const CellBox& box);
-  DenseCell& at(std::int32_t x, std::int32_t y);
+  DenseCell& at(std::int32_t x, std::int32_t y)
+  {
+    return field_.cells[static_cast<std::size_t>(y - box_.low.y) * field_.frame.width +
+                        static_cast<std::size_t>(x - box_.low.x)];
+  }
 
   DenseField field_;
   CellBox box_;  // of field_, in cells of the counts
