@@ -61,7 +61,9 @@ void describe(const Feature& feature, std::ostream& out)
   {
     const bool is_angle = feature.type == FeatureType::corner;
     out << ", direction " << mrpt::RAD2DEG(feature.direction) << " deg, "
-        << (is_angle ? "opening " : feature.type == FeatureType::circle ? "radius " : "length ")
+        << (is_angle                              ? "opening "
+            : feature.type == FeatureType::circle ? "radius "
+                                                  : "length ")
         << (is_angle ? mrpt::RAD2DEG(feature.size) : feature.size) << (is_angle ? " deg" : " m");
   }
   if (feature.label >= 0) out << ", label " << feature.label;

@@ -75,8 +75,12 @@ ObservedScene sceneOf(const CMetricMap* m2)
 PoseRegion regionAround(const mrpt::poses::CPose2D& pose,
                         const SignatureAligner::SearchLimits& limits)
 {
-  return {pose.x() - limits.distance, pose.x() + limits.distance, pose.y() - limits.distance,
-          pose.y() + limits.distance, pose.phi(),                 limits.turn};
+  return {pose.x() - limits.distance,
+          pose.x() + limits.distance,
+          pose.y() - limits.distance,
+          pose.y() + limits.distance,
+          pose.phi(),
+          limits.turn};
 }
 }  // namespace
 

@@ -125,8 +125,8 @@ void BeamCounts::add(const PosedScans& look, double max_range)
   extent_ = extent;
   ++look_;
   Cursor cursor;
-  forEachReturn(look, max_range, [&](const TPoint2D& origin, const TPoint2D& end)
-                { addBeam(origin, end, cursor); });
+  forEachReturn(look, max_range,
+                [&](const TPoint2D& origin, const TPoint2D& end) { addBeam(origin, end, cursor); });
 }
 
 BeamCounts::Cursor BeamCounts::enterTile(const CellIndex& cell)

@@ -106,8 +106,7 @@ void GrowingField::growTo(const CellBox& wanted, const BeamCounts& counts)
     const DenseCell* row = &at(box_.low.x, y);
     const std::size_t first = static_cast<std::size_t>(y - grown.low.y) * larger.frame.width +
                               static_cast<std::size_t>(box_.low.x - grown.low.x);
-    std::copy(row, row + box_.width(),
-              larger.cells.begin() + static_cast<std::ptrdiff_t>(first));
+    std::copy(row, row + box_.width(), larger.cells.begin() + static_cast<std::ptrdiff_t>(first));
   }
   field_ = std::move(larger);
   box_ = grown;

@@ -7,9 +7,9 @@
 #include <optional>
 #include <stdexcept>
 
+#include "scene_in_map.h"
 #include "sigloc/map/FeatureMerger.h"
 #include "sigloc/map/RayCaster.h"
-#include "scene_in_map.h"
 #include "wall_end_lengths.h"
 
 namespace sigloc

@@ -249,8 +249,7 @@ TEST(SignatureMap, LearnsOnAfterSerialization)
   for (const bool prepared : {false, true})
   {
     SignatureMap map = prepared ? SignatureMap(sampleMap(60, 40)) : SignatureMap();
-    const auto insert = [&](SignatureMap& into, double x)
-    {
+    const auto insert = [&](SignatureMap& into, double x) {
       into.insertObservation(*roomScan({x, 0, 0.1}), CPose3D(x, 0, 0, 0.1, 0, 0));
     };
     for (const double x : {-1.5, -0.5, 0.5}) insert(map, x);

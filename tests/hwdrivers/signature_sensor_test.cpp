@@ -61,8 +61,8 @@ TEST(SignatureSensor, AddsSignaturesToWhatALogHolds)
 {
   const TemporaryFolder folder;
   const auto path = folder / "in.rawlog";
-  writeObjects(path, {makeScan(1, 3.0F, "FRONT"), makeOdometry(1.5, {1, 0, 0}),
-                      makeScan(2, 4.0F, "")});
+  writeObjects(path,
+               {makeScan(1, 3.0F, "FRONT"), makeOdometry(1.5, {1, 0, 0}), makeScan(2, 4.0F, "")});
   const auto sensor = sensorWith(config(path.string()));
   const auto all = playAll(*sensor);
   ASSERT_EQ(all.size(), 5U);

@@ -44,7 +44,7 @@ PosedScans lookAround(const TPose2D& pose, const mrpt::math::TPoint2D& centre)
 /// Looks from random places of rooms that lie in all directions from the first one.
 std::vector<PosedScans> tour(std::size_t looks, std::uint32_t seed)
 {
-  const std::vector<mrpt::math::TPoint2D> rooms = {{0, 0}, {6.2, 0}, {-6.2, 0.1}, {0, -6.2},
+  const std::vector<mrpt::math::TPoint2D> rooms = {{0, 0},   {6.2, 0},   {-6.2, 0.1}, {0, -6.2},
                                                    {0.1, 9}, {-20, -14}, {31, 6}};
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> shift(-2.2, 2.2);

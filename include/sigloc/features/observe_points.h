@@ -15,6 +15,6 @@ namespace sigloc
 /// `origin` would see them: of points in one direction the nearest. `range_sigma` [m] is the
 /// standard deviation of a range. Points that are not finite or lie on the origin are skipped.
 ObservedScene observePoints(const std::vector<mrpt::math::TPoint2D>& points,
-                            const mrpt::math::TPoint2D& origin = {0, 0},
-                            double range_sigma = 0.02, const FeatureExtractorOptions& options = {});
+                            const mrpt::math::TPoint2D& origin = {0, 0}, double range_sigma = 0.02,
+                            const FeatureExtractorOptions& options = {});
 }  // namespace sigloc

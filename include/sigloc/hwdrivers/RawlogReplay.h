@@ -12,8 +12,8 @@
 namespace sigloc
 {
 /// A sensor that plays a rawlog of either kind, one entry each time it is asked; the motion of
-/// action/frame pairs comes out as odometry. Times stay those of the log; what has no label gets the
-/// sensor's.
+/// action/frame pairs comes out as odometry. Times stay those of the log; what has no label gets
+/// the sensor's.
 ///
 /// Keys of its ini section:
 ///

@@ -15,7 +15,8 @@ namespace sigloc
 ///
 /// Its ini section holds, besides what rawlog-grabber asks of every sensor:
 ///
-/// * `laser_driver`: the class of the sensor, such as CHokuyoURG, which finds its own keys here too;
+/// * `laser_driver`: the class of the sensor, such as CHokuyoURG, which finds its own keys here
+/// too;
 ///   `RawlogReplay` plays the log `rawlog` in place of a device
 /// * `features.<key>`: the options of FeatureExtractorOptions
 class SignatureSensor : public mrpt::hwdrivers::CGenericSensor

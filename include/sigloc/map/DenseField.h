@@ -70,8 +70,8 @@ struct DenseField
 /// ends at 1.27 m, the offset bytes at 127 cells.
 double truncationDistance(double resolution);
 
-/// Returns how far [cells] a cell's state reaches: a cell of the dense field depends on none that is
-/// farther away along either axis.
+/// Returns how far [cells] a cell's state reaches: a cell of the dense field depends on none that
+/// is farther away along either axis.
 std::int32_t fieldReach(double resolution);
 
 /// Returns the dense field of a raster. Throws std::invalid_argument when the cell count disagrees

@@ -44,7 +44,8 @@ class MapBuilder
   std::vector<Feature> features() const;
 
   /// Brings the dense field up to date and returns it, with some unknown cells around it; null
-  /// where the base has none or there was no return yet. Valid, and unchanged, until the next `add`.
+  /// where the base has none or there was no return yet. Valid, and unchanged, until the next
+  /// `add`.
   const DenseField* field();
 
   /// Returns the map so far.
