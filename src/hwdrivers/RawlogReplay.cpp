@@ -62,7 +62,7 @@ bool RawlogReplay::playNext()
     return seen;
   };
   if (observation) appendObservation(label(observation));
-  if (!frame || frame->size() == 0) return true;
+  if (!frame || frame->empty()) return true;
   const auto movement = actions ? actions->getBestMovementEstimation() : nullptr;
   if (movement)
   {

@@ -24,7 +24,6 @@ MRPT_INITIALIZER(register_sigloc_sensors)
 namespace sigloc
 {
 using mrpt::config::CConfigFileBase;
-using mrpt::hwdrivers::CGenericSensor;
 using mrpt::obs::CObservation2DRangeScan;
 
 namespace
