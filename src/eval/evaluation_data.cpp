@@ -167,6 +167,7 @@ EvaluationData readEvaluationData(const EvaluationSources& sources)
   else
   {
     data.map = evaluationMapOf(source);
+    data.map.file = sources.map;
     if (sources.rawlog.empty())
     {
       data.queries = queriesOf(scansOf(readMapSource(sources.queries), sources.queries), sources);

@@ -1,13 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <mrpt/bayes/CParticleFilter.h>
-#include <mrpt/config/CConfigFileMemory.h>
-#include <mrpt/maps/COccupancyGridMap2D.h>
-#include <mrpt/random/RandomGenerators.h>
-#include <mrpt/slam/CMonteCarloLocalization2D.h>
-
 #include <stdexcept>
 
+#include "lost_filter.h"
 #include "sigloc/eval/MonteCarloSettings.h"
 #include "sigloc/eval/TrackingMethod.h"
 
@@ -21,20 +16,8 @@ class MonteCarloTracking : public SteppedTracking
  public:
   MonteCarloTracking(const mrpt::maps::CMultiMetricMap::Ptr& map,
                      const MonteCarloSettings& settings, std::uint32_t seed)
-      : settings_(settings)
+      : settings_(settings), filter_(map, settings, seed)
   {
-    // Its own randomize() would keep a Gaussian drawn before.
-    mrpt::random::getRandomGenerator() = mrpt::random::CRandomGenerator(seed);
-    const mrpt::config::CConfigFileMemory config(toIni(settings));
-    filter_.options.metricMap = map;
-    filter_.options.KLD_params.loadFromConfigFile(config, "KLD_options");
-    executor_.m_options.loadFromConfigFile(config, "PF_options");
-    const PoseRegion region = startRegionOf(settings);
-    const auto grid = map->mapByClass<mrpt::maps::COccupancyGridMap2D>();
-    filter_.resetUniformFreeSpace(grid.get(), 0.7, static_cast<int>(settings.particles),
-                                  region.x_min, region.x_max, region.y_min, region.y_max,
-                                  region.heading - region.heading_tolerance,
-                                  region.heading + region.heading_tolerance);
   }
 
   TrackClaim step(const RawlogStep& step) override
@@ -43,16 +26,15 @@ class MonteCarloTracking : public SteppedTracking
     if (steps_++ > 0)
     {
       const mrpt::obs::CActionCollection actions = actionsOf(step, settings_);
-      executor_.executeOn(filter_, &actions, step.frame.get());
+      filter_.update(&actions, *step.frame);
     }
-    const auto [covariance, mean] = filter_.getCovarianceAndMean();
+    const auto [covariance, mean] = filter_.particles().getCovarianceAndMean();
     return cloud_.claim(mean, covariance);
   }
 
  private:
   MonteCarloSettings settings_;
-  mrpt::slam::CMonteCarloLocalization2D filter_;
-  mrpt::bayes::CParticleFilter executor_;
+  detail::LostFilter filter_;
   TightCloud cloud_;
   std::size_t steps_ = 0;
 };

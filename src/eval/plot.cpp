@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sigloc/eval/plot.h"
 
-#include <cstdio>
-
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <iomanip>
 #include <sstream>
+#include <system_error>
+
+#include "child_process.h"
 
 namespace sigloc
 {
@@ -92,11 +94,15 @@ PlotSeries cumulativeShare(const std::string& title, std::vector<double> values,
 
 bool drawPlot(const Plot& plot, const std::filesystem::path& png)
 {
-  const std::string script = scriptOf(plot, png);
-  if (script.empty()) return false;
-  FILE* gnuplot = popen("gnuplot >/dev/null 2>&1", "w");
-  if (!gnuplot) return false;
-  const bool written = fwrite(script.data(), 1, script.size(), gnuplot) == script.size();
-  return pclose(gnuplot) == 0 && written;
+  const std::string text = scriptOf(plot, png);
+  if (text.empty()) return false;
+  // From a file: a pipe to a gnuplot that ends early, or is missing, would end this program too.
+  std::filesystem::path script = png;
+  script += ".gnuplot";
+  std::ofstream(script) << text;
+  const bool drawn = detail::runProgram("gnuplot", script.string(), "/dev/null") == 0;
+  std::error_code ignored;
+  std::filesystem::remove(script, ignored);
+  return drawn;
 }
 }  // namespace sigloc

@@ -50,6 +50,12 @@ std::string remarks(const RelocateReport& report)
   }
   for (const RelocateMethodReport& method : report.methods)
   {
+    if (method.summary.cut_short > 0)
+    {
+      out << "* `" << method.name << "`: cut short in " << method.summary.cut_short << " of "
+          << method.summary.queries
+          << " queries, which ended at the budget with the best found until then.\n";
+    }
     if (std::isnan(method.summary.ns_per_lookup)) continue;
     out << "* `" << method.name << "`: " << fixedNumber(method.summary.ns_per_lookup, 2)
         << " ns a look-up, everything included (the published figures of this search were taken at "

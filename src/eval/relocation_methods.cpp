@@ -230,6 +230,12 @@ MethodEntry entry(const char* name, Arguments... arguments)
           { return std::make_unique<Method>(map, options, arguments...); }};
 }
 
+MethodEntry monteCarlo(const char* name)
+{
+  return {name, [=](const EvaluationMap& map, const RelocationMethodOptions& options)
+          { return detail::makeMonteCarloRelocation(name, map, options); }};
+}
+
 const std::vector<MethodEntry>& methodTable()
 {
   static const std::vector<MethodEntry> kTable = {
@@ -246,6 +252,8 @@ const std::vector<MethodEntry>& methodTable()
       entry<FeatureOpponentRelocation>("jcbb", "jcbb"),
       entry<FeatureOpponentRelocation>("interpretation-tree", "interpretation-tree"),
       entry<FeatureOpponentRelocation>("clique", "clique"),
+      monteCarlo("mcl"),
+      monteCarlo("mcl-tuned"),
   };
   return kTable;
 }

@@ -83,6 +83,7 @@ RelocationRecord judgeRelocation(const EvaluationQuery& query, const RelocationR
   record.probability = answer.probability;
   record.candidates = answer.candidates.size();
   record.poses_scored = answer.counters.poses_scored;
+  record.cut_short = answer.counters.cut_short > 0;
   if (!answer.candidates.empty())
   {
     record.first = answer.candidates.front().pose.mean;
@@ -165,6 +166,7 @@ RelocationSummary summarize(const std::vector<RelocationRecord>& records,
     if (record.claim == Claim::right) ++summary.confident_right;
     if (record.claim == Claim::inaccurate) ++summary.inaccurate;
     if (record.claim == Claim::wrong) ++summary.confidently_wrong;
+    if (record.cut_short) ++summary.cut_short;
     if (record.sawNothing()) ++summary.saw_nothing;
     if (record.sawNothing() || !record.truth) continue;
     const bool right = record.rank_of_right == 1;

@@ -5,12 +5,6 @@
 #include <mrpt/poses/CPosePDFParticles.h>
 #include <mrpt/serialization/CArchive.h>
 
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <array>
 #include <cstdlib>
 #include <fstream>
 #include <iomanip>
@@ -18,6 +12,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "child_process.h"
 #include "sigloc/eval/MonteCarloSettings.h"
 #include "sigloc/eval/TrackingMethod.h"
 
@@ -86,33 +81,20 @@ std::string configurationOf(const MonteCarloSettings& settings, const fs::path& 
   return ini.str();
 }
 
-/// Runs the program, everything it prints into `log`. Standard input is empty: at errors it waits
-/// for a key.
-void runProgram(const fs::path& ini, const fs::path& log)
+/// Runs the program, everything it prints into `log`. It has nothing to read: at errors it waits for
+/// a key.
+void runStock(const fs::path& ini, const fs::path& log)
 {
-  posix_spawn_file_actions_t files;
-  posix_spawn_file_actions_init(&files);
-  posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC,
-                                   0600);
-  posix_spawn_file_actions_adddup2(&files, STDOUT_FILENO, STDERR_FILENO);
-  std::string program = kProgram;
-  std::string argument = ini.string();
-  std::array<char*, 3> arguments = {program.data(), argument.data(), nullptr};
-  pid_t child = 0;
-  const int failed = posix_spawnp(&child, kProgram, &files, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&files);
-  if (failed != 0)
+  const auto status = detail::runProgram(kProgram, ini.string(), log);
+  if (!status)
   {
     throw std::runtime_error(std::string(kProgram) + ": cannot be run (it is in the package " +
                              kPackage + ")");
   }
-  int status = 0;
-  waitpid(child, &status, 0);
-  if (status != 0)
+  if (*status != 0)
   {
     throw std::runtime_error(std::string(kProgram) + ": failed with status " +
-                             std::to_string(status));
+                             std::to_string(*status));
   }
 }
 
@@ -199,7 +181,7 @@ class StockMonteCarlo : public TrackingMethod
     writeDrive(steps, settings_, drive);
     std::ofstream(ini) << configurationOf(settings_, map_, drive, out / "mcl");
     fs::create_directory(out);
-    runProgram(ini, log);
+    runStock(ini, log);
     return readClaims(onlyFolderIn(out), log, steps.size());
   }
 

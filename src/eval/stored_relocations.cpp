@@ -52,6 +52,8 @@ RelocationRecord storedRelocation(const CsvTable& results, std::size_t row)
   record.claims_verdict = !results.text(row, "claim").empty();
   if (record.claims_verdict) record.claim = storedName(results, row, "claim", Claim::wrong);
   record.poses_scored = results.count(row, "poses_scored");
+  // Runs of earlier versions did not tell.
+  record.cut_short = results.has("cut_short") && results.count(row, "cut_short") != 0;
   record.time_ms = results.number(row, "time_ms");
   return record;
 }

@@ -154,6 +154,20 @@ TEST(EvalReport, IsWrittenInWholeOrNotAtAll)
   EXPECT_EQ(listing(folder), before) << "folders made on the way are gone";
 }
 
+TEST(EvalReport, NeedsNoPlots)
+{
+  // A missing gnuplot, like one that fails, costs the plots and nothing else.
+  const TemporaryFolder folder;
+  const std::string command = "cd " + quoted(folder.path().string()) + " && PATH=/nonexistent " +
+                              quoted(std::string(SIGLOC_BIN_FOLDER) + "/sigloc-eval") +
+                              " scale --map-features 300,400 --poses 1 --out out >table 2>errors";
+  EXPECT_EQ(std::system(command.c_str()), 0) << readBytes(folder / "errors");
+  EXPECT_NE(readBytes(folder / "table").find("| signature"), std::string::npos);
+  EXPECT_TRUE(std::filesystem::exists(folder / "out" / "report.md"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "out" / "time.png"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "out" / ".part"));
+}
+
 TEST(EvalTrack, SimulatedParticleFiltersHaveTheNumberAskedFor)
 {
   const TemporaryFolder folder;

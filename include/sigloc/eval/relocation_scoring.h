@@ -68,6 +68,7 @@ struct RelocationRecord
   bool claims_verdict = false;  ///< the method says whether it is sure
   Claim claim = Claim::none;
   std::uint64_t poses_scored = 0;
+  bool cut_short = false;  ///< the search ended at its budget, unfinished
   double time_ms = 0;
 
   bool sawNothing() const { return valid_beams < kBeamsToSee; }
@@ -107,6 +108,7 @@ struct RelocationSummary
   std::size_t confident_right = 0;
   std::size_t confidently_wrong = 0;
   std::size_t inaccurate = 0;
+  std::size_t cut_short = 0;  ///< answers of searches that ended at their budget
   Proportion recall_at_1;
   Proportion recall_at_1_tight;
   Proportion recall_at_10;

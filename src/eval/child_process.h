@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace sigloc::detail
+{
+/// Runs a program of the PATH with one argument, nothing to read, and all that it prints in `log`.
+/// Returns its status, 0 for success, or nullopt when there is no such program.
+std::optional<int> runProgram(const std::string& program, const std::string& argument,
+                              const std::filesystem::path& log);
+}  // namespace sigloc::detail
