@@ -4,6 +4,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <iostream>
@@ -37,6 +38,8 @@ void CommonOptions::declare(CLI::App& command, const std::vector<std::string>& k
   command.add_option("--heading", heading, "heading and tolerance [deg]: known roughly")
       ->delimiter(',')
       ->expected(2);
+  command.add_option("--draw-failures", draw_failures,
+                     "pictures of the first so many failures of each method (and value or size)");
   command.add_flag("--no-dense", no_dense, "the signature methods do without the dense field");
   declareRunning(command);
 }
@@ -47,6 +50,16 @@ void CommonOptions::refusePrior(const std::string& command) const
   {
     throw std::invalid_argument(command + " takes no --region or --heading");
   }
+}
+
+void CommonOptions::checkDense(const std::vector<std::string>& methods_run, bool has_field) const
+{
+  if (!no_dense) return;
+  if (!has_field) throw std::invalid_argument("--no-dense: maps of landmarks have no dense field");
+  const bool used =
+      std::any_of(methods_run.begin(), methods_run.end(),
+                  [](const std::string& name) { return name.rfind("signature", 0) == 0; });
+  if (!used) throw std::invalid_argument("--no-dense: no signature method is to be run");
 }
 
 std::optional<PoseRegion> CommonOptions::poseRegion() const

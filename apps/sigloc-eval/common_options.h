@@ -26,6 +26,7 @@ struct CommonOptions
   std::vector<double> region;  ///< x0,x1,y0,y1
   std::vector<double> heading;  ///< degrees, tolerance
   bool no_dense = false;
+  std::uint32_t draw_failures = 0;
   bool quiet = false;
   std::string out;
 
@@ -40,6 +41,10 @@ struct CommonOptions
   /// Throws std::invalid_argument when --region or --heading is given to a command that asks in
   /// many maps or knows none.
   void refusePrior(const std::string& command) const;
+
+  /// Throws std::invalid_argument when --no-dense is given to a run in which no method could use a
+  /// dense field: `has_field` tells whether its maps have one.
+  void checkDense(const std::vector<std::string>& methods_run, bool has_field) const;
 
   /// The prior that --region and --heading give together.
   std::optional<PoseRegion> poseRegion() const;

@@ -5,6 +5,7 @@
 #include <mrpt/core/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <stdexcept>
 
@@ -29,52 +30,49 @@ Belief beliefOf(const RelocationResult& answer)
   return belief;
 }
 
-std::string fateOfTheRightPose(const FailedQuery& failure)
-{
-  const RelocationRecord& record = failure.record;
-  if (!record.truth) return "another place";
-  std::string fate = record.rank_of_right > 0
-                         ? mrpt::format("right pose: rank %zu", record.rank_of_right)
-                         : std::string("right pose: refused");
-  if (record.proposed) fate += *record.proposed ? ", proposed" : ", not proposed";
-  return fate;
-}
-
 std::vector<std::string> titleOf(const FailedQuery& failure)
 {
   const RelocationRecord& record = failure.record;
-  std::string second = fateOfTheRightPose(failure);
+  std::string second = failure.fate;
   if (record.error.distance >= 0)
   {
     second =
         mrpt::format("off by %.2f m, %.1f deg; ", record.error.distance, record.error.angle_deg) +
         second;
   }
-  return {mrpt::format("%s, query %s: %s (%.3f)", failure.method.c_str(),
-                       failure.query.name.c_str(), toString(record.verdict), record.probability),
-          second};
+  std::string first = mrpt::format("%s, query %s: %s", failure.method.c_str(),
+                                   failure.query.name.c_str(), toString(record.verdict));
+  if (!std::isnan(record.probability)) first += mrpt::format(" (%.3f)", record.probability);
+  return {first, second};
+}
+
+std::string scoreText(const Candidate& candidate)
+{
+  return std::isnan(candidate.score) ? std::string()
+                                     : mrpt::format(", score %.3f", candidate.score);
 }
 
 std::vector<PictureMaker::CloseUp> closeUpsOf(const FailedQuery& failure)
 {
   std::vector<PictureMaker::CloseUp> places;
+  const std::string seen = failure.query.scans.empty() ? "features" : "scan";
   const auto& candidates = failure.answer.candidates;
   if (const auto& truth = failure.record.truth)
   {
     const std::size_t rank = failure.record.rank_of_right;
-    places.push_back({*truth, "scan at the truth"});
-    if (rank > 0) places.back().title += mrpt::format(", score %.3f", candidates[rank - 1].score);
+    places.push_back({*truth, seen + " at the truth"});
+    if (rank > 0) places.back().title += scoreText(candidates[rank - 1]);
   }
   if (!candidates.empty())
   {
-    places.push_back({candidates.front().pose.mean,
-                      mrpt::format("scan at the first, score %.3f", candidates.front().score)});
+    places.push_back(
+        {candidates.front().pose.mean, seen + " at the first" + scoreText(candidates.front())});
   }
   return places;
 }
-}  // namespace
 
-void removeFailurePictures(const std::filesystem::path& folder)
+/// Removes the pictures that an earlier run left in a folder and its subfolders.
+void removePictures(const std::filesystem::path& folder)
 {
   if (!std::filesystem::is_directory(folder)) return;
   const std::vector<std::string> methods = relocationMethodNames();
@@ -91,7 +89,7 @@ void removeFailurePictures(const std::filesystem::path& folder)
   for (const std::filesystem::path& file : old) std::filesystem::remove(file);
 }
 
-void drawFailures(const std::vector<FailedQuery>& failures, const std::filesystem::path& folder)
+void drawInto(const std::filesystem::path& folder, const std::vector<FailedQuery>& failures)
 {
   std::unique_ptr<PictureMaker> pictures;
   std::shared_ptr<const FeatureMap> drawn_map;
@@ -103,7 +101,8 @@ void drawFailures(const std::vector<FailedQuery>& failures, const std::filesyste
       pictures = std::make_unique<PictureMaker>(*failure.map);
       drawn_map = failure.map;
     }
-    const ObservedScene scene = observeScene(failure.query.scans);
+    ObservedScene scene = observeScene(failure.query.scans);
+    scene.features.insert(scene.features.end(), failure.landmarks.begin(), failure.landmarks.end());
     const Belief belief = beliefOf(failure.answer);
     StepDrawing drawing;
     drawing.observed = &scene;
@@ -118,5 +117,13 @@ void drawFailures(const std::vector<FailedQuery>& failures, const std::filesyste
       throw std::runtime_error(file.string() + ": cannot write");
     }
   }
+}
+}  // namespace
+
+void drawFailures(const FailuresByFolder& failures, const std::filesystem::path& out)
+{
+  const std::filesystem::path folder = out / "failures";
+  removePictures(folder);
+  for (const auto& [name, of_folder] : failures) drawInto(folder / name, of_folder);
 }
 }  // namespace sigloc

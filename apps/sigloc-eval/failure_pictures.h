@@ -3,18 +3,21 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "sigloc/eval/failed_queries.h"
 
 namespace sigloc
 {
-/// Removes the pictures that an earlier run left in a folder and its subfolders.
-void removeFailurePictures(const std::filesystem::path& folder);
+/// What failed, and the folder below `failures` for it, empty for that folder itself.
+using FailuresByFolder = std::vector<std::pair<std::string, std::vector<FailedQuery>>>;
 
-/// Draws each failed query as FOLDER/<method>-<query>.png: the map with what was proposed, the
-/// candidates that were kept and the truth, and closer the scan laid at the truth and at the first
-/// candidate. Makes the folder when there is anything to draw.
+/// Draws each failed query of a run as OUT/failures[/<folder>]/<method>-<query>.png: the map with
+/// what was proposed, the candidates that were kept and the truth, and closer what was seen laid at
+/// the truth and at the first candidate. An earlier run's pictures are removed; folders are made
+/// when there is anything to draw.
 /// Throws std::runtime_error ("path: reason", or that there is no off-screen rendering).
-void drawFailures(const std::vector<FailedQuery>& failures, const std::filesystem::path& folder);
+void drawFailures(const FailuresByFolder& failures, const std::filesystem::path& out);
 }  // namespace sigloc

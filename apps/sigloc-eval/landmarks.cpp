@@ -3,8 +3,10 @@
 #include "sigloc/eval/landmarks.h"
 
 #include <iostream>
+#include <stdexcept>
 
 #include "commands.h"
+#include "failure_pictures.h"
 #include "sigloc/eval/feature_methods.h"
 #include "sigloc/eval/report_files.h"
 
@@ -18,13 +20,32 @@ struct LandmarksFlags
   LandmarksOptions options;
   std::string map_part = "first-half";
 
-  int run(const std::string& command_line)
+  /// Refuses options of the other data set.
+  void checkUse(const CLI::App& command) const
   {
     common.refusePrior("landmarks");
+    common.checkDense({}, false);
+    const bool dlr = options.dataset == "dlr";
+    const std::vector<std::string> others =
+        dlr ? std::vector<std::string>{"--max-travel"}
+            : std::vector<std::string>{"--local-map-steps", "--map-part", "--visited-share",
+                                       "--visited-distance"};
+    for (const std::string& other : others)
+    {
+      if (command.count(other) > 0)
+      {
+        throw std::invalid_argument(other + ": has no use for --dataset " + options.dataset);
+      }
+    }
+  }
+
+  int run(const std::string& command_line)
+  {
     checkWritableFolder(common.out);
     if (!common.methods.empty()) options.methods = common.methods;
     options.first_half_map = map_part == "first-half";
     options.max_queries = common.max_queries;
+    options.keep_failures = common.draw_failures;
     options.seed = common.seed;
     options.command = command_line;
     if (!common.quiet)
@@ -33,6 +54,7 @@ struct LandmarksFlags
     }
     const LandmarksReport report = runLandmarks(options);
     writeLandmarksReport(report, common.out);
+    drawFailures({{"", report.failures}}, common.out);
     if (!common.quiet) std::cout << landmarksTable(report);
     return 0;
   }
@@ -61,11 +83,15 @@ std::function<int()> setUpLandmarks(CLI::App& command, const std::string& comman
       .add_option("--visited-distance", options.visited_distance,
                   "dlr: and when a pose of the first half is so near, m")
       ->check(CLI::PositiveNumber);
-  command.add_option("--max-travel", options.max_travel, "m, longest local map")
+  command.add_option("--max-travel", options.max_travel, "victoria-park: m, longest local map")
       ->check(CLI::PositiveNumber);
   command.add_option("--stride", options.query_stride, "every so many steps is a query")
       ->check(CLI::PositiveNumber);
   flags->common.declare(command, featureMethodNames());
-  return [flags, command_line] { return flags->run(command_line); };
+  return [flags, command_line, &command]
+  {
+    flags->checkUse(command);
+    return flags->run(command_line);
+  };
 }
 }  // namespace sigloc

@@ -18,7 +18,6 @@ struct RelocateFlags
   EvaluationSources sources;
   std::vector<double> map_from_queries;
   bool simulated = false;
-  std::uint32_t draw_failures = 0;
 
   int run(const std::string& command_line) const
   {
@@ -28,6 +27,7 @@ struct RelocateFlags
     options.sources.map_from_queries = poseOfFlag(map_from_queries);
     options.sources.max_queries = common.max_queries;
     if (!common.methods.empty()) options.methods = common.methods;
+    common.checkDense(options.methods, true);
     options.method.region = common.poseRegion();
     options.method.use_dense_field = !common.no_dense;
     options.method.seed = common.seed;
@@ -37,17 +37,14 @@ struct RelocateFlags
       options.gates.wrong_angle_deg = options.gates.right_angle_deg;
     }
     options.threads = common.threads;
-    options.keep_failures = draw_failures;
+    options.keep_failures = common.draw_failures;
     options.command = command_line;
     options.progress = progressBar(common.quiet);
     const RelocateReport report = runRelocate(options);
     writeRelocateReport(report, common.out);
-    const std::filesystem::path pictures = std::filesystem::path(common.out) / "failures";
-    removeFailurePictures(pictures);
-    for (const RelocateMethodReport& method : report.methods)
-    {
-      drawFailures(method.failures, pictures);
-    }
+    FailuresByFolder failures;
+    for (const auto& method : report.methods) failures.emplace_back("", method.failures);
+    drawFailures(failures, common.out);
     if (!common.quiet) std::cout << relocateTable(report);
     return exitCode(report.complete, sources.rawlog);
   }
@@ -73,10 +70,6 @@ std::function<int()> setUpRelocate(CLI::App& command, const std::string& command
   command.add_flag("--foreign", sources.foreign, "the queries are of another place");
   command.add_flag("--simulated", flags->simulated,
                    "the truth is exact: every confident answer that is not right is wrong");
-  command
-      .add_option("--draw-failures", flags->draw_failures,
-                  "pictures of the first so many failed queries of each method")
-      ->check(CLI::NonNegativeNumber);
   flags->common.declare(command, relocationMethodNames());
   return [flags, command_line] { return flags->run(command_line); };
 }

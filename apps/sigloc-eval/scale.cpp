@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "commands.h"
+#include "failure_pictures.h"
 #include "sigloc/eval/feature_methods.h"
 #include "sigloc/eval/report_files.h"
 
@@ -21,6 +22,7 @@ struct ScaleFlags
   int run(const std::string& command_line)
   {
     common.refusePrior("scale");
+    common.checkDense({}, false);
     checkWritableFolder(common.out);
     if (common.max_queries > 0)
     {
@@ -28,11 +30,7 @@ struct ScaleFlags
       options.slow_poses = std::min<std::size_t>(options.slow_poses, common.max_queries);
     }
     if (!common.methods.empty()) options.methods = common.methods;
-    if (options.map_features.empty())
-    {
-      options.map_features = options.dlr.empty() ? ScaleOptions().map_features
-                                                 : std::vector<std::size_t>{50, 100, 200, 400};
-    }
+    options.keep_failures = common.draw_failures;
     options.seed = common.seed;
     options.generator.seed = common.seed;
     options.command = command_line;
@@ -42,6 +40,14 @@ struct ScaleFlags
     }
     const ScaleReport report = runScale(options);
     writeScaleReport(report, common.out);
+    FailuresByFolder failures;
+    for (const ScaleRow& row : report.rows)
+    {
+      std::string folder = "features-" + std::to_string(row.map_features);
+      if (row.wanted > 0) folder += "-observed-" + std::to_string(row.wanted);
+      failures.emplace_back(folder, row.failures);
+    }
+    drawFailures(failures, common.out);
     if (!common.quiet) std::cout << scaleTable(report);
     return 0;
   }
@@ -52,10 +58,9 @@ std::function<int()> setUpScale(CLI::App& command, const std::string& command_li
 {
   const auto flags = std::make_shared<ScaleFlags>();
   ScaleOptions& options = flags->options;
-  options.map_features.clear();
   command
       .add_option("--map-features", options.map_features,
-                  "map sizes (default: 1000,4000,16000, on the DLR log 50,100,200,400)")
+                  "map sizes (default: 1000,4000,16000, on the DLR log 50,100,200 and all)")
       ->delimiter(',');
   command
       .add_option("--observed", options.observed,

@@ -18,7 +18,6 @@ struct SweepFlags
   CommonOptions common;
   SweepOptions options;
   std::vector<std::string> worlds;
-  std::uint32_t draw_failures = 0;
 
   int run(const std::string& command_line)
   {
@@ -26,6 +25,7 @@ struct SweepFlags
     checkWritableFolder(common.out);
     if (!common.methods.empty()) options.methods = common.methods;
     for (const std::string& world : worlds) options.worlds.push_back(worldKindFrom(world));
+    common.checkDense(options.methods, true);
     options.use_dense_field = !common.no_dense;
     if (common.max_queries > 0)
     {
@@ -33,18 +33,17 @@ struct SweepFlags
     }
     options.seed = common.seed;
     options.threads = common.threads;
-    options.keep_failures = draw_failures;
+    options.keep_failures = common.draw_failures;
     options.command = command_line;
     options.progress = progressBar(common.quiet);
     const SweepReport report = runSweep(options);
     writeSweepReport(report, common.out);
-    const std::filesystem::path pictures = std::filesystem::path(common.out) / "failures";
-    removeFailurePictures(pictures);
+    FailuresByFolder failures;
     for (const SweepRow& row : report.rows)
     {
-      const auto value = options.over + "-" + sweptValueText(row.value);
-      drawFailures(row.failures, pictures / value);
+      failures.emplace_back(options.over + "-" + sweptValueText(row.value), row.failures);
     }
+    drawFailures(failures, common.out);
     if (!common.quiet) std::cout << sweepTable(report);
     return 0;
   }
@@ -73,10 +72,6 @@ std::function<int()> setUpSweep(CLI::App& command, const std::string& command_li
       ->capture_default_str();
   command.add_option("--queries", options.queries_per_world, "robots asked in each world")
       ->capture_default_str();
-  command
-      .add_option("--draw-failures", flags->draw_failures,
-                  "pictures of the first so many failed queries of each method and value")
-      ->check(CLI::NonNegativeNumber);
   flags->common.declare(command, relocationMethodNames());
   return [flags, command_line] { return flags->run(command_line); };
 }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "commands.h"
+#include "failure_pictures.h"
 #include "sigloc/eval/report_files.h"
 #include "sigloc/eval/track_simulated.h"
 
@@ -30,8 +31,24 @@ struct TrackFlags
     const TrackReport report =
         simulated.drives > 0 ? runSimulated(command_line) : runLog(command_line);
     writeTrackReport(report, common.out);
+    FailuresByFolder failures;
+    for (const auto& method : report.methods) failures.emplace_back("", method.failures);
+    drawFailures(failures, common.out);
     if (!common.quiet) std::cout << trackTable(report);
     return exitCode(report.complete, options.rawlog);
+  }
+
+  /// Refuses options that no method of the run has a use for.
+  void checkUse(const std::vector<std::string>& methods, bool landmarks_only) const
+  {
+    common.checkDense(methods, !landmarks_only);
+    const bool filters =
+        std::any_of(methods.begin(), methods.end(),
+                    [](const std::string& name) { return name.find("mcl") != std::string::npos; });
+    if (options.method.particles && !filters)
+    {
+      throw std::invalid_argument("--particles: no particle filter is to be run");
+    }
   }
 
   TrackReport runLog(const std::string& command_line)
@@ -49,7 +66,8 @@ struct TrackFlags
          {std::pair{options.map, "--map"}, std::pair{options.rawlog, "--rawlog"},
           std::pair{options.ground_truth, "--ground-truth"}})
     {
-      if (path.empty() && !landmarks)
+      const bool needed = !landmarks && !(options.foreign && name == std::string("--ground-truth"));
+      if (path.empty() && needed)
       {
         throw std::invalid_argument(std::string(name) + " is required");
       }
@@ -57,6 +75,8 @@ struct TrackFlags
     options.map_from_truth = poseOfFlag(map_from_truth);
     if (landmarks) options.methods = {"signature"};
     if (!common.methods.empty()) options.methods = common.methods;
+    checkUse(options.methods, landmarks);
+    options.keep_failures = common.draw_failures;
     options.method.seed = common.seed;
     options.method.region = common.poseRegion();
     options.method.use_dense_field = !common.no_dense;
@@ -72,7 +92,13 @@ struct TrackFlags
     for (const std::string& name : worlds) simulated.kinds.push_back(worldKindFrom(name));
     simulated.travel = options.travel;
     simulated.kidnap = options.kidnap;
+    simulated.foreign = options.foreign;
     if (!common.methods.empty()) simulated.methods = common.methods;
+    checkUse(simulated.methods,
+             !simulated.kinds.empty() &&
+                 std::all_of(simulated.kinds.begin(), simulated.kinds.end(),
+                             [](WorldKind kind) { return kind == WorldKind::points; }));
+    simulated.keep_failures = common.draw_failures;
     simulated.method.seed = common.seed;
     simulated.method.particles = options.method.particles;
     simulated.method.region = common.poseRegion();
@@ -100,6 +126,10 @@ void declareSimulation(CLI::App& command, TrackFlags& flags)
   {
     simulate->excludes(command.get_option(of_logs));
   }
+  for (const char* of_truth : {"--ground-truth", "--start-from", "--map-from-truth", "--landmarks"})
+  {
+    command.get_option("--foreign")->excludes(command.get_option(of_truth));
+  }
   for (const char* of_scans :
        {"--map", "--rawlog", "--ground-truth", "--start-from", "--map-from-truth"})
   {
@@ -121,12 +151,11 @@ void declareSimulation(CLI::App& command, TrackFlags& flags)
       ->capture_default_str();
   command.add_option("--map-sigma", options.map_sigma, "[m] error common to all of a map")
       ->capture_default_str();
-  command.add_flag("--foreign", options.foreign, "the map is of another world");
   command.add_flag("!--no-odometry", options.odometry, "scans alone");
   simulate->group(group);
   for (const char* of_simulations :
        {"--drives-per-world", "--worlds", "--clutter", "--moved-share", "--unmapped",
-        "--mapped-share", "--map-sigma", "--foreign", "--no-odometry"})
+        "--mapped-share", "--map-sigma", "--no-odometry"})
   {
     command.get_option(of_simulations)->needs(simulate)->group(group);
   }
@@ -152,6 +181,8 @@ std::function<int()> setUpTrack(CLI::App& command, const std::string& command_li
       .add_option("--particles", options.method.particles,
                   "of the particle filters, instead of their own number")
       ->check(CLI::PositiveNumber);
+  command.add_flag("--foreign", options.foreign,
+                   "the map is of another place: every claim is wrong, and no truth is read");
   command.add_flag("--kidnap", options.kidnap, "half-way, carry the robot to another start");
   command
       .add_option("--map-from-truth", flags->map_from_truth,

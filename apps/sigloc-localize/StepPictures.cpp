@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "sigloc/bridge/counted.h"
+
 namespace sigloc
 {
 namespace
@@ -15,7 +17,6 @@ namespace
 std::vector<std::string> titleOf(const StepRecord& step)
 {
   const Belief& belief = step.belief;
-  const std::size_t count = belief.hypotheses.size();
   std::string second = "truth unknown";
   if (step.error)
   {
@@ -26,9 +27,9 @@ std::vector<std::string> titleOf(const StepRecord& step)
   {
     second = "no pose";
   }
-  return {mrpt::format("step %zu, %.1f m: %s (%.3f), %zu %s", step.number, step.travelled,
-                       toString(belief.verdict), belief.probability, count,
-                       count == 1 ? "hypothesis" : "hypotheses"),
+  return {mrpt::format("step %zu, %.1f m: %s (%.3f), %s", step.number, step.travelled,
+                       toString(belief.verdict), belief.probability,
+                       counted(belief.hypotheses.size(), "hypothesis", "hypotheses").c_str()),
           second};
 }
 }  // namespace

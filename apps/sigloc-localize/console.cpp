@@ -10,6 +10,8 @@
 #include <iostream>
 #include <sstream>
 
+#include "sigloc/bridge/counted.h"
+
 namespace sigloc
 {
 namespace
@@ -29,7 +31,7 @@ std::string timing(double median, double p95, std::size_t count)
 std::string mapLine(const RunSummary& summary, const LocalizationSetup& setup)
 {
   return setup.map_file.filename().string() +
-         mrpt::format(": %zu features, %s in %.1f s", summary.map_features,
+         mrpt::format(": %s, %s in %.1f s", counted(summary.map_features, "feature").c_str(),
                       summary.map_reused ? "unchanged since the last run, reused" : "built",
                       summary.map_seconds);
 }
@@ -62,9 +64,9 @@ void Progress::show(const LocalizationRun& run)
   constexpr std::size_t kStepsBetweenLines = 50;
   if (!terminal_ && step.number % kStepsBetweenLines != 1) return;
   const std::string line =
-      mrpt::format("%3.0f %%  step %zu  %.1f m  %s (%.3f)  %zu hypotheses", 100 * run.progress(),
-                   step.number, step.travelled, toString(step.belief.verdict),
-                   step.belief.probability, step.belief.hypotheses.size());
+      mrpt::format("%3.0f %%  step %zu  %.1f m  %s (%.3f)  %s", 100 * run.progress(), step.number,
+                   step.travelled, toString(step.belief.verdict), step.belief.probability,
+                   counted(step.belief.hypotheses.size(), "hypothesis", "hypotheses").c_str());
   if (terminal_)
   {
     constexpr int kLineWidth = 78;
@@ -89,14 +91,14 @@ std::string summaryTable(const LocalizationRun& run)
   { table << std::left << std::setw(24) << name << value << '\n'; };
   row("map", mapLine(summary, run.setup()));
   row("log", run.setup().rawlog_file.filename().string() +
-                 mrpt::format(": %zu steps, %.1f m%s", summary.steps, summary.distance,
-                              summary.truncated ? ", TRUNCATED" : ""));
+                 mrpt::format(": %s, %.1f m%s", counted(summary.steps, "step").c_str(),
+                              summary.distance, summary.truncated ? ", TRUNCATED" : ""));
   const bool scored = !run.setup().ground_truth_file.empty();
   row("first right hypothesis",
       scored ? reached(summary.steps_to_first_right, summary.metres_to_first_right)
              : "truth unknown");
   row("localized", reached(summary.steps_to_localized, summary.metres_to_localized));
-  row("confidently wrong", mrpt::format("%zu steps", summary.confidently_wrong_steps));
+  row("confidently wrong", counted(summary.confidently_wrong_steps, "step"));
   row("at the end", endLine(summary, run.steps().back().belief));
   row("final error", errorLine(summary));
   row("relocation",

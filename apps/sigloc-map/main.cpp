@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "pictures.h"
+#include "sigloc/bridge/counted.h"
 #include "sigloc/bridge/LocalizationSetup.h"
 #include "sigloc/bridge/map_sources.h"
 #include "sigloc/bridge/sigmap_file.h"
@@ -83,7 +84,7 @@ void draw(const std::filesystem::path& path, const std::filesystem::path& output
   const sigloc::FeatureMap map = sigloc::loadSigmap(path);
   sigloc::PictureMaker pictures(map);
   const std::string title = path.filename().string() + ": " +
-                            std::to_string(map.features().size()) + " features, " +
+                            sigloc::counted(map.features().size(), "feature") + ", " +
                             std::to_string(std::lround(map.area())) + " m2";
   if (!pictures.mapPicture({title}).saveToFile(output.string()))
   {

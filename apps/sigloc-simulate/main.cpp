@@ -6,12 +6,14 @@
 #include <cstdint>
 #include <exception>
 #include <filesystem>
+#include <functional>
 #include <iostream>
 #include <map>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include "sigloc/eval/robot_simulation.h"
 #include "sigloc/eval/simulation_files.h"
@@ -19,6 +21,18 @@
 
 namespace
 {
+/// An option of which only some worlds make use.
+struct SomeWorldsOption
+{
+  const CLI::Option* option;
+  std::function<bool(sigloc::WorldKind)> used_in;
+};
+
+bool isScanned(sigloc::WorldKind kind)
+{
+  return kind != sigloc::WorldKind::points;
+}
+
 /// All that the command line sets.
 struct Settings
 {
@@ -35,14 +49,30 @@ struct Settings
   sigloc::LandmarkSensorOptions landmarks;
   sigloc::DriveOptions drive;
   sigloc::OdometryOptions odometry;
+  std::vector<SomeWorldsOption> of_some_worlds;
+
+  /// Throws std::invalid_argument for an option that is given though the world has no use for it.
+  void checkUse(sigloc::WorldKind kind) const
+  {
+    for (const auto& [option, used_in] : of_some_worlds)
+    {
+      if (option->count() > 0 && !used_in(kind))
+      {
+        throw std::invalid_argument(option->get_name() + ": has no use in world " +
+                                    sigloc::toString(kind));
+      }
+    }
+  }
 };
 
 /// Adds one flag for each field of an options table, named after its key: range_sigma becomes
-/// --range-sigma. Short names that people type are given as aliases.
+/// --range-sigma. Short names that people type are given as aliases. Returns the options by key.
 template <class Options>
-void addFlags(CLI::App& app, Options& options, const std::string& group, const std::string& prefix,
-              const std::map<std::string, std::string>& aliases = {})
+std::map<std::string, const CLI::Option*> addFlags(
+    CLI::App& app, Options& options, const std::string& group, const std::string& prefix,
+    const std::map<std::string, std::string>& aliases = {})
 {
+  std::map<std::string, const CLI::Option*> added;
   Options::visitFields(
       [&](const auto& field)
       {
@@ -50,14 +80,31 @@ void addFlags(CLI::App& app, Options& options, const std::string& group, const s
         std::replace(name.begin(), name.end(), '_', '-');
         const auto alias = aliases.find(field.key);
         if (alias != aliases.end()) name = alias->second + "," + name;
-        app.add_option(name, options.*(field.member), field.description)
-            ->group(group)
-            ->capture_default_str();
+        added[field.key] = app.add_option(name, options.*(field.member), field.description)
+                               ->group(group)
+                               ->capture_default_str();
       });
+  return added;
 }
+
+using Predicate = std::function<bool(sigloc::WorldKind)>;
 
 void describeOptions(CLI::App& app, Settings& settings)
 {
+  const auto limit = [&](const std::map<std::string, const CLI::Option*>& options,
+                         const std::function<Predicate(const std::string& key)>& used_in)
+  {
+    for (const auto& [key, option] : options)
+    {
+      settings.of_some_worlds.push_back({option, used_in(key)});
+    }
+  };
+  const auto by_key = [](const std::string& key)
+  { return [key](sigloc::WorldKind kind) { return sigloc::usesOption(kind, key); }; };
+  const auto scanned = [](const std::string& /*key*/) { return isScanned; };
+  const auto unscanned = [](const std::string& /*key*/)
+  { return [](sigloc::WorldKind kind) { return !isScanned(kind); }; };
+
   app.add_option("--world", settings.world, "office, corridor, hall, park or points")
       ->check(CLI::IsMember({"office", "corridor", "hall", "park", "points"}))
       ->capture_default_str();
@@ -67,22 +114,29 @@ void describeOptions(CLI::App& app, Settings& settings)
   app.add_option("--log", settings.log, "kind of rawlog: action-frame or observations")
       ->check(CLI::IsMember({"action-frame", "observations"}))
       ->capture_default_str();
-  app.add_option("--map-spacing", settings.map_spacing, "[m] between the mapping scans")
-      ->check(CLI::Range(0.2, 100.0))
-      ->capture_default_str();
-  app.add_option("--resolution", settings.resolution, "[m] of the grid map")
-      ->check(CLI::Range(0.005, 1.0))
-      ->capture_default_str();
+  const CLI::Option* const spacing =
+      app.add_option("--map-spacing", settings.map_spacing, "[m] between the mapping scans")
+          ->check(CLI::Range(0.2, 100.0))
+          ->capture_default_str();
+  const CLI::Option* const resolution =
+      app.add_option("--resolution", settings.resolution, "[m] of the grid map")
+          ->check(CLI::Range(0.005, 1.0))
+          ->capture_default_str();
+  limit({{"map_spacing", spacing}, {"resolution", resolution}}, scanned);
   app.add_option("--out", settings.out, "folder for the files; made when missing")->required();
-  addFlags(app, settings.layout, "World", "", {{"furniture_per_room", "--furniture"}});
-  addFlags(app, settings.changes, "What the drive finds changed since the map was made", "drive-",
-           {{"moved_share", "--moved-share"}, {"extra_items", "--unmapped"}});
-  addFlags(app, settings.laser, "Laser", "",
-           {{"fov_deg", "--fov"},
-            {"max_range", "--range"},
-            {"range_sigma", "--noise"},
-            {"clutter_share", "--clutter"}});
-  addFlags(app, settings.landmarks, "Landmark sensor (world points)", "landmark-");
+  limit(addFlags(app, settings.layout, "World", "", {{"furniture_per_room", "--furniture"}}),
+        by_key);
+  limit(addFlags(app, settings.changes, "What the drive finds changed since the map was made",
+                 "drive-", {{"moved_share", "--moved-share"}, {"extra_items", "--unmapped"}}),
+        by_key);
+  limit(addFlags(app, settings.laser, "Laser", "",
+                 {{"fov_deg", "--fov"},
+                  {"max_range", "--range"},
+                  {"range_sigma", "--noise"},
+                  {"clutter_share", "--clutter"}}),
+        scanned);
+  limit(addFlags(app, settings.landmarks, "Landmark sensor (world points)", "landmark-"),
+        unscanned);
   addFlags(app, settings.drive, "Drive", "", {{"max_steps", "--steps"}});
   addFlags(app, settings.odometry, "Odometry", "odometry-");
 }
@@ -188,6 +242,7 @@ int main(int argc, char** argv)
   try
   {
     const sigloc::WorldKind kind = sigloc::worldKindFrom(settings.world);
+    settings.checkUse(kind);
     const sigloc::World world = sigloc::makeWorld(kind, settings.layout, settings.seed);
     const auto simulate = kind == sigloc::WorldKind::points ? simulateLandmarks : simulateLaser;
     simulate(settings, settings.out, world, command.str());

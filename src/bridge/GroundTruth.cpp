@@ -12,7 +12,7 @@
 #include <string>
 
 #include "gzip_input.h"
-#include "text_rows.h"
+#include "sigloc/bridge/text_rows.h"
 
 namespace sigloc
 {

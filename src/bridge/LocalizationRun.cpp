@@ -199,13 +199,13 @@ void LocalizationRun::score(StepRecord& step) const
   step.confidently_wrong =
       step.belief.verdict == Verdict::localized &&
       (step.error->distance > kWrongDistance || step.error->angle > kWrongAngle);
-  step.right = std::any_of(step.belief.hypotheses.begin(), step.belief.hypotheses.end(),
-                           [&](const TrackedHypothesis& hypothesis)
-                           {
-                             const PoseError error =
-                                 errorBetween(hypothesis.pose.mean, *step.truth);
-                             return error.distance <= kRightDistance && error.angle <= kRightAngle;
-                           });
+  step.any_right =
+      std::any_of(step.belief.hypotheses.begin(), step.belief.hypotheses.end(),
+                  [&](const TrackedHypothesis& hypothesis)
+                  {
+                    const PoseError error = errorBetween(hypothesis.pose.mean, *step.truth);
+                    return error.distance <= kRightDistance && error.angle <= kRightAngle;
+                  });
 }
 
 double LocalizationRun::progress() const
@@ -234,7 +234,7 @@ RunSummary LocalizationRun::summary() const
     const double total_ms = step.extraction_ms + step.tracking_ms;
     (step.relocated ? relocation_times : tracking_times).push_back(total_ms);
     if (step.confidently_wrong) ++summary.confidently_wrong_steps;
-    if (step.right && state_->truth && !summary.steps_to_first_right)
+    if (step.any_right && state_->truth && !summary.steps_to_first_right)
     {
       summary.steps_to_first_right = step.number;
       summary.metres_to_first_right = step.travelled;

@@ -80,7 +80,7 @@ void writeSteps(const std::vector<StepRecord>& steps, const fs::path& path)
 {
   std::ofstream file = openText(path);
   file << "step,time,travelled_m,verdict,probability,reliability,hypotheses,elsewhere,relocated,"
-          "x,y,phi_deg,sd_x,sd_y,sd_phi_deg,error_m,error_deg,right,confidently_wrong,"
+          "x,y,phi_deg,sd_x,sd_y,sd_phi_deg,error_m,error_deg,any_right,confidently_wrong,"
           "extraction_ms,tracking_ms,reason\n"
        << std::fixed << std::setprecision(6);
   for (const StepRecord& step : steps)
@@ -93,7 +93,7 @@ void writeSteps(const std::vector<StepRecord>& steps, const fs::path& path)
     if (step.error)
     {
       file << ',' << step.error->distance << ',' << mrpt::RAD2DEG(step.error->angle) << ','
-           << step.right << ',' << step.confidently_wrong;
+           << step.any_right << ',' << step.confidently_wrong;
     }
     else
     {

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "sigloc/bridge/counted.h"
 #include "sigloc/bridge/scan_conversion.h"
 #include "sigloc/bridge/scene_building.h"
 #include "sigloc/bridge/sigmap_file.h"
@@ -149,7 +150,7 @@ bool SignatureMap::isEmpty() const
 std::string SignatureMap::asString() const
 {
   const auto map = featureMap();
-  return "SignatureMap of " + std::to_string(map->features().size()) + " features" +
+  return "SignatureMap of " + counted(map->features().size(), "feature") +
          (map->field() ? " with a dense field" : "");
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "map_source_readers.h"
-#include "text_rows.h"
+#include "sigloc/bridge/text_rows.h"
 
 namespace sigloc::detail
 {

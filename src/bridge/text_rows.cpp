@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "text_rows.h"
+#include "sigloc/bridge/text_rows.h"
 
 #include <charconv>
 #include <cmath>

@@ -101,6 +101,21 @@ void checkSources(const EvaluationSources& sources)
   {
     throw std::invalid_argument("give exactly one of --queries, --rawlog and --interleave");
   }
+  if (!sources.ground_truth.empty() && (sources.rawlog.empty() || sources.foreign))
+  {
+    throw std::invalid_argument(sources.foreign
+                                    ? "--ground-truth: of a foreign place no truth is read"
+                                    : "--ground-truth needs --rawlog: key frames bring their own");
+  }
+  if (sources.map_from_queries != mrpt::math::TPose2D() &&
+      (sources.interleave > 0 || sources.foreign))
+  {
+    throw std::invalid_argument("--map-from-queries needs queries of this place from another file");
+  }
+  if (sources.foreign && sources.interleave > 0)
+  {
+    throw std::invalid_argument("--foreign: scans taken out of the map are of the same place");
+  }
   if (sources.interleave == 1)
   {
     throw std::invalid_argument("--interleave 1 leaves no scan for the map");

@@ -6,11 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
-#include <sstream>
 #include <stdexcept>
+#include <string_view>
 
+#include "sigloc/bridge/text_rows.h"
 #include "sigloc/features/FeatureExtractor.h"
 #include "sigloc/geometry/pose_fusion.h"
 #include "sigloc/geometry/symmetric_matrix.h"
@@ -21,35 +21,37 @@ namespace
 {
 using Row = std::vector<double>;
 
-std::ifstream opened(const std::filesystem::path& path)
+/// The numbers of a line. Throws std::runtime_error "path: line N: reason" for a word that is none
+/// and for fewer than `least`.
+Row numbersOf(const std::vector<std::string_view>& cells, std::size_t least,
+              const std::filesystem::path& path, std::size_t line)
 {
-  std::ifstream in(path);
-  if (!in) throw std::runtime_error(path.string() + ": cannot be opened");
-  return in;
+  Row row;
+  row.reserve(cells.size());
+  for (const std::string_view cell : cells)
+  {
+    const auto number = detail::toNumber(cell);
+    if (!number) detail::failAtLine(path, line, "'" + std::string(cell) + "' is no number");
+    row.push_back(*number);
+  }
+  if (row.size() < least)
+  {
+    detail::failAtLine(path, line,
+                       std::to_string(row.size()) + " of " + std::to_string(least) + " columns");
+  }
+  return row;
 }
 
 /// Rows of comma-separated numbers; lines that start with '#' are skipped.
 std::vector<Row> readCsv(const std::filesystem::path& path, std::size_t columns)
 {
-  std::ifstream in = opened(path);
+  const std::vector<std::string> lines = detail::readLines(path);
   std::vector<Row> rows;
-  std::string line;
-  while (std::getline(in, line))
+  for (std::size_t i = 0; i < lines.size(); ++i)
   {
-    if (line.empty() || line[0] == '#') continue;
-    Row row;
-    std::stringstream cells(line);
-    std::string cell;
-    try
-    {
-      while (std::getline(cells, cell, ',')) row.push_back(std::stod(cell));
-    }
-    catch (const std::exception&)
-    {
-      throw std::runtime_error(path.string() + ": bad number '" + cell + "'");
-    }
-    if (row.size() < columns) throw std::runtime_error(path.string() + ": too few columns");
-    rows.push_back(std::move(row));
+    const auto cells = detail::words(lines[i]);
+    if (cells.empty() || lines[i].front() == '#') continue;
+    rows.push_back(numbersOf(cells, columns, path, i));
   }
   if (rows.empty()) throw std::runtime_error(path.string() + ": holds no rows");
   return rows;
@@ -147,6 +149,38 @@ MapErrorModel relativeError(const std::vector<Feature>& map, const std::vector<R
   error.relative_constant = std::max(0.01, (sy - error.relative_slope * sx) / n);
   return error;
 }
+/// The steps of a log of circles: lines `STEP image x y phi covariance[6]`, each followed by what
+/// was seen then, `LANDMARK_C x y quality covariance[3] [identity]`; other lines say nothing here.
+std::vector<LandmarkStep> readCircles(const std::filesystem::path& path)
+{
+  const std::vector<std::string> lines = detail::readLines(path);
+  std::vector<LandmarkStep> steps;
+  for (std::size_t i = 0; i < lines.size(); ++i)
+  {
+    std::vector<std::string_view> cells = detail::words(lines[i]);
+    if (cells.empty()) continue;
+    if (cells[0] == "STEP")
+    {
+      cells.erase(cells.begin(), cells.begin() + std::min<std::ptrdiff_t>(2, cells.size()));
+      const Row row = numbersOf(cells, 9, path, i);
+      // Here the covariance is xx, xy, yy, xt, yt, tt.
+      steps.emplace_back();
+      steps.back().motion = {{row[0], row[1], row[2]},
+                             toMatrix({row[3], row[4], row[6], row[5], row[7], row[8]})};
+    }
+    else if (cells[0] == "LANDMARK_C")
+    {
+      if (steps.empty()) detail::failAtLine(path, i, "a landmark before the first STEP");
+      cells.erase(cells.begin());
+      const Row row = numbersOf(cells, 6, path, i);
+      steps.back().observed.push_back(
+          placeAt(FeatureType::point, row[0], row[1], row[3], row[4], row[5]));
+      steps.back().identities.push_back(row.size() > 6 ? static_cast<int>(row[6]) : -1);
+    }
+  }
+  if (steps.empty()) throw std::runtime_error(path.string() + ": holds no STEP");
+  return steps;
+}
 }  // namespace
 
 LandmarkData readDlr(const std::filesystem::path& folder)
@@ -154,38 +188,7 @@ LandmarkData readDlr(const std::filesystem::path& folder)
   LandmarkData data;
   data.files = {folder / "map.circles", folder / "dlr_ls_poses.csv",
                 folder / "dlr_ls_landmarks.csv"};
-  std::ifstream in = opened(data.files[0]);
-  std::string line;
-  while (std::getline(in, line))
-  {
-    std::stringstream cells(line);
-    std::string key;
-    cells >> key;
-    if (key == "STEP")
-    {
-      std::string image;
-      double x{}, y{}, phi{}, xx{}, xy{}, yy{}, xt{}, yt{}, tt{};
-      if (!(cells >> image >> x >> y >> phi >> xx >> xy >> yy >> xt >> yt >> tt))
-      {
-        throw std::runtime_error(data.files[0].string() + ": bad line '" + line + "'");
-      }
-      LandmarkStep step;
-      step.motion = {{x, y, phi}, toMatrix({xx, xy, xt, yy, yt, tt})};
-      data.steps.push_back(std::move(step));
-    }
-    else if (key == "LANDMARK_C" && !data.steps.empty())
-    {
-      double x{}, y{}, quality{}, xx{}, xy{}, yy{};
-      int identity = -1;
-      if (!(cells >> x >> y >> quality >> xx >> xy >> yy))
-      {
-        throw std::runtime_error(data.files[0].string() + ": bad line '" + line + "'");
-      }
-      cells >> identity;
-      data.steps.back().observed.push_back(placeAt(FeatureType::point, x, y, xx, xy, yy));
-      data.steps.back().identities.push_back(identity);
-    }
-  }
+  data.steps = readCircles(data.files[0]);
   const std::vector<Row> poses = readCsv(data.files[1], 4);
   // Pose k + 1 is the one after step k.
   data.steps.resize(std::min(data.steps.size(), poses.size()));
@@ -218,7 +221,14 @@ LandmarkData readVictoriaPark(const std::filesystem::path& folder)
     tree.size_variance = 0.25 * row[4];
     data.map.push_back(tree);
   }
-  data.map_error = relativeError(data.map, readCsv(data.files[1], 2 * data.map.size()));
+  const std::vector<Row> covariance = readCsv(data.files[1], 2 * data.map.size());
+  if (covariance.size() < 2 * data.map.size())
+  {
+    throw std::runtime_error(data.files[1].string() + ": " + std::to_string(covariance.size()) +
+                             " rows, not two for each of the " + std::to_string(data.map.size()) +
+                             " trees");
+  }
+  data.map_error = relativeError(data.map, covariance);
 
   // The motion is that of a point behind the laser, scans and truth are the laser's. Where the
   // laser is was found by laying 800 scans on the ones before; no truth was needed.

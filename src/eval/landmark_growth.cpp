@@ -8,6 +8,7 @@
 
 #include "GrowthMeter.h"
 #include "landmark_queries.h"
+#include "sigloc/eval/cpu_time.h"
 #include "sigloc/eval/evaluation_data.h"
 #include "sigloc/eval/Random.h"
 
@@ -20,6 +21,7 @@ using mrpt::math::TPose2D;
 /// One place asked for, and the map's discs by their distance from it.
 struct Place
 {
+  std::size_t step = 0;
   TPose2D truth;
   std::vector<Feature> observed;
   std::vector<Feature> nearest_first;
@@ -37,7 +39,8 @@ std::vector<Place> placesOf(const LandmarkData& data, const ScaleOptions& option
   {
     const std::size_t step = steps[which];
     const TPose2D& truth = data.steps[step].truth;
-    places.push_back({truth, localMapAt(data, step, options.local_map_steps).features(), map});
+    places.push_back(
+        {step, truth, localMapAt(data, step, options.local_map_steps).features(), map});
     const auto distance = [&](const Feature& feature)
     { return std::hypot(feature.position.x - truth.x, feature.position.y - truth.y); };
     std::stable_sort(places.back().nearest_first.begin(), places.back().nearest_first.end(),
@@ -61,19 +64,46 @@ std::vector<Feature> thinned(std::vector<Feature> features, std::size_t count, R
 ScaleRow runRow(const std::string& method, const std::vector<Place>& places, std::size_t map_size,
                 std::size_t wanted, const LandmarkData& data, const ScaleOptions& options)
 {
-  GrowthMeter meter(method, wanted);
+  GrowthMeter meter(method, wanted, options.keep_failures);
   Random random(options.seed, 1000 + wanted);
   for (const Place& place : places)
   {
     std::vector<Feature> nearest = place.nearest_first;
     nearest.resize(std::min(map_size, nearest.size()));
-    const FeatureMap map(std::move(nearest), std::nullopt, data.map_error);
-    const auto generator = meter.build(map, options.generator);
-    meter.ask(*generator, thinned(place.observed, wanted, random),
+    const GrowthScene scene{
+        std::to_string(place.step),
+        std::make_shared<const FeatureMap>(std::move(nearest), std::nullopt, data.map_error),
+        place.truth, thinned(place.observed, wanted, random)};
+    const auto generator = meter.build(*scene.map, options.generator);
+    meter.ask(*generator, scene,
               [&](const FeatureHypothesis& first)
               { return isRight(poseError(first.pose.mean, place.truth), AccuracyGates{}); });
   }
   return meter.row();
+}
+/// The sizes asked for, or those of the study; throws std::invalid_argument for more than `whole`.
+std::vector<std::size_t> mapSizes(std::vector<std::size_t> wanted, std::size_t whole)
+{
+  for (const std::size_t size : wanted)
+  {
+    if (size > 0 && size <= whole) continue;
+    throw std::invalid_argument("--map-features " + std::to_string(size) + ": not from 1 to the " +
+                                std::to_string(whole) + " discs of the log's map");
+  }
+  if (!wanted.empty()) return wanted;
+  for (const std::size_t size : {50U, 100U, 200U})
+  {
+    if (size < whole) wanted.push_back(size);
+  }
+  wanted.push_back(whole);
+  return wanted;
+}
+
+void checkObserved(const std::vector<Place>& places, const ScaleOptions& options)
+{
+  std::size_t most = 0;
+  for (const Place& place : places) most = std::max(most, place.observed.size());
+  checkThinning(options.observed, most);
 }
 }  // namespace
 
@@ -94,9 +124,14 @@ ScaleReport runLandmarkGrowth(const ScaleOptions& options)
     if (options.progress) options.progress(progressLine(report.rows.back()));
   };
   const std::size_t whole = places.front().nearest_first.size();
+  const std::vector<std::size_t> sizes = mapSizes(options.map_features, whole);
+  checkObserved(places, options);
+  const double before = threadCpuSeconds();
+  const FeatureMap map(places.front().nearest_first, std::nullopt, data.map_error);
+  report.map.add(map, threadCpuSeconds() - before);
   for (const std::string& method : options.methods)
   {
-    for (const std::size_t size : options.map_features) add(method, size, 0);
+    for (const std::size_t size : sizes) add(method, size, 0);
     for (const std::size_t wanted : options.observed) add(method, whole, wanted);
   }
   return report;

@@ -4,24 +4,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
+#include <map>
+#include <memory>
 #include <stdexcept>
 
 #include "landmark_queries.h"
 #include "sigloc/eval/cpu_time.h"
+#include "sigloc/eval/evaluation_data.h"
 #include "sigloc/eval/feature_methods.h"
-#include "sigloc/eval/report_files.h"
 
 namespace sigloc
 {
 namespace
 {
-constexpr const char* kExplanation =
-    "\nFirm: significant, and far ahead of the second. Not judged: answers that are not right by a "
-    "truth that is\nuncertain by more than 0.5 m itself, or jumps against the odometry; they count "
-    "as "
-    "not right, but not as wrong.\n";
-
 /// What counts as right, by data set: the truth of the park is itself off by up to 0.3 m.
 AccuracyGates gatesOf(const std::string& dataset)
 {
@@ -45,23 +40,54 @@ bool isFirm(const std::vector<FeatureHypothesis>& found, const GeneratorOptions&
 struct Asked
 {
   LandmarkRecord record;
+  std::vector<Feature> features;
   std::vector<FeatureHypothesis> found;
+};
+
+/// One method on one data set, and where its answers go.
+struct MethodRun
+{
+  const FeatureHypothesisGenerator& method;
+  const std::string& name;
+  std::shared_ptr<const FeatureMap> map;
+  const LandmarkData& data;
+  const LandmarksOptions& options;
+  LandmarksReport& report;
+
+  void add(Asked asked, std::size_t local_map_steps)
+  {
+    LandmarkRecord& record = asked.record;
+    record.method = name;
+    record.local_map_steps = local_map_steps;
+    std::size_t& failures = kept[local_map_steps];
+    if (!record.right && record.truth_sure && failures < options.keep_failures)
+    {
+      ++failures;
+      std::string query = std::to_string(record.step);
+      if (local_map_steps > 0) query += "-steps-" + std::to_string(local_map_steps);
+      report.failures.push_back(featureFailure(name, map, query, asked.features,
+                                               data.steps[record.step].truth, asked.found));
+    }
+    report.records.push_back(record);
+  }
+
+  std::map<std::size_t, std::size_t> kept;  ///< failures by local map steps
 };
 
 Asked ask(const FeatureHypothesisGenerator& method, const LocalMap& local, std::size_t step,
           const LandmarkData& data, const LandmarksOptions& options)
 {
-  const std::vector<Feature> features = local.features();
   MatchingCounters counters;
-  const double before = threadCpuSeconds();
   Asked asked;
-  asked.found = method.generate(features, counters);
+  asked.features = local.features();
+  const double before = threadCpuSeconds();
+  asked.found = method.generate(asked.features, counters);
   LandmarkRecord& record = asked.record;
   record.time_ms = 1e3 * (threadCpuSeconds() - before);
   record.operations = counters.signature_pairs + counters.hypotheses + counters.checks;
   record.cut_short = counters.cut_short > 0;
   record.step = step;
-  record.features = features.size();
+  record.features = asked.features.size();
   record.travelled = local.travelled();
   record.answered = !asked.found.empty();
   record.firm = isFirm(asked.found, options.generator);
@@ -74,66 +100,64 @@ Asked ask(const FeatureHypothesisGenerator& method, const LocalMap& local, std::
   return asked;
 }
 
-template <class Container>
-void limit(Container& container, std::size_t most)
+std::vector<std::size_t> limited(const std::vector<std::size_t>& queries, std::size_t most)
 {
-  if (most > 0 && container.size() > most) container.resize(most);
+  std::vector<std::size_t> kept;
+  for (const std::size_t which : evenlySpaced(queries.size(), most)) kept.push_back(queries[which]);
+  return kept;
 }
 
-void runFixedLocalMaps(const FeatureHypothesisGenerator& method, const std::string& name,
-                       const LandmarkData& data, const LandmarksOptions& options,
-                       LandmarksReport& report)
+void runFixedLocalMaps(MethodRun& run)
 {
-  std::vector<std::size_t> queries = detail::laterVisits(data, options);
-  limit(queries, options.max_queries);
+  const LandmarksOptions& options = run.options;
+  const auto queries = limited(detail::laterVisits(run.data, options), options.max_queries);
   for (const std::size_t count : options.local_map_steps)
   {
     for (const std::size_t step : queries)
     {
-      LandmarkRecord record =
-          ask(method, detail::localMapAt(data, step, count), step, data, options).record;
-      record.method = name;
-      record.local_map_steps = count;
-      report.records.push_back(record);
+      const LocalMap local = detail::localMapAt(run.data, step, count);
+      run.add(ask(run.method, local, step, run.data, options), count);
     }
   }
 }
 
-/// Victoria Park: from each start the local map grows until the answer is firm or it is too long.
-void runGrowingLocalMaps(const FeatureHypothesisGenerator& method, const std::string& name,
-                         const LandmarkData& data, const LandmarksOptions& options,
-                         LandmarksReport& report)
+/// Victoria Park: from a start the local map grows until the answer is firm or it is too long.
+Asked askGrowing(const MethodRun& run, std::size_t start)
+{
+  const std::vector<LandmarkStep>& steps = run.data.steps;
+  LocalMap local;
+  Asked asked;
+  double time = 0;
+  std::uint64_t operations = 0;
+  for (std::size_t k = start; k < steps.size(); ++k)
+  {
+    const double before_travel = local.travelled();
+    const std::size_t before_features = local.features().size();
+    local.add(steps[k].motion, steps[k].observed);
+    // Standing still shows nothing new.
+    const bool news = k == start || local.features().size() != before_features ||
+                      local.travelled() > before_travel + 0.1;
+    if (!news) continue;
+    asked = ask(run.method, local, k, run.data, run.options);
+    time += asked.record.time_ms;
+    operations += asked.record.operations;
+    if (asked.record.firm || local.travelled() > run.options.max_travel) break;
+  }
+  asked.record.time_ms = time;
+  asked.record.operations = operations;
+  return asked;
+}
+
+void runGrowingLocalMaps(MethodRun& run)
 {
   std::vector<std::size_t> starts;
-  for (std::size_t k = 0; k + 1 < data.steps.size(); k += options.query_stride)
+  for (std::size_t k = 0; k + 1 < run.data.steps.size(); k += run.options.query_stride)
   {
     starts.push_back(k);
   }
-  limit(starts, options.max_queries);
-  for (const std::size_t start : starts)
+  for (const std::size_t start : limited(starts, run.options.max_queries))
   {
-    LocalMap local;
-    LandmarkRecord record;
-    double time = 0;
-    std::uint64_t operations = 0;
-    for (std::size_t k = start; k < data.steps.size(); ++k)
-    {
-      const double before_travel = local.travelled();
-      const std::size_t before_features = local.features().size();
-      local.add(data.steps[k].motion, data.steps[k].observed);
-      // Standing still shows nothing new.
-      const bool news = k == start || local.features().size() != before_features ||
-                        local.travelled() > before_travel + 0.1;
-      if (!news) continue;
-      record = ask(method, local, k, data, options).record;
-      time += record.time_ms;
-      operations += record.operations;
-      if (record.firm || local.travelled() > options.max_travel) break;
-    }
-    record.method = name;
-    record.time_ms = time;
-    record.operations = operations;
-    report.records.push_back(record);
+    run.add(askGrowing(run, start), 0);
   }
 }
 
@@ -189,12 +213,13 @@ LandmarksReport runLandmarks(const LandmarksOptions& options)
   }
   checkFeatureMethods(options.methods);
   const LandmarkData data = dlr ? readDlr(options.path) : readVictoriaPark(options.path);
-  const FeatureMap map(
+  const double before = threadCpuSeconds();
+  const auto map = std::make_shared<const FeatureMap>(
       dlr && options.first_half_map ? mapFromSteps(data, data.steps.size() / 2) : data.map,
       std::nullopt, data.map_error);
   LandmarksReport report;
   report.dataset = options.dataset;
-  report.map_features = map.features().size();
+  report.map.add(*map, threadCpuSeconds() - before);
   report.provenance.command = options.command;
   report.provenance.seed = options.seed;
   report.provenance.data_files = data.files;
@@ -202,69 +227,12 @@ LandmarksReport runLandmarks(const LandmarksOptions& options)
   generator.seed = static_cast<std::uint32_t>(options.seed);
   for (const std::string& name : options.methods)
   {
-    const auto method = makeFeatureMethod(name, map, generator);
-    dlr ? runFixedLocalMaps(*method, name, data, options, report)
-        : runGrowingLocalMaps(*method, name, data, options, report);
+    const auto method = makeFeatureMethod(name, *map, generator);
+    MethodRun run{*method, name, map, data, options, report, {}};
+    dlr ? runFixedLocalMaps(run) : runGrowingLocalMaps(run);
     if (options.progress) options.progress(name + ": done");
   }
   report.rows = summarizeRows(report.records);
   return report;
-}
-
-std::string landmarksTable(const LandmarksReport& report)
-{
-  std::vector<std::vector<std::string>> rows{
-      {"method", "local map steps", "features", "right", "firm", "firm and wrong", "not judged",
-       "travel m median", "p95", "ms median", "p95", "mean", "operations", "cut short"}};
-  for (const LandmarksRow& row : report.rows)
-  {
-    rows.push_back({row.method,
-                    row.local_map_steps > 0 ? std::to_string(row.local_map_steps) : "as needed",
-                    fixedNumber(row.features, 1), withInterval(row.right), withInterval(row.firm),
-                    withInterval(row.firm_and_wrong), std::to_string(row.not_judged),
-                    fixedNumber(row.travelled.median, 2), fixedNumber(row.travelled.p95, 2),
-                    fixedNumber(row.time_ms.median, 3), fixedNumber(row.time_ms.p95, 3),
-                    fixedNumber(row.time_ms.mean, 3), fixedNumber(row.operations, 0),
-                    std::to_string(row.cut_short)});
-  }
-  return markdownTable(rows);
-}
-
-void writeLandmarksReport(const LandmarksReport& report, const std::filesystem::path& folder)
-{
-  RunReport files;
-  std::ostringstream csv;
-  csv << "method,local_map_steps,step,features,travelled_m,answered,firm,right,truth_sure,error_m,"
-         "error_deg,"
-         "operations,time_ms\n";
-  for (const LandmarkRecord& r : report.records)
-  {
-    csv << r.method << ',' << r.local_map_steps << ',' << r.step << ',' << r.features << ','
-        << fixedNumber(r.travelled, 3) << ',' << r.answered << ',' << r.firm << ',' << r.right
-        << ',' << r.truth_sure << ',' << fixedNumber(r.error.distance, 3) << ','
-        << fixedNumber(r.error.angle_deg, 3) << ',' << r.operations << ','
-        << fixedNumber(r.time_ms, 4) << '\n';
-  }
-  nlohmann::ordered_json& json = files.summary;
-  for (const LandmarksRow& row : report.rows)
-  {
-    nlohmann::ordered_json entry;
-    entry["local_map_steps"] = row.local_map_steps;
-    entry["queries"] = row.right.cases;
-    addProportion(entry, "recall_at_1", row.right);
-    addProportion(entry, "firm", row.firm);
-    addProportion(entry, "firm_and_wrong", row.firm_and_wrong);
-    entry["not_judged"] = row.not_judged;
-    entry["travelled_m"] = toJson(row.travelled);
-    entry["time_ms"] = toJson(row.time_ms);
-    entry["operations"] = row.operations;
-    entry["cut_short"] = row.cut_short;
-    json["methods"][row.method]["rows"].push_back(entry);
-  }
-  json["map"] = {{"features", report.map_features}};
-  files.results = csv.str();
-  files.text = "# Landmarks: " + report.dataset + "\n\n" + landmarksTable(report) + kExplanation;
-  files.provenance = report.provenance;
-  writeRunReport(files, folder);
 }
 }  // namespace sigloc

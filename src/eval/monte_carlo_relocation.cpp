@@ -52,24 +52,24 @@ bool belongTogether(const TPose2D& a, const TPose2D& b)
 std::vector<Candidate> heaviestClusters(const CPosePDFParticles& cloud)
 {
   const auto& particles = cloud.m_particles;
-  const double heaviest = std::max_element(particles.begin(), particles.end(),
-                                           [](const auto& a, const auto& b)
-                                           { return a.log_w < b.log_w; })
-                              ->log_w;
+  const double heaviest =
+      std::max_element(particles.begin(), particles.end(),
+                       [](const auto& a, const auto& b) { return a.log_w < b.log_w; })
+          ->log_w;
   const auto weight = [&](const auto& particle) { return std::exp(particle.log_w - heaviest); };
-  const double sum = std::accumulate(particles.begin(), particles.end(), 0.0,
-                                     [&](double total, const auto& particle)
-                                     { return total + weight(particle); });
+  const double sum =
+      std::accumulate(particles.begin(), particles.end(), 0.0,
+                      [&](double total, const auto& particle) { return total + weight(particle); });
   std::vector<const CPosePDFParticles::CParticleData*> rest;
   rest.reserve(particles.size());
   for (const auto& particle : particles) rest.push_back(&particle);
   std::vector<Candidate> clusters;
   while (!rest.empty() && clusters.size() < kMaxRanked)
   {
-    const TPose2D centre = (*std::max_element(rest.begin(), rest.end(),
-                                              [](const auto* a, const auto* b)
-                                              { return a->log_w < b->log_w; }))
-                               ->d;
+    const TPose2D centre =
+        (*std::max_element(rest.begin(), rest.end(),
+                           [](const auto* a, const auto* b) { return a->log_w < b->log_w; }))
+            ->d;
     const auto members = std::stable_partition(
         rest.begin(), rest.end(), [&](const auto* p) { return !belongTogether(p->d, centre); });
     CPosePDFParticles cluster;
@@ -86,7 +86,8 @@ std::vector<Candidate> heaviestClusters(const CPosePDFParticles& cloud)
     clusters.push_back(std::move(candidate));
     rest.erase(members, rest.end());
   }
-  std::stable_sort(clusters.begin(), clusters.end(), [](const Candidate& a, const Candidate& b)
+  std::stable_sort(clusters.begin(), clusters.end(),
+                   [](const Candidate& a, const Candidate& b)
                    { return a.probability > b.probability; });
   return clusters;
 }

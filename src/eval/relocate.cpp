@@ -2,15 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sigloc/eval/relocate.h"
 
-#include <mrpt/io/CMemoryStream.h>
-#include <mrpt/serialization/CArchive.h>
-
 #include <algorithm>
 #include <limits>
 #include <mutex>
 #include <stdexcept>
 
-#include "sigloc/bridge/sigmap_file.h"
 #include "sigloc/eval/cpu_time.h"
 #include "sigloc/eval/method_names.h"
 #include "sigloc/eval/run_parallel.h"
@@ -19,14 +15,6 @@ namespace sigloc
 {
 namespace
 {
-std::size_t serializedBytes(const FeatureMap& map)
-{
-  mrpt::io::CMemoryStream stream;
-  auto archive = mrpt::serialization::archiveFrom(stream);
-  writeFeatureMap(map, archive);
-  return static_cast<std::size_t>(stream.getTotalBytesCount());
-}
-
 double nsPerLookup(const RelocationMethod& method, const std::vector<RelocationRecord>& records)
 {
   double lookups = 0;
@@ -104,9 +92,7 @@ RelocateReport runRelocate(const RelocateOptions& options)
     if (!path.empty()) report.provenance.data_files.push_back(path);
   }
   const EvaluationData data = readEvaluationData(options.sources);
-  report.map_features = data.map.features->features().size();
-  report.map_bytes = serializedBytes(*data.map.features);
-  report.map_build_seconds = data.map.build_seconds;
+  report.map.add(*data.map.features, data.map.build_seconds);
   report.without_truth = data.without_truth;
   report.complete = data.complete;
   report.foreign = options.sources.foreign;

@@ -64,15 +64,6 @@ std::string remarks(const RelocateReport& report)
   return out.str();
 }
 
-std::string mapSection(const RelocateReport& report)
-{
-  std::ostringstream out;
-  out << "\n## Map\n\n* features: " << report.map_features
-      << "\n* bytes, serialized: " << report.map_bytes
-      << "\n* built in [s]: " << fixedNumber(report.map_build_seconds, 3) << "\n";
-  return out.str();
-}
-
 std::vector<std::pair<std::string, Plot>> plotsOf(const RelocateReport& report)
 {
   Plot errors{"Error of the first candidate",
@@ -121,15 +112,13 @@ void writeRelocateReport(const RelocateReport& report, const std::filesystem::pa
   {
     files.summary["methods"][method.name] = methodJson(method);
   }
-  files.summary["map"] = {{"features", report.map_features},
-                          {"build_s", report.map_build_seconds},
-                          {"bytes", report.map_bytes}};
+  files.summary["map"] = toJson(report.map);
   files.summary["complete"] = report.complete;
   files.summary["without_truth"] = report.without_truth;
   files.results = resultsCsv(report);
   files.text = "# Relocation from one look\n\n" + relocateTable(report) + "\n" + remarks(report);
   files.plots = plotsOf(report);
-  files.notes = relocationDefinitions() + mapSection(report);
+  files.notes = relocationDefinitions() + mapSection(report.map);
   files.provenance = report.provenance;
   writeRunReport(files, folder);
 }

@@ -78,8 +78,8 @@ std::string relocationCsvRow(const std::string& method, const RelocationRecord& 
       << "," << fixedNumber(r.first_score, 5) << "," << fixedNumber(r.error.distance, 4) << ","
       << fixedNumber(r.error.angle_deg, 3) << "," << r.candidates << "," << r.rank_of_right << ","
       << r.proposals << "," << (r.proposed ? (*r.proposed ? "1" : "0") : "") << ","
-      << (r.claims_verdict ? toString(r.claim) : "") << "," << r.poses_scored << ","
-      << r.cut_short << "," << fixedNumber(r.time_ms, 3);
+      << (r.claims_verdict ? toString(r.claim) : "") << "," << r.poses_scored << "," << r.cut_short
+      << "," << fixedNumber(r.time_ms, 3);
   return csv.str();
 }
 

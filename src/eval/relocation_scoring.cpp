@@ -65,6 +65,16 @@ Claim judgeClaim(const std::optional<PoseError>& error, const AccuracyGates& gat
   return near ? Claim::inaccurate : Claim::wrong;
 }
 
+std::size_t countValidBeams(const std::vector<LaserScan>& scans)
+{
+  std::size_t count = 0;
+  for (const LaserScan& scan : scans)
+  {
+    count += static_cast<std::size_t>(std::count(scan.valid.begin(), scan.valid.end(), 1));
+  }
+  return count;
+}
+
 RelocationRecord judgeRelocation(const EvaluationQuery& query, const RelocationResult& answer,
                                  bool claims_verdict,
                                  const std::optional<std::vector<TPose2D>>& proposals,
@@ -73,11 +83,7 @@ RelocationRecord judgeRelocation(const EvaluationQuery& query, const RelocationR
   RelocationRecord record;
   record.query = query.name;
   record.truth = query.truth;
-  for (const LaserScan& scan : query.scans)
-  {
-    record.valid_beams +=
-        static_cast<std::size_t>(std::count(scan.valid.begin(), scan.valid.end(), 1));
-  }
+  record.valid_beams = countValidBeams(query.scans);
   record.claims_verdict = claims_verdict;
   record.verdict = answer.verdict;
   record.probability = answer.probability;

@@ -81,8 +81,8 @@ std::string configurationOf(const MonteCarloSettings& settings, const fs::path& 
   return ini.str();
 }
 
-/// Runs the program, everything it prints into `log`. It has nothing to read: at errors it waits for
-/// a key.
+/// Runs the program, everything it prints into `log`. It has nothing to read: at errors it waits
+/// for a key.
 void runStock(const fs::path& ini, const fs::path& log)
 {
   const auto status = detail::runProgram(kProgram, ini.string(), log);

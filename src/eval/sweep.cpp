@@ -10,6 +10,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "sigloc/eval/cpu_time.h"
 #include "sigloc/eval/FreeSpace.h"
 #include "sigloc/eval/relocate.h"
 #include "sigloc/eval/robot_simulation.h"
@@ -207,6 +208,7 @@ class WorldRun
       {
         mapped_ = makeWorld(name.kind, conditions.world, name.seed);
         map_ = mapOf(mapped_, conditions.map_sigma, name.seed);
+        report_.map.add(*map_.features, map_.build_seconds);
         methods_ = makeMethods(map_, options_);
       }
       const World asked = worldWhenAsked(mapped_, conditions, name.seed);
@@ -299,6 +301,7 @@ SweepReport runSweep(const SweepOptions& given)
   {
     run.run(names[i], share * static_cast<double>(i), share);
   }
+  report.peak_rss_mb = peakMemoryMb();
   return report;
 }
 }  // namespace sigloc

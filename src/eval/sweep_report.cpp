@@ -80,8 +80,10 @@ nlohmann::ordered_json summaryJson(const SweepReport& report,
       all.insert(all.end(), report.rows[i].records.begin(), report.rows[i].records.end());
     }
     json["methods"][method] = toJson(summaryOf(all));
+    if (report.map.maps > 0) json["methods"][method]["peak_rss_mb"] = report.peak_rss_mb;
     json["methods"][method]["rows"] = entries;
   }
+  if (report.map.maps > 0) json["map"] = toJson(report.map);
   return json;
 }
 
@@ -218,6 +220,7 @@ RunReport sweepRunReport(const SweepReport& report)
       {"confidently_wrong.png", sharePlot(report, rows, "Confidently wrong", confidentlyWrong)},
       {"time_ratio.png", timeRatioPlot(report, rows)}};
   files.notes = relocationDefinitions() + kNotes;
+  if (report.map.maps > 0) files.notes += mapSection(report.map);
   files.provenance = report.provenance;
   return files;
 }

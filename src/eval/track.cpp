@@ -3,7 +3,6 @@
 #include "sigloc/eval/track.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <mutex>
 #include <stdexcept>
@@ -11,6 +10,7 @@
 #include "sigloc/bridge/GroundTruth.h"
 #include "sigloc/bridge/map_sources.h"
 #include "sigloc/eval/cpu_time.h"
+#include "sigloc/eval/report_files.h"
 #include "sigloc/eval/run_parallel.h"
 #include "track_drive.h"
 
@@ -22,6 +22,27 @@ using detail::TrackDrive;
 using detail::TrackDriveStep;
 using detail::TrackLeg;
 using mrpt::math::TPose2D;
+
+/// A drive in another place than the map: any step may start, and distance is what odometry says.
+TrackDrive readForeignDrive(const std::filesystem::path& rawlog)
+{
+  RawlogReader reader(rawlog);
+  TrackDrive drive;
+  drive.foreign = true;
+  double travelled = 0;
+  while (auto step = reader.next())
+  {
+    if (step->motion) travelled += std::hypot(step->motion->mean.x, step->motion->mean.y);
+    if (step->scans.empty()) continue;
+    TrackDriveStep out;
+    out.travelled = travelled;
+    out.may_start = true;
+    out.step = std::move(*step);
+    drive.steps.push_back(std::move(out));
+  }
+  drive.complete = !reader.truncated();
+  return drive;
+}
 
 TrackDrive readDrive(const TrackOptions& options, const std::vector<TPose2D>& mapped_poses)
 {
@@ -59,8 +80,14 @@ detail::LoggedDrive readLog(const TrackOptions& options)
   }
   detail::LoggedDrive log;
   log.map = readEvaluationMap(options.map);
+  log.files = {options.map, options.rawlog};
+  if (options.foreign)
+  {
+    log.drive = readForeignDrive(options.rawlog);
+    return log;
+  }
   log.drive = readDrive(options, log.map.mapped_poses);
-  log.files = {options.map, options.rawlog, options.ground_truth};
+  log.files.push_back(options.ground_truth);
   if (!options.start_from.empty()) log.files.push_back(options.start_from);
   return log;
 }
@@ -87,8 +114,8 @@ std::vector<std::size_t> startsOf(const TrackDrive& drive, const TrackOptions& o
   if (allowed.empty())
   {
     const auto& path = options.landmarks.empty() ? options.rawlog : options.landmark_folder;
-    throw std::runtime_error(path.string() + ": no step with truth has " +
-                             std::to_string(options.travel) + " m of drive after it");
+    throw std::runtime_error(path.string() + ": no step" + (options.foreign ? "" : " with truth") +
+                             " has " + fixedNumber(options.travel, 1) + " m of drive after it");
   }
   std::vector<double> way = {0};
   for (std::size_t k = 1; k < allowed.size(); ++k)
@@ -119,10 +146,9 @@ TrackLeg legFrom(const TrackDrive& drive, std::size_t start, double travel)
   return {&drive, start, last};
 }
 
-/// One wake-up; with `kidnap` carried half-way to the start half the list away.
-TrackRun runOnce(const TrackingMethodFactory& factory, const TrackDrive& drive,
-                 const std::vector<std::size_t>& starts, std::size_t which,
-                 const TrackOptions& options)
+/// The way of one wake-up; with `kidnap` carried half-way to the start half the list away.
+std::vector<TrackLeg> legsOf(const TrackDrive& drive, const std::vector<std::size_t>& starts,
+                             std::size_t which, const TrackOptions& options)
 {
   std::vector<TrackLeg> legs = {legFrom(drive, starts[which], options.travel)};
   if (options.kidnap)
@@ -130,81 +156,73 @@ TrackRun runOnce(const TrackingMethodFactory& factory, const TrackDrive& drive,
     const std::size_t elsewhere = starts[(which + starts.size() / 2) % starts.size()];
     legs.push_back(legFrom(drive, elsewhere, options.travel));
   }
-  const std::uint32_t seed =
-      options.method.seed * 1000003U + static_cast<std::uint32_t>(starts[which]);
-  return detail::runLegs(factory, legs, seed, options.gates);
-}
-}  // namespace
-
-void judgeRun(TrackRun& run)
-{
-  const auto& steps = run.steps;
-  std::size_t settled = steps.size();
-  while (settled > 0 && (steps[settled - 1].claim.confident || !steps[settled - 1].mapped))
-  {
-    --settled;
-  }
-  if (settled < steps.size())
-  {
-    run.settled_after =
-        steps[settled].travelled - (run.kidnapped_at > 0 && settled >= run.kidnapped_at
-                                        ? steps[run.kidnapped_at].travelled
-                                        : 0);
-  }
-  run.cpu_to_settled = 0;
-  for (std::size_t i = 0; i < steps.size(); ++i)
-  {
-    if (i <= settled) run.cpu_to_settled += 1e-3 * steps[i].time_ms;
-    if (steps[i].judged != Claim::wrong) continue;
-    ++run.wrong_steps;
-    if (i == 0 || steps[i - 1].judged != Claim::wrong) ++run.wrong_episodes;
-  }
-  const auto last_with_truth = std::find_if(steps.rbegin(), steps.rend(),
-                                            [](const TrackStepRecord& s)
-                                            { return s.mapped && !std::isnan(s.error.distance); });
-  run.right_at_end = last_with_truth != steps.rend() && last_with_truth->judged == Claim::right;
-  if (run.kidnapped_at == 0) return;
-  for (std::size_t i = run.kidnapped_at; i < steps.size() && !run.noticed_after; ++i)
-  {
-    if (steps[i].claim.confident && steps[i].judged != Claim::right) continue;
-    run.noticed_after = steps[i].travelled - steps[run.kidnapped_at].travelled;
-  }
+  return legs;
 }
 
-TrackReport runTrack(const TrackOptions& options)
+void check(const TrackOptions& options)
 {
   if (options.starts == 0) throw std::invalid_argument("--starts must be at least 1");
   if (!(options.travel >= 0 && std::isfinite(options.travel)))
   {
     throw std::invalid_argument("--travel must be a length of at least 0 m");
   }
+  if (options.kidnap && options.starts < 2)
+  {
+    throw std::invalid_argument("--kidnap carries a robot to another start: --starts 2 or more");
+  }
+  if (options.kidnap && options.foreign)
+  {
+    throw std::invalid_argument("--kidnap: in a foreign map there is nothing to notice");
+  }
   checkTrackingMethods(options.methods);
+}
+
+/// All wake-ups of one method, in the order of the starts.
+TrackMethodReport runMethod(const std::string& name, const detail::LoggedDrive& log,
+                            const std::vector<std::size_t>& starts, const TrackOptions& options)
+{
+  resetPeakMemory();
+  const auto factory = makeTrackingMethod(name, log.map, options.method);
+  TrackMethodReport method;
+  method.name = name;
+  method.runs.resize(starts.size());
+  std::size_t done = 0;
+  std::mutex mutex;
+  const auto wake_up = [&](std::size_t i)
+  {
+    const std::uint32_t seed =
+        options.method.seed * 1000003U + static_cast<std::uint32_t>(starts[i]);
+    method.runs[i] =
+        detail::runLegs(*factory, legsOf(log.drive, starts, i, options), seed, options.gates);
+    const std::lock_guard<std::mutex> lock(mutex);
+    const double share = static_cast<double>(++done) / static_cast<double>(starts.size());
+    if (options.progress) options.progress(name, share);
+  };
+  runParallel(starts.size(), options.threads, wake_up);
+  method.peak_rss_mb = peakMemoryMb();
+  for (std::size_t i = 0; i < starts.size() && method.failures.size() < options.keep_failures; ++i)
+  {
+    if (!isFailedRun(method.runs[i])) continue;
+    method.failures.push_back(detail::failureOf(
+        method.runs[i], legsOf(log.drive, starts, i, options), name, log.map.features));
+  }
+  return method;
+}
+}  // namespace
+
+TrackReport runTrack(const TrackOptions& options)
+{
+  check(options);
   const detail::LoggedDrive log = readLog(options);
-  const auto& [map, drive, files] = log;
-  const std::vector<std::size_t> starts = startsOf(drive, options);
+  const std::vector<std::size_t> starts = startsOf(log.drive, options);
   TrackReport report;
-  report.map_features = map.features->features().size();
-  report.map_build_seconds = map.build_seconds;
-  report.complete = drive.complete;
-  report.provenance = {options.command, options.method.seed, files};
+  report.map.add(*log.map.features, log.map.build_seconds);
+  report.complete = log.drive.complete;
+  report.foreign = options.foreign;
+  report.provenance = {options.command, options.method.seed, log.files};
   for (const std::string& name : options.methods)
   {
-    resetPeakMemory();
-    const auto factory = makeTrackingMethod(name, log.map, options.method);
-    TrackMethodReport method{name, std::vector<TrackRun>(starts.size()), 0};
-    std::atomic<std::size_t> done{0};
-    std::mutex mutex;
-    runParallel(starts.size(), options.threads,
-                [&](std::size_t i)
-                {
-                  method.runs[i] = runOnce(*factory, log.drive, starts, i, options);
-                  const double share =
-                      static_cast<double>(++done) / static_cast<double>(starts.size());
-                  const std::lock_guard<std::mutex> lock(mutex);
-                  if (options.progress) options.progress(name, share);
-                });
-    method.peak_rss_mb = peakMemoryMb();
-    report.methods.push_back(std::move(method));
+    report.methods.push_back(runMethod(name, log, starts, options));
   }
   return report;
 }

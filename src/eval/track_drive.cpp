@@ -51,6 +51,7 @@ void judgeLeg(const TrackLeg& leg, const std::vector<TimedClaim>& claims,
 {
   const std::vector<TrackDriveStep>& steps = leg.drive->steps;
   const double before = run.steps.empty() ? 0 : run.steps.back().travelled;
+  const double seconds_before = run.steps.empty() ? 0 : run.steps.back().seconds;
   for (std::size_t i = leg.first; i < leg.last; ++i)
   {
     const TimedClaim& timed = claims.at(run.steps.size());
@@ -59,6 +60,9 @@ void judgeLeg(const TrackLeg& leg, const std::vector<TimedClaim>& claims,
     record.time_ms = timed.time_ms;
     record.step = i;
     record.travelled = before + steps[i].travelled - steps[leg.first].travelled;
+    record.seconds = seconds_before + steps[i].step.time - steps[leg.first].step.time;
+    record.saw_nothing =
+        countValidBeams(steps[i].step.scans) < kBeamsToSee && steps[i].step.landmarks.empty();
     judge(steps[i], leg.drive->foreign, gates, record);
     run.steps.push_back(record);
   }

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -61,4 +62,9 @@ bool isMapped(const mrpt::math::TPose2D& truth,
 /// start of the next, and judges every step.
 TrackRun runLegs(const TrackingMethodFactory& factory, const std::vector<TrackLeg>& legs,
                  std::uint32_t seed, const AccuracyGates& gates);
+
+/// Returns the step of a failed run that shows best what went wrong: the first wrong claim, else
+/// the step that it was judged by. `legs` as the run had them.
+FailedQuery failureOf(const TrackRun& run, const std::vector<TrackLeg>& legs,
+                      const std::string& method, std::shared_ptr<const FeatureMap> map);
 }  // namespace sigloc::detail

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "sigloc/eval/landmark_data.h"
@@ -27,7 +28,7 @@ LoggedDrive readLandmarkDrive(const std::string& dataset, const std::filesystem:
   {
     const LandmarkStep& seen = data.steps[k];
     TrackDriveStep step;
-    step.step.time = static_cast<double>(k);
+    step.step.time = std::numeric_limits<double>::quiet_NaN();  // these logs tell none
     step.step.motion = seen.motion;
     step.step.landmarks = seen.observed;
     if (seen.truth_sure) step.truth = seen.truth;

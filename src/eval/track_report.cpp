@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 #include <sstream>
+#include <tuple>
 
+#include "sigloc/eval/relocation_rows.h"
 #include "sigloc/eval/report_files.h"
 #include "sigloc/eval/track.h"
 #include "track_calibration.h"
@@ -19,10 +21,15 @@ constexpr const char* kDefinitions = R"(
 * A run wakes up lost at one place and drives on. **right at end**: confident and within 0.5 m and
   10 degrees of the truth at the last step with truth. **settled**: confident from some step to the
   end; the distance to it is over the runs that settle, the CPU time (building the filter included)
-  over all: a run that never settles costs its whole time.
+  over all: a run that never settles costs its whole time. After a kidnapping way, time and CPU time
+  count from there, and no run has settled before it noticed.
 * **wrong**: runs with a step that is confident and more than 1 m or 20 degrees off; steps and
   unbroken episodes of it counted as well.
-* **noticed**: after a kidnapping, runs in which the method stopped being sure of a wrong place.
+* **noticed**: after a kidnapping, runs in which the method was not, or no longer, sure of a wrong
+  place, and how far and how long after; *s* is the time of the drive, by the log.
+* In `summary.json`, `confident`, `confident_right` and `inaccurate` count runs by their last step with
+  truth, `confidently_wrong` those that were wrong at any step; `recall_at_1` is the share whose best
+  pose is right there, sure or not. A run that saw nothing has fewer than 10 beams in every step.
 * Confident: for `signature` and `signature-mcl` the verdict `localized`; for MRPT's filter a position sd below 0.5 m
   and a heading sd below 10 degrees over 5 steps.
 * `signature-mcl`: MRPT's filter with 500 particles, drawn where signatures find a lost robot.
@@ -46,17 +53,32 @@ struct TrackSummary
   Proportion settled;
   Proportion noticed;
   Quantiles distance_to_settled;
-  Quantiles noticed_after;
+  Quantiles seconds_to_settled;
+  Quantiles distance_to_noticed;
+  Quantiles seconds_to_noticed;
   Quantiles cpu_to_settled;
   Quantiles step_ms;
 };
+
+/// Of the metres and of the seconds; those of logs without times are NaN.
+std::pair<Quantiles, Quantiles> quantilesOfEvents(const std::vector<TrackEvent>& events)
+{
+  std::vector<double> metres;
+  std::vector<double> seconds;
+  for (const TrackEvent& event : events)
+  {
+    metres.push_back(event.metres);
+    if (!std::isnan(event.seconds)) seconds.push_back(event.seconds);
+  }
+  return {quantilesOf(metres), quantilesOf(seconds)};
+}
 
 /// Of all runs, or of those of one group.
 TrackSummary summarizeRuns(const TrackMethodReport& method, const std::string& group = {})
 {
   TrackSummary s;
-  std::vector<double> distances;
-  std::vector<double> noticed;
+  std::vector<TrackEvent> settled;
+  std::vector<TrackEvent> noticed;
   std::vector<double> cpu;
   std::vector<double> times;
   for (const TrackRun& run : method.runs)
@@ -73,7 +95,7 @@ TrackSummary summarizeRuns(const TrackMethodReport& method, const std::string& g
     if (run.settled_after)
     {
       ++s.settled.count;
-      distances.push_back(*run.settled_after);
+      settled.push_back(*run.settled_after);
     }
     if (run.kidnapped_at > 0)
     {
@@ -87,8 +109,8 @@ TrackSummary summarizeRuns(const TrackMethodReport& method, const std::string& g
     cpu.push_back(run.cpu_to_settled);
     for (const TrackStepRecord& step : run.steps) times.push_back(step.time_ms);
   }
-  s.distance_to_settled = quantilesOf(distances);
-  s.noticed_after = quantilesOf(noticed);
+  std::tie(s.distance_to_settled, s.seconds_to_settled) = quantilesOfEvents(settled);
+  std::tie(s.distance_to_noticed, s.seconds_to_noticed) = quantilesOfEvents(noticed);
   s.cpu_to_settled = quantilesOf(cpu);
   s.step_ms = quantilesOf(times);
   return s;
@@ -105,22 +127,57 @@ std::set<std::string> groupsOf(const TrackMethodReport& method)
   return groups;
 }
 
+/// What every sub-command's summary tells, of runs instead of queries: see kDefinitions.
+RelocationSummary endSummary(const TrackMethodReport& method, const TrackSummary& runs)
+{
+  const AccuracyGates gates;
+  RelocationSummary s;
+  std::vector<double> distances;
+  std::vector<double> angles;
+  s.queries = runs.runs;
+  s.claims_verdict = true;
+  s.confidently_wrong = runs.wrong_runs;
+  s.time_ms = runs.step_ms;
+  for (const TrackRun& run : method.runs)
+  {
+    s.saw_nothing += std::all_of(run.steps.begin(), run.steps.end(),
+                                 [](const TrackStepRecord& step) { return step.saw_nothing; });
+    const TrackStepRecord& last = run.steps[judgedStep(run).value_or(run.steps.size() - 1)];
+    s.confident += last.claim.confident;
+    s.confident_right += last.judged == Claim::right;
+    s.inaccurate += last.judged == Claim::inaccurate;
+    if (!judgedStep(run)) continue;
+    const bool right = isRight(last.error, gates);
+    const bool tight = right && last.error.angle_deg <= gates.tight_angle_deg;
+    ++s.recall_at_1.cases;
+    ++s.recall_at_1_tight.cases;
+    s.recall_at_1.count += right;
+    s.recall_at_1_tight.count += tight;
+    if (!right) continue;
+    distances.push_back(last.error.distance);
+    angles.push_back(last.error.angle_deg);
+  }
+  s.median_error_m = quantilesOf(distances).median;
+  s.median_error_deg = quantilesOf(angles).median;
+  return s;
+}
+
 nlohmann::ordered_json methodJson(const TrackMethodReport& method)
 {
   const TrackSummary s = summarizeRuns(method);
-  nlohmann::ordered_json json;
-  json["queries"] = s.runs;
+  nlohmann::ordered_json json = toJson(endSummary(method, s));
   json["steps"] = s.steps;
-  json["confidently_wrong"] = s.wrong_runs;
   json["confidently_wrong_steps"] = s.wrong_steps;
   json["confidently_wrong_episodes"] = s.wrong_episodes;
   addProportion(json, "right_at_end", s.right_at_end);
   addProportion(json, "settled", s.settled);
   json["distance_to_settled_m"] = toJson(s.distance_to_settled);
+  json["time_to_settled_s"] = toJson(s.seconds_to_settled);
   json["cpu_s_to_settled"] = toJson(s.cpu_to_settled);
   json["step_ms"] = toJson(s.step_ms);
   addProportion(json, "noticed", s.noticed);
-  json["noticed_after_m"] = toJson(s.noticed_after);
+  json["noticed_after_m"] = toJson(s.distance_to_noticed);
+  json["noticed_after_s"] = toJson(s.seconds_to_noticed);
   json["peak_rss_mb"] = method.peak_rss_mb;
   json["calibration"] = detail::toJson(detail::selfKnowledgeOf(method, {}));
   for (const std::string& group : groupsOf(method))
@@ -138,7 +195,8 @@ nlohmann::ordered_json methodJson(const TrackMethodReport& method)
 std::string resultsCsv(const TrackReport& report)
 {
   std::ostringstream csv;
-  csv << "method,start,step,travelled_m,kidnapped,confident,x,y,phi,error_m,error_deg,claim,"
+  csv << "method,start,step,travelled_m,seconds,kidnapped,confident,x,y,phi,error_m,error_deg,"
+         "claim,"
          "verdict,hypotheses,weight,second_weight,elsewhere,nees,mapped,time_ms\n";
   for (const TrackMethodReport& method : report.methods)
   {
@@ -149,7 +207,8 @@ std::string resultsCsv(const TrackReport& report)
         const TrackStepRecord& r = run.steps[i];
         const bool kidnapped = run.kidnapped_at > 0 && i >= run.kidnapped_at;
         csv << method.name << "," << run.start << "," << r.step << ","
-            << fixedNumber(r.travelled, 3) << "," << kidnapped << "," << r.claim.confident << ",";
+            << fixedNumber(r.travelled, 3) << "," << fixedNumber(r.seconds, 3) << "," << kidnapped
+            << "," << r.claim.confident << ",";
         if (r.claim.has_pose)
         {
           csv << fixedNumber(r.claim.pose.x, 4) << "," << fixedNumber(r.claim.pose.y, 4) << ","
@@ -178,21 +237,24 @@ std::string resultsCsv(const TrackReport& report)
   return csv.str();
 }
 
+std::string eventCells(const std::optional<TrackEvent>& event)
+{
+  return event ? fixedNumber(event->metres, 3) + "," + fixedNumber(event->seconds, 3) : ",";
+}
+
 /// One row a run.
 std::string runsCsv(const TrackReport& report)
 {
   std::ostringstream csv;
-  csv << "method,start,group,steps,right_at_end,settled_after_m,wrong_steps,wrong_episodes,"
-         "noticed_after_m\n";
+  csv << "method,start,group,steps,right_at_end,settled_after_m,settled_after_s,wrong_steps,"
+         "wrong_episodes,noticed_after_m,noticed_after_s\n";
   for (const TrackMethodReport& method : report.methods)
   {
     for (const TrackRun& run : method.runs)
     {
-      constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
       csv << method.name << "," << run.start << "," << run.group << "," << run.steps.size() << ","
-          << run.right_at_end << "," << fixedNumber(run.settled_after.value_or(kNone), 3) << ","
-          << run.wrong_steps << "," << run.wrong_episodes << ","
-          << fixedNumber(run.noticed_after.value_or(kNone), 3) << "\n";
+          << run.right_at_end << "," << eventCells(run.settled_after) << "," << run.wrong_steps
+          << "," << run.wrong_episodes << "," << eventCells(run.noticed_after) << "\n";
     }
   }
   return csv.str();
@@ -209,7 +271,7 @@ std::vector<std::pair<std::string, Plot>> plotsOf(const TrackReport& report)
     for (const TrackRun& run : method.runs)
     {
       if (!run.settled_after) continue;
-      distances.push_back(*run.settled_after);
+      distances.push_back(run.settled_after->metres);
       seconds.push_back(run.cpu_to_settled);
     }
     settled.series.push_back(cumulativeShare(method.name, distances, method.runs.size()));
@@ -221,6 +283,32 @@ std::vector<std::pair<std::string, Plot>> plotsOf(const TrackReport& report)
     for (auto& plot : detail::beliefPlots(method)) plots.push_back(std::move(plot));
   }
   return plots;
+}
+/// What came after a kidnapping; empty without one.
+std::string kidnappingTable(const TrackReport& report)
+{
+  std::vector<std::vector<std::string>> rows = {{"after the kidnapping", "noticed", "m", "p95", "s",
+                                                 "p95", "settled again", "m", "p95", "s", "p95",
+                                                 "CPU s", "p95"}};
+  for (const TrackMethodReport& method : report.methods)
+  {
+    const TrackSummary s = summarizeRuns(method);
+    if (s.noticed.cases == 0) continue;
+    std::vector<std::string> row = {method.name, withInterval(s.noticed)};
+    const auto add = [&](const Quantiles& quantiles, int decimals)
+    {
+      row.push_back(fixedNumber(quantiles.median, decimals));
+      row.push_back(fixedNumber(quantiles.p95, decimals));
+    };
+    add(s.distance_to_noticed, 2);
+    add(s.seconds_to_noticed, 1);
+    row.push_back(withInterval(s.settled));
+    add(s.distance_to_settled, 2);
+    add(s.seconds_to_settled, 1);
+    add(s.cpu_to_settled, 3);
+    rows.push_back(row);
+  }
+  return rows.size() > 1 ? "\n" + markdownTable(rows) : std::string();
 }
 }  // namespace
 
@@ -247,7 +335,7 @@ std::string trackTable(const TrackReport& report)
       add(method.name + ", " + group, summarizeRuns(method, group));
     }
   }
-  return markdownTable(rows);
+  return markdownTable(rows) + kidnappingTable(report);
 }
 
 void writeTrackReport(const TrackReport& report, const std::filesystem::path& folder)
@@ -257,10 +345,12 @@ void writeTrackReport(const TrackReport& report, const std::filesystem::path& fo
   {
     files.summary["methods"][method.name] = methodJson(method);
   }
-  files.summary["map"] = {{"features", report.map_features}, {"build_s", report.map_build_seconds}};
+  files.summary["map"] = toJson(report.map);
   files.summary["complete"] = report.complete;
   files.results = resultsCsv(report);
   files.text = "# Wake-ups\n\n" + trackTable(report);
+  if (report.foreign)
+    files.text += "\nThe map is of another place: every confident step is wrong.\n";
   for (const TrackMethodReport& method : report.methods)
   {
     const std::string tables = detail::toMarkdown(detail::selfKnowledgeOf(method, {}));
@@ -269,7 +359,7 @@ void writeTrackReport(const TrackReport& report, const std::filesystem::path& fo
   }
   files.tables = {{"runs.csv", runsCsv(report)}};
   files.plots = plotsOf(report);
-  files.notes = kDefinitions;
+  files.notes = kDefinitions + mapSection(report.map);
   files.provenance = report.provenance;
   writeRunReport(files, folder);
 }

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
+#include <map>
 #include <mutex>
 #include <stdexcept>
 
@@ -22,6 +22,9 @@ namespace
 using detail::TrackDrive;
 using detail::TrackDriveStep;
 using mrpt::math::TPose2D;
+
+/// Failed drives of a method by their numbers: worlds end in any order.
+using NumberedFailures = std::map<std::size_t, FailedQuery>;
 
 constexpr double kClearance = 0.35;  // [m] of robot and mapping run
 constexpr std::uint64_t kSizeStream = 400;  // of the random numbers, see Random
@@ -186,6 +189,8 @@ class DrivenPlace
     }
   }
 
+  std::shared_ptr<const FeatureMap> map() const { return map_.features; }
+
   TrackDrive drive(std::uint64_t seed) const
   {
     DriveOptions how;
@@ -241,15 +246,23 @@ class DrivenPlace
   std::optional<LandmarkSimulator> landmarks_;  // in a world of points, the other
 };
 
-TrackRun runDrive(const TrackingMethodFactory& factory, const DrivenPlace& place,
-                  std::size_t number, const SimulatedTrackOptions& options)
+/// The gates of simulation: the truth is exact.
+AccuracyGates exactGates()
+{
+  AccuracyGates gates;
+  gates.wrong_distance = gates.right_distance;
+  gates.wrong_angle_deg = gates.right_angle_deg;
+  return gates;
+}
+
+/// One drive of one method; where it fails and there is room, `failures` gets it.
+TrackRun runDrive(const TrackingMethodFactory& factory, const std::string& method,
+                  const DrivenPlace& place, std::size_t number,
+                  const SimulatedTrackOptions& options, NumberedFailures& failures)
 {
   // Drives and worlds draw from seeds of their own.
   constexpr std::uint64_t kDrives = 1U << 20U;
   constexpr std::uint64_t kSecondLegs = 1U << 21U;
-  AccuracyGates gates;
-  gates.wrong_distance = gates.right_distance;
-  gates.wrong_angle_deg = gates.right_angle_deg;
   std::vector<TrackDrive> drives = {place.drive(seedOf(options.method.seed, kDrives + number))};
   if (options.kidnap)
   {
@@ -259,9 +272,23 @@ TrackRun runDrive(const TrackingMethodFactory& factory, const DrivenPlace& place
   legs.reserve(drives.size());
   for (const TrackDrive& drive : drives) legs.push_back({&drive, 0, drive.steps.size()});
   const auto seed = static_cast<std::uint32_t>(seedOf(options.method.seed, number));
-  TrackRun run = detail::runLegs(factory, legs, seed, gates);
+  TrackRun run = detail::runLegs(factory, legs, seed, exactGates());
   run.start = number;
+  if (failures.size() < options.keep_failures && isFailedRun(run))
+  {
+    failures.emplace(number, detail::failureOf(run, legs, method, place.map()));
+  }
   return run;
+}
+
+/// Refuses an option that is given though no kind of world of the run depends on it.
+void refuseUnused(const SimulatedTrackOptions& options, bool given, const std::string& name,
+                  std::string_view key)
+{
+  const bool used =
+      options.kinds.empty() || std::any_of(options.kinds.begin(), options.kinds.end(),
+                                           [&](WorldKind kind) { return usesOption(kind, key); });
+  if (given && !used) throw std::invalid_argument(name + ": has no use in these worlds");
 }
 
 void check(const SimulatedTrackOptions& options)
@@ -278,6 +305,12 @@ void check(const SimulatedTrackOptions& options)
   {
     throw std::invalid_argument("--worlds points: only method signature tracks by landmarks");
   }
+  if (options.kidnap && options.foreign)
+  {
+    throw std::invalid_argument("--kidnap: in a foreign map there is nothing to notice");
+  }
+  refuseUnused(options, options.moved_share > 0, "--moved-share", "moved_share");
+  refuseUnused(options, options.extra_items > 0, "--unmapped", "extra_items");
   if (!(options.mapped_share > 0 && options.mapped_share <= 1))
   {
     throw std::invalid_argument("--mapped-share must be above 0, up to 1");
@@ -292,13 +325,17 @@ TrackReport runSimulatedTrack(const SimulatedTrackOptions& options)
   check(options);
   TrackReport report;
   report.provenance = {options.command, options.method.seed, {}};
+  report.foreign = options.foreign;
   for (const std::string& name : options.methods)
   {
-    report.methods.push_back({name, std::vector<TrackRun>(options.drives), 0});
+    report.methods.emplace_back();
+    report.methods.back().name = name;
+    report.methods.back().runs.resize(options.drives);
   }
+  std::vector<NumberedFailures> failures(options.methods.size());
   const std::size_t worlds =
       (options.drives + options.drives_per_world - 1) / options.drives_per_world;
-  std::atomic<std::size_t> done{0};
+  std::size_t done = 0;
   std::mutex mutex;
   const auto run_world = [&](std::size_t index)
   {
@@ -308,26 +345,39 @@ TrackReport runSimulatedTrack(const SimulatedTrackOptions& options)
     const EvaluationMap map =
         mapPlace(mapped == index ? place : makePlace(options, mapped), options);
     const DrivenPlace driven(place, map, options);
-    for (TrackMethodReport& method : report.methods)
+    const std::size_t first = index * options.drives_per_world;
+    const std::size_t last =
+        std::min<std::size_t>(first + options.drives_per_world, options.drives);
+    std::vector<NumberedFailures> failed(options.methods.size());
+    for (std::size_t m = 0; m < report.methods.size(); ++m)
     {
+      TrackMethodReport& method = report.methods[m];
       const auto factory = makeTrackingMethod(method.name, map, options.method);
-      const std::size_t first = index * options.drives_per_world;
-      const std::size_t last =
-          std::min<std::size_t>(first + options.drives_per_world, options.drives);
       for (std::size_t number = first; number < last; ++number)
       {
-        method.runs[number] = runDrive(*factory, driven, number, options);
+        method.runs[number] = runDrive(*factory, method.name, driven, number, options, failed[m]);
         method.runs[number].group = toString(place.kind);
       }
     }
     const std::lock_guard<std::mutex> lock(mutex);
-    report.map_features += map.features->features().size();
-    report.map_build_seconds += map.build_seconds;
+    for (std::size_t m = 0; m < failures.size(); ++m) failures[m].merge(failed[m]);
+    report.map.add(*map.features, map.build_seconds);
     const double share = static_cast<double>(++done) / static_cast<double>(worlds);
     if (options.progress) options.progress("worlds", share);
   };
   runParallel(worlds, options.threads, run_world);
-  for (TrackMethodReport& method : report.methods) method.peak_rss_mb = peakMemoryMb();
+  for (std::size_t m = 0; m < failures.size(); ++m)
+  {
+    TrackMethodReport& method = report.methods[m];
+    method.peak_rss_mb = peakMemoryMb();
+    for (auto& [number, failure] : failures[m])
+    {
+      if (method.failures.size() < options.keep_failures)
+      {
+        method.failures.push_back(std::move(failure));
+      }
+    }
+  }
   return report;
 }
 }  // namespace sigloc

@@ -141,9 +141,8 @@ void checkTrackingMethods(const std::vector<std::string>& names)
   checkMethodNames(names, trackingMethodNames());
 }
 
-double squaredNormalisedError(const TrackClaim& claim, const mrpt::math::TPose2D& truth)
+GaussianPose poseOf(const TrackClaim& claim)
 {
-  if (!claim.belief || !claim.has_pose) return std::numeric_limits<double>::quiet_NaN();
   GaussianPose pose;
   pose.mean = claim.pose;
   for (int r = 0; r < 3; ++r)
@@ -153,7 +152,13 @@ double squaredNormalisedError(const TrackClaim& claim, const mrpt::math::TPose2D
       pose.covariance(r, c) = claim.covariance[static_cast<std::size_t>(3 * r + c)];
     }
   }
-  return squaredMahalanobisDistance(pose, {truth, {}});
+  return pose;
+}
+
+double squaredNormalisedError(const TrackClaim& claim, const mrpt::math::TPose2D& truth)
+{
+  if (!claim.belief || !claim.has_pose) return std::numeric_limits<double>::quiet_NaN();
+  return squaredMahalanobisDistance(poseOf(claim), {truth, {}});
 }
 
 std::unique_ptr<TrackingMethodFactory> makeTrackingMethod(const std::string& name,

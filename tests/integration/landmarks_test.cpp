@@ -10,11 +10,14 @@
 #include <filesystem>
 #include <fstream>
 
+#include "bridge/rawlog_files.h"
 #include "sigloc/eval/feature_methods.h"
 #include "sigloc/eval/FeatureWorld.h"
+#include "sigloc/eval/landmark_data.h"
 #include "sigloc/eval/scale.h"
 #include "sigloc/features/LocalMap.h"
 #include "sigloc/geometry/symmetric_matrix.h"
+#include "support/landmark_log.h"
 
 namespace sigloc
 {
@@ -255,6 +258,45 @@ TEST(Landmarks, MissingFilesAndUnknownSetsAreNamed)
   }
   options.dataset = "nonsense";
   EXPECT_THROW(runLandmarks(options), std::invalid_argument);
+}
+/// What reading the log says after `bad` was added to one of its files.
+std::string complaintAbout(const char* file, const std::string& bad)
+{
+  const test::TemporaryFolder folder;
+  test::writeTwoRounds(folder.path());
+  std::ofstream(folder / file, std::ios::app) << bad;
+  try
+  {
+    readDlr(folder.path());
+  }
+  catch (const std::runtime_error& error)
+  {
+    const std::string text = error.what();
+    const std::string path = (folder / file).string() + ": ";
+    EXPECT_EQ(text.rfind(path, 0), 0U) << text;
+    return text.substr(std::min(path.size(), text.size()));
+  }
+  return "nothing";
+}
+
+TEST(LandmarkData, NamesTheLineOfABadRow)
+{
+  EXPECT_EQ(complaintAbout("dlr_ls_poses.csv", "201,1,x,3\n"), "line 201: 'x' is no number");
+  EXPECT_EQ(complaintAbout("dlr_ls_poses.csv", "# 201\n201,1,2\n"), "line 202: 3 of 4 columns");
+  EXPECT_EQ(complaintAbout("dlr_ls_landmarks.csv", "7,nan,2\n"), "line 91: 'nan' is no number");
+  EXPECT_EQ(complaintAbout("dlr_ls_landmarks.csv", ""), "nothing");
+  const std::string step = complaintAbout("map.circles", "STEP image 1 2\n");
+  EXPECT_NE(step.find(": 2 of 9 columns"), std::string::npos) << step;
+  const std::string landmark = complaintAbout("map.circles", "LANDMARK_C 1 2 0.9 a 0 1\n");
+  EXPECT_NE(landmark.find(": 'a' is no number"), std::string::npos) << landmark;
+}
+
+TEST(LandmarkData, RefusesACovarianceThatIsTooSmallForItsMap)
+{
+  const test::TemporaryFolder folder;
+  std::ofstream(folder / "map_trees.csv") << "1,2,3,0.3,0.01\n2,5,6,0.3,0.01\n";
+  std::ofstream(folder / "map_P_290x290.csv") << "1,0,0,0\n0,1,0,0\n";
+  EXPECT_THROW(readVictoriaPark(folder.path()), std::runtime_error);
 }
 }  // namespace
 }  // namespace sigloc

@@ -5,8 +5,8 @@
 
 #include "sigloc/bridge/map_sources.h"
 #include "sigloc/eval/MonteCarloSettings.h"
-#include "sigloc/eval/RelocationMethod.h"
 #include "sigloc/eval/relocation_scoring.h"
+#include "sigloc/eval/RelocationMethod.h"
 #include "sigloc/eval/simulation_files.h"
 
 namespace sigloc
@@ -83,8 +83,8 @@ TEST_F(MonteCarloRelocationTest, WeighsByMrptsOwnLikelihood)
   options.particles = 2;
   const RelocationResult found = localize(options);
   ASSERT_EQ(found.candidates.size(), 2U);
-  const double ratio = likelihoodAt(found.candidates[0].pose.mean) -
-                       likelihoodAt(found.candidates[1].pose.mean);
+  const double ratio =
+      likelihoodAt(found.candidates[0].pose.mean) - likelihoodAt(found.candidates[1].pose.mean);
   EXPECT_NEAR(std::log(found.candidates[0].probability / found.candidates[1].probability), ratio,
               1e-3 * std::max(1.0, std::abs(ratio)));
 }

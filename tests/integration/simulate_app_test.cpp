@@ -29,7 +29,9 @@ TEST(SimulateApp, WritesEveryWorldTheSameTwice)
   for (const char* world : {"office", "corridor", "hall", "park", "points"})
   {
     const test::TemporaryFolder folder;
-    const std::string arguments = std::string("--metres 5 --map-spacing 6 --world ") + world;
+    const bool scanned = std::string(world) != "points";
+    const std::string arguments =
+        std::string("--metres 5 ") + (scanned ? "--map-spacing 6 " : "") + "--world " + world;
     ASSERT_EQ(simulate(folder, arguments + " --out " + (folder / "a").string()), 0) << world;
     ASSERT_EQ(simulate(folder, arguments + " --out " + (folder / "b").string()), 0) << world;
     std::size_t files = 0;
@@ -49,6 +51,10 @@ TEST(SimulateApp, BadArgumentsGiveOneLineAndNothingElse)
   for (const char* arguments :
        {"--world moon --out DIR", "--seed x --out DIR", "--clutter 2 --out DIR",
         "--metres nan --out DIR", "--width 3 --out DIR", "--clearance 5 --out DIR",
+        "--world office --copies 3 --out DIR", "--world hall --door-width 1 --out DIR",
+        "--world points --fov 180 --out DIR", "--world park --landmark-range 9 --out DIR",
+        "--world points --map-spacing 2 --out DIR", "--world corridor --points 9 --out DIR",
+        "--world park --moved-share 0.5 --out DIR", "--world points --width 40 --out DIR",
         "--no-such-flag --out DIR", "--out /proc/none", "", "--out DIR/err/below"})
   {
     const test::TemporaryFolder folder;

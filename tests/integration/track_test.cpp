@@ -12,6 +12,7 @@ TrackStepRecord stepOf(double travelled, Claim judged, bool truth = true)
 {
   TrackStepRecord step;
   step.travelled = travelled;
+  step.seconds = 0.5 * travelled;
   step.judged = judged;
   step.claim.confident = judged != Claim::none;
   step.claim.has_pose = true;
@@ -28,7 +29,9 @@ TEST(TrackScoring, SettlesWhereItStaysConfidentToTheEnd)
                stepOf(6, Claim::right)};
   judgeRun(run);
   EXPECT_TRUE(run.right_at_end);
-  EXPECT_EQ(run.settled_after, 4.0);
+  ASSERT_TRUE(run.settled_after);
+  EXPECT_EQ(run.settled_after->metres, 4.0);
+  EXPECT_EQ(run.settled_after->seconds, 2.0);
   EXPECT_NEAR(run.cpu_to_settled, 0.5, 1e-12);
   EXPECT_EQ(run.wrong_steps, 3U);
   EXPECT_EQ(run.wrong_episodes, 2U);
@@ -51,8 +54,36 @@ TEST(TrackScoring, TellsWhenAKidnappingIsNoticed)
                stepOf(2, Claim::wrong), stepOf(3, Claim::none),  stepOf(5, Claim::right)};
   run.kidnapped_at = 2;
   judgeRun(run);
-  EXPECT_EQ(run.noticed_after, 2.0);
-  EXPECT_EQ(run.settled_after, 4.0) << "counted from the kidnapping";
+  ASSERT_TRUE(run.noticed_after && run.settled_after);
+  EXPECT_EQ(run.noticed_after->metres, 2.0);
+  EXPECT_EQ(run.noticed_after->seconds, 1.0);
+  EXPECT_EQ(run.settled_after->metres, 4.0) << "counted from the kidnapping";
+  EXPECT_EQ(run.settled_after->seconds, 2.0);
+  EXPECT_NEAR(run.cpu_to_settled, 0.4, 1e-12);
+  EXPECT_FALSE(isFailedRun(run) && run.wrong_steps == 0);
+}
+
+TEST(TrackScoring, WhoNeverNoticesAKidnappingNeverSettles)
+{
+  TrackRun run;
+  run.steps = {stepOf(0, Claim::right), stepOf(1, Claim::right), stepOf(1, Claim::wrong),
+               stepOf(2, Claim::wrong)};
+  run.kidnapped_at = 2;
+  judgeRun(run);
+  EXPECT_FALSE(run.noticed_after || run.settled_after);
+  EXPECT_TRUE(isFailedRun(run));
+}
+
+TEST(TrackScoring, WhoIsRightAtOnceHasNoticedAtOnce)
+{
+  TrackRun run;
+  run.steps = {stepOf(0, Claim::right), stepOf(1, Claim::right), stepOf(1, Claim::right)};
+  run.kidnapped_at = 2;
+  judgeRun(run);
+  ASSERT_TRUE(run.noticed_after && run.settled_after);
+  EXPECT_EQ(run.noticed_after->metres, 0.0);
+  EXPECT_EQ(run.settled_after->metres, 0.0) << "not since it woke up";
+  EXPECT_FALSE(isFailedRun(run));
 }
 
 TrackOptions officeOptions()
@@ -121,6 +152,45 @@ TEST(Track, RunsParticleFiltersWithTheNumberAskedFor)
     EXPECT_NE(few.methods[m].runs.front().steps.back().claim.pose,
               more.methods[m].runs.front().steps.back().claim.pose);
   }
+}
+
+TEST(Track, EveryClaimInAForeignMapIsWrong)
+{
+  TrackOptions options = officeOptions();
+  options.methods = {"signature"};
+  options.foreign = true;
+  options.ground_truth.clear();
+  options.travel = 5;
+  options.keep_failures = 2;
+  // The map is of the drive's own office, so that it is sure to claim something.
+  const TrackReport report = runTrack(options);
+  const TrackMethodReport& method = report.methods.front();
+  std::size_t claims = 0;
+  for (const TrackRun& run : method.runs)
+  {
+    EXPECT_FALSE(run.right_at_end);
+    EXPECT_GE(run.steps.back().travelled, 4.5) << "by the odometry";
+    for (const TrackStepRecord& step : run.steps)
+    {
+      EXPECT_EQ(step.judged, step.claim.confident ? Claim::wrong : Claim::none);
+      claims += step.claim.confident;
+    }
+  }
+  EXPECT_GT(claims, 0U);
+  ASSERT_EQ(method.failures.size(), 2U);
+  EXPECT_FALSE(method.failures.front().record.truth);
+  EXPECT_FALSE(method.failures.front().query.scans.empty());
+}
+
+TEST(Track, RefusesWhatIsNoKidnapping)
+{
+  TrackOptions options = officeOptions();
+  options.kidnap = true;
+  options.starts = 1;
+  EXPECT_THROW(runTrack(options), std::invalid_argument) << "to its own place";
+  options.starts = 2;
+  options.foreign = true;
+  EXPECT_THROW(runTrack(options), std::invalid_argument) << "nothing to notice";
 }
 
 TEST(Track, RefusesALogThatIsTooShort)

@@ -35,7 +35,7 @@ struct StepRecord
   bool relocated = false;
   std::optional<mrpt::math::TPose2D> truth;
   std::optional<PoseError> error;  ///< of the first hypothesis
-  bool right = false;  ///< some hypothesis lies within 0.5 m and 10 degrees of the truth
+  bool any_right = false;  ///< some hypothesis lies within 0.5 m and 10 degrees of the truth
   bool confidently_wrong = false;  ///< localized, and more than 1 m or 20 degrees off
   double extraction_ms = 0;  ///< features from scans
   double tracking_ms = 0;  ///< the tracker's step, a relocation in it included

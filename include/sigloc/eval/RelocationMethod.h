@@ -61,8 +61,8 @@ namespace detail
 /// MRPT's particle filter at its first look: particles drawn over the free cells of the whole map
 /// and weighed by the one scan, as many as `mcl` or `mcl-tuned` starts with. Candidates are the
 /// heaviest clusters. It claims nothing, since the filter's rule for that takes five steps; before
-/// the robot has moved KLD has nothing to adapt, so `mcl-fixed` would be `mcl` again. Repeated calls
-/// take turns: MRPT's grid keeps likelihoods in a cache without a lock.
+/// the robot has moved KLD has nothing to adapt, so `mcl-fixed` would be `mcl` again. Repeated
+/// calls take turns: MRPT's grid keeps likelihoods in a cache without a lock.
 std::unique_ptr<RelocationMethod> makeMonteCarloRelocation(const std::string& name,
                                                            const EvaluationMap& map,
                                                            const RelocationMethodOptions& options);

@@ -31,6 +31,9 @@ struct TrackClaim
   std::array<double, 9> covariance{};  ///< of `pose`, row by row
 };
 
+/// The claimed pose with its covariance, zero where the claim has none.
+GaussianPose poseOf(const TrackClaim& claim);
+
 /// Returns the squared Mahalanobis distance of a claimed pose, heading wrapped, from the truth
 /// (3 degrees of freedom); NaN where the claim has no covariance.
 double squaredNormalisedError(const TrackClaim& claim, const mrpt::math::TPose2D& truth);

@@ -17,6 +17,8 @@ struct FailedQuery
   std::string method;
   std::shared_ptr<const FeatureMap> map;
   EvaluationQuery query;
+  std::vector<Feature> landmarks;  ///< what was seen beside the query's scans, robot frame
+  std::string fate;  ///< what became of the right pose, in words
   RelocationRecord record;
   RelocationResult answer;
   std::vector<mrpt::math::TPose2D> proposals;  ///< empty for methods that search
@@ -33,4 +35,11 @@ std::vector<FailedQuery> collectFailures(const std::string& name, const Relocati
                                          const std::vector<EvaluationQuery>& queries,
                                          const std::vector<RelocationRecord>& records,
                                          std::size_t limit);
+
+/// Returns what a search by features alone answered wrongly: what it observed, robot frame, and
+/// what it found, best first.
+FailedQuery featureFailure(const std::string& name, std::shared_ptr<const FeatureMap> map,
+                           std::string query, const std::vector<Feature>& observed,
+                           const mrpt::math::TPose2D& truth,
+                           const std::vector<FeatureHypothesis>& found);
 }  // namespace sigloc

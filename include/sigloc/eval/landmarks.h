@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "sigloc/eval/failed_queries.h"
 #include "sigloc/eval/landmark_data.h"
+#include "sigloc/eval/map_facts.h"
 #include "sigloc/eval/provenance.h"
 #include "sigloc/eval/relocation_scoring.h"
 #include "sigloc/matching/GeneratorOptions.h"
@@ -31,7 +33,8 @@ struct LandmarksOptions
   double visited_distance = 1.0;
   double visited_share = 0.5;
   std::size_t query_stride = 10;  ///< every so many steps is a query
-  std::size_t max_queries = 0;  ///< 0: all
+  std::size_t max_queries = 0;  ///< evenly spaced ones are asked, 0: all
+  std::size_t keep_failures = 0;  ///< how many of each method and length the report keeps
   std::vector<std::string> methods{"signature"};
   GeneratorOptions generator;
   std::uint64_t seed = 1;
@@ -74,9 +77,10 @@ struct LandmarksRow
 struct LandmarksReport
 {
   std::string dataset;
-  std::size_t map_features = 0;
+  MapFacts map;
   std::vector<LandmarkRecord> records;
   std::vector<LandmarksRow> rows;
+  std::vector<FailedQuery> failures;  ///< the first ones: firm and wrong, or not right
   Provenance provenance;
 };
 

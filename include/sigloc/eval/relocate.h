@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sigloc/eval/failed_queries.h"
+#include "sigloc/eval/map_facts.h"
 #include "sigloc/eval/provenance.h"
 #include "sigloc/eval/relocation_scoring.h"
 #include "sigloc/eval/RelocationMethod.h"
@@ -40,9 +41,7 @@ struct RelocateMethodReport
 struct RelocateReport
 {
   std::vector<RelocateMethodReport> methods;
-  std::size_t map_features = 0;
-  std::size_t map_bytes = 0;
-  double map_build_seconds = 0;
+  MapFacts map;
   std::size_t without_truth = 0;
   bool complete = true;
   bool foreign = false;

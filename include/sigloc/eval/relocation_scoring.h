@@ -49,6 +49,7 @@ Claim judgeClaim(const std::optional<PoseError>& error, const AccuracyGates& gat
 
 /// Fewer valid beams than this and a query has seen nothing.
 constexpr std::size_t kBeamsToSee = 10;
+std::size_t countValidBeams(const std::vector<LaserScan>& scans);
 
 /// One query's answer, judged: a row of results.csv.
 struct RelocationRecord

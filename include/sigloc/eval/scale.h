@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "sigloc/eval/failed_queries.h"
 #include "sigloc/eval/FeatureWorld.h"
+#include "sigloc/eval/map_facts.h"
 #include "sigloc/eval/provenance.h"
 #include "sigloc/eval/relocation_scoring.h"
 #include "sigloc/matching/GeneratorOptions.h"
@@ -19,7 +21,8 @@ namespace sigloc
 /// simulated worlds of bare features or on the DLR log.
 struct ScaleOptions
 {
-  std::vector<std::size_t> map_features{1000, 4000, 16000};
+  /// Empty: 1000, 4000 and 16000; on the log 50, 100 and 200 as far as there are more, and all.
+  std::vector<std::size_t> map_features;
   std::vector<std::size_t> observed;  ///< thinned to these counts, in the first map
   std::vector<std::string> methods{"signature-patterns", "signature-anchors"};
   FeatureWorldOptions world;
@@ -35,6 +38,7 @@ struct ScaleOptions
   /// are the discs nearest to each.
   std::filesystem::path dlr;
   std::size_t local_map_steps = 20;  ///< on the log
+  std::size_t keep_failures = 0;  ///< how many failed poses of each row the report keeps
   std::string command;
   std::function<void(const std::string&)> progress;  ///< called with one line a row
 };
@@ -48,6 +52,10 @@ struct ScaleRow
   double observed = 0;  ///< mean number of observed features
   Proportion success;
   Quantiles time_ms;
+  std::vector<double> each_ms;  ///< the time of each pose
+  std::vector<double> right_errors_m;  ///< of the poses that were found
+  std::vector<double> right_errors_deg;
+  std::vector<FailedQuery> failures;  ///< the first ones
   double signature_pairs = 0;  ///< means over the poses
   double hypotheses = 0;
   double checks = 0;
@@ -71,11 +79,12 @@ struct ScaleReport
 {
   std::string where;  ///< added to titles
   std::vector<ScaleRow> rows;
+  MapFacts map;  ///< the simulated worlds, or the log's whole map
   Provenance provenance;
 };
 
-/// Throws std::invalid_argument for an unknown method or empty lists and std::runtime_error
-/// ("path: reason") for a log that cannot be used.
+/// Throws std::invalid_argument for an unknown method and for sizes of map or scene that there are
+/// not, and std::runtime_error ("path: reason") for a log that cannot be used.
 ScaleReport runScale(const ScaleOptions& options);
 
 /// The rows and the fitted exponents as Markdown tables.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sigloc/eval/failed_queries.h"
+#include "sigloc/eval/map_facts.h"
 #include "sigloc/eval/provenance.h"
 #include "sigloc/eval/relocation_scoring.h"
 #include "sigloc/eval/RelocationMethod.h"
@@ -56,6 +57,8 @@ struct SweepReport
   std::string over;
   std::string label;  ///< of the swept axis
   std::vector<SweepRow> rows;  ///< by value, then by method, as they were asked for
+  MapFacts map;  ///< none where runs were merged
+  double peak_rss_mb = 0;
   Provenance provenance;
 };
 

@@ -33,6 +33,7 @@ struct SimulatedTrackOptions
   std::vector<std::string> methods = {"signature"};
   RelocationMethodOptions method;
   std::uint32_t threads = 1;
+  std::size_t keep_failures = 0;  ///< how many failed runs of each method the report keeps
   std::string command;
   std::function<void(const std::string& method, double share)> progress;
 };

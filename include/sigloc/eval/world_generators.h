@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "sigloc/config/option_fields.h"
 #include "sigloc/eval/World.h"
@@ -24,6 +25,10 @@ const char* toString(WorldKind kind);
 
 /// Throws std::invalid_argument naming the text when it is no kind of world.
 WorldKind worldKindFrom(const std::string& text);
+
+/// True when worlds of a kind depend on the field of that key, of WorldOptions or of
+/// WorldChangeOptions; true for keys of neither.
+bool usesOption(WorldKind kind, std::string_view key);
 
 /// Sizes of a world; a kind ignores what it has no use for. With 0 for width or height the kind's
 /// own size is taken.
