@@ -136,7 +136,7 @@ void visitSets(const NearestPlaces& nearest, std::uint32_t root, std::size_t siz
 /// Patterns in the order they are found, before they are sorted into slots.
 struct PatternIndex::Draft
 {
-  std::vector<std::uint64_t> hashes;
+  std::vector<CellKey> cells;
   std::vector<std::int16_t> values;
   std::vector<std::uint32_t> members;
 };
@@ -226,39 +226,39 @@ void PatternIndex::appendPattern(const PreparedMap& map, const PatternMembers& s
   const PatternShape shape = shapeOf(ordered.data(), size_);
   if (shape.values[0] > kLongest) return;
 
-  std::uint64_t hash = 0;
+  CellKey cell;
   for (std::size_t v = 0; v < valueCount(); ++v)
   {
-    if (v < hashedCount()) hash = mix(hash, cellOf(shape.values[v]));
+    if (v < hashedCount()) cell = extended(cell, v, cellOf(shape.values[v]));
     draft.values.push_back(static_cast<std::int16_t>(std::lround(shape.values[v] / unit_)));
   }
   for (std::size_t k = 0; k < size_; ++k) draft.members.push_back(set[order[k]]);
-  draft.hashes.push_back(hash);
+  draft.cells.push_back(cell);
 }
 
 void PatternIndex::sortIntoSlots(const Draft& draft)
 {
   std::size_t slots = 1;
-  while (slots < draft.hashes.size()) slots *= 2;
+  while (slots < draft.cells.size()) slots *= 2;
   slot_mask_ = slots - 1;
-  constexpr std::size_t kBitsPerSlot = 8;
-  occupied_mask_ = kBitsPerSlot * slots - 1;
-  occupied_.assign(kBitsPerSlot * slots / 64 + 1, 0);
-  for (const std::uint64_t hash : draft.hashes)
-  {
-    const std::uint64_t bit = (hash >> 20) & occupied_mask_;
-    occupied_[bit >> 6] |= 1ULL << (bit & 63);
-  }
+  constexpr std::size_t kSlotsPerWord = 8;  // 8 bits a slot
+  const std::size_t words = std::max<std::size_t>(1, slots / kSlotsPerWord);
+  occupied_mask_ = words - 1;
+  occupied_.assign(words, 0);
   starts_.assign(slots + 1, 0);
-  for (const std::uint64_t hash : draft.hashes) ++starts_[slotOf(hash) + 1];
+  for (const CellKey& cell : draft.cells)
+  {
+    occupied_[(cell.group >> 20) & occupied_mask_] |= 1ULL << cell.member;
+    ++starts_[slotOf(cell) + 1];
+  }
   for (std::size_t s = 1; s < starts_.size(); ++s) starts_[s] += starts_[s - 1];
   std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);
   values_.resize(draft.values.size());
   members_.resize(draft.members.size());
   const std::size_t width = valueCount();
-  for (std::size_t e = 0; e < draft.hashes.size(); ++e)
+  for (std::size_t e = 0; e < draft.cells.size(); ++e)
   {
-    const std::size_t to = next[slotOf(draft.hashes[e])]++;
+    const std::size_t to = next[slotOf(draft.cells[e])]++;
     std::copy_n(&draft.values[e * width], width, &values_[to * width]);
     std::copy_n(&draft.members[e * size_], size_, &members_[to * size_]);
   }
@@ -290,9 +290,9 @@ std::size_t PatternIndex::slotsNear(const PatternShape& shape, double tolerance,
                                     std::array<std::size_t, kMostCells>& slots) const
 {
   // All combinations of the cells that the tolerance reaches in each value.
-  std::array<std::uint64_t, kMostCells> hashes;
-  hashes[0] = 0;
+  std::array<CellKey, kMostCells> keys;
   std::size_t count = 1;
+  keys[0] = {};
   for (std::size_t v = 0; v < hashedCount(); ++v)
   {
     const std::int64_t first = cellOf(shape.values[v] - tolerance);
@@ -301,10 +301,10 @@ std::size_t PatternIndex::slotsNear(const PatternShape& shape, double tolerance,
     if (count * width > kMostCells) return 0;
     for (std::size_t k = count; k-- > 0;)
     {
-      const std::uint64_t stem = hashes[k];
+      const CellKey stem = keys[k];
       for (std::size_t w = 0; w < width; ++w)
       {
-        hashes[k * width + w] = mix(stem, first + static_cast<std::int64_t>(w));
+        keys[k * width + w] = extended(stem, v, first + static_cast<std::int64_t>(w));
       }
     }
     count *= width;
@@ -312,7 +312,7 @@ std::size_t PatternIndex::slotsNear(const PatternShape& shape, double tolerance,
   std::size_t kept = 0;
   for (std::size_t k = 0; k < count; ++k)
   {
-    if (mayHold(hashes[k])) slots[kept++] = slotOf(hashes[k]);
+    if (mayHold(keys[k])) slots[kept++] = slotOf(keys[k]);
   }
   return kept;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "sigloc/matching/GeneratorOptions.h"
+#include "sigloc/matching/LargeVector.h"
 #include "sigloc/matching/PreparedMap.h"
 
 #include <array>
@@ -65,6 +66,8 @@ class PatternIndex
  private:
   static constexpr std::size_t kHashedValues = 6;
   static constexpr std::size_t kMostCells = 4096;
+  static constexpr std::size_t kGroupedValues = 3;
+  static constexpr std::size_t kGroupBits = 2;  // of each of them: 64 cells a group
 
   std::size_t valueCount() const { return 2 * size_ - 3; }
   std::size_t hashedCount() const { return std::min(kHashedValues, valueCount()); }
@@ -77,12 +80,28 @@ class PatternIndex
     hash = (hash ^ static_cast<std::uint64_t>(cell + 4096)) * 0x9E3779B97F4A7C15ULL;
     return hash ^ (hash >> 29);
   }
-  std::size_t slotOf(std::uint64_t hash) const { return (hash >> 7) & slot_mask_; }
-  /// False for most cells that hold no pattern; small enough to stay in the cache.
-  bool mayHold(std::uint64_t hash) const
+  /// Where a cell of shapes is kept. Cells that differ little in the last values share a group, and
+  /// so lie side by side in memory: a look-up asks for many of them.
+  struct CellKey
   {
-    const std::uint64_t bit = (hash >> 20) & occupied_mask_;
-    return (occupied_[bit >> 6] >> (bit & 63) & 1) != 0;
+    std::uint64_t group = 0;
+    std::uint32_t member = 0;
+  };
+  /// The key of a cell from that of its first `v` values and its place along the next one.
+  CellKey extended(const CellKey& key, std::size_t v, std::int64_t cell) const
+  {
+    if (v + kGroupedValues < hashedCount()) return {mix(key.group, cell), 0};
+    return {mix(key.group, cell >> kGroupBits),
+            key.member << kGroupBits | static_cast<std::uint32_t>(cell & ((1 << kGroupBits) - 1))};
+  }
+  std::size_t slotOf(const CellKey& key) const
+  {
+    return (key.group >> 7 << kGroupedValues * kGroupBits | key.member) & slot_mask_;
+  }
+  /// False for most cells that hold no pattern.
+  bool mayHold(const CellKey& key) const
+  {
+    return (occupied_[(key.group >> 20) & occupied_mask_] >> key.member & 1) != 0;
   }
   /// Lays observed shapes onto stored ones; \cite algorithm eq. (4.7).
   struct Alignment
@@ -107,10 +126,10 @@ class PatternIndex
   double unit_ = 1e-3;  ///< [m] of a stored value
   std::size_t slot_mask_ = 0;
   std::uint64_t occupied_mask_ = 0;
-  std::vector<std::uint64_t> occupied_;  ///< a bit for the hash of every cell that holds patterns
-  std::vector<std::uint32_t> starts_;
-  std::vector<std::int16_t> values_;  ///< valueCount() a pattern
-  std::vector<std::uint32_t> members_;  ///< size_ a pattern
+  LargeVector<std::uint64_t> occupied_;  ///< a word a group, a bit for cells that hold patterns
+  LargeVector<std::uint32_t> starts_;
+  LargeVector<std::int16_t> values_;  ///< valueCount() a pattern
+  LargeVector<std::uint32_t> members_;  ///< size_ a pattern
 };
 
 inline double PatternIndex::residualOf(const PatternShape& shape, const Alignment& alignment,
