@@ -155,10 +155,15 @@ void BaseProposer::proposeSlidWalls(const std::vector<Feature>& observed, std::s
       const double low = std::min(inside, 0.5 * mapped.length);
       const double high = std::max(mapped.length - inside, 0.5 * mapped.length);
       const int steps = static_cast<int>(std::ceil((high - low) / options_.slide_step));
+      const double step = steps == 0 ? 0 : (high - low) / steps;
+      const PoseProposal first =
+          poseCarrying(wall->position, mapped.start + tangent * low, phi, c, s);
+      const auto dx = static_cast<float>(tangent.x * step);
+      const auto dy = static_cast<float>(tangent.y * step);
       for (int k = 0; k <= steps; ++k)
       {
-        const double along = steps == 0 ? low : low + (high - low) * k / steps;
-        out.push_back(poseCarrying(wall->position, mapped.start + tangent * along, phi, c, s));
+        const auto along = static_cast<float>(k);
+        out.push_back({first.x + along * dx, first.y + along * dy, first.phi});
       }
     }
   }

@@ -48,18 +48,20 @@ class CellView
 
   const DenseCell& at(float x, float y) const { return cellAt(column(x), row(y)); }
 
-  /// Where points fall on the raster, worked out for many at a time. Its loops have no branches and
-  /// no look-ups, which is what lets compilers take several points at once.
+  /// Where points fall on the raster and the cells there, worked out for many at a time. Its loops
+  /// have no branches, which is what lets compilers take several points at once.
   struct Block
   {
     static constexpr std::size_t kSize = 64;
     std::array<std::int32_t, kSize> ix, iy;  ///< cell; what lies outside may be any outside
     std::array<float, kSize> fx, fy;  ///< from the middle of the cell, in cells
+    std::array<std::uint32_t, kSize> packed;  ///< the cell's members, the first lowest
 
     /// Places `count` <= kSize points of the robot frame.
     void fill(const CellView& view, const Placement& place, const float* x, const float* y,
               std::size_t count)
     {
+      std::int32_t outside = 0;
       for (std::size_t i = 0; i < count; ++i)
       {
         fx[i] = view.bordered(place.placedX(x[i], y[i]), view.x0_, view.width_);
@@ -68,14 +70,40 @@ class CellView
         iy[i] = static_cast<std::int32_t>(fy[i]);
         fx[i] -= static_cast<float>(ix[i]) + 0.5F;
         fy[i] -= static_cast<float>(iy[i]) + 0.5F;
+        outside |= static_cast<std::int32_t>(ix[i] < 1) | static_cast<std::int32_t>(iy[i] < 1) |
+                   static_cast<std::int32_t>(ix[i] > view.width_) |
+                   static_cast<std::int32_t>(iy[i] > view.height_);
+      }
+      if (outside != 0)
+      {
+        for (std::size_t i = 0; i < count; ++i) packed[i] = pack(view.cellAt(ix[i], iy[i]));
+        return;
+      }
+      const DenseCell* before = view.cells_ - view.width_ - 1;
+      for (std::size_t i = 0; i < count; ++i)
+      {
+        packed[i] = pack(before[static_cast<std::ptrdiff_t>(iy[i]) * view.width_ + ix[i]]);
       }
     }
-  };
 
-  const DenseCell& at(const Block& block, std::size_t i) const
-  {
-    return cellAt(block.ix[i], block.iy[i]);
-  }
+    std::uint8_t distance(std::size_t i) const { return static_cast<std::uint8_t>(packed[i]); }
+    std::int32_t dx(std::size_t i) const
+    {
+      return static_cast<std::int32_t>(packed[i] << 16) >> 24;
+    }
+    std::int32_t dy(std::size_t i) const { return static_cast<std::int32_t>(packed[i] << 8) >> 24; }
+    CellState state(std::size_t i) const { return static_cast<CellState>(packed[i] >> 24); }
+
+   private:
+    /// One look-up in memory; the members are taken apart for several points at once.
+    static std::uint32_t pack(const DenseCell& cell)
+    {
+      return static_cast<std::uint32_t>(cell.distance) |
+             static_cast<std::uint32_t>(static_cast<std::uint8_t>(cell.dx)) << 8 |
+             static_cast<std::uint32_t>(static_cast<std::uint8_t>(cell.dy)) << 16 |
+             static_cast<std::uint32_t>(cell.state) << 24;
+    }
+  };
 
  private:
   /// A coordinate in cells plus one, so that all before the raster is cell 0; all beyond is the

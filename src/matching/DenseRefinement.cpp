@@ -10,6 +10,7 @@
 #include "CellView.h"
 #include "likelihood_table.h"
 #include "sigloc/matching/DenseVerifier.h"
+#include "wide_vectors.h"
 
 namespace sigloc
 {
@@ -97,33 +98,25 @@ struct PullSums
 
 /// Finds the vectors [m] from the nearest wall's ridge to the returns of a block, in the robot
 /// frame, and their weights (6.6); those without a wall within the field's reach weigh nothing.
-void offsetsFromRidge(const CellView& cells, const CellView::Block& block, const Placement& place,
+void offsetsFromRidge(const CellView::Block& block, float resolution, const Placement& place,
                       std::size_t count, float robust_sigma, Floats& weight, Floats& ex, Floats& ey)
 {
-  std::array<std::int32_t, CellView::Block::kSize> dx;
-  std::array<std::int32_t, CellView::Block::kSize> dy;
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    const DenseCell& cell = cells.at(block, i);
-    dx[i] = cell.dx;
-    dy[i] = cell.dy;
-    weight[i] = cell.distance != 255 ? 1.0F : 0.0F;
-  }
   constexpr auto kUnit = static_cast<float>(DenseField::kOffsetUnit);
-  const float resolution = cells.resolution();
   const float inverse_square = 1.0F / (robust_sigma * robust_sigma);
   for (std::size_t i = 0; i < count; ++i)
   {
-    const float mx = block.fx[i] * resolution - static_cast<float>(dx[i]) * kUnit;
-    const float my = block.fy[i] * resolution - static_cast<float>(dy[i]) * kUnit;
-    weight[i] /= 1.0F + (mx * mx + my * my) * inverse_square;
+    const float mx = block.fx[i] * resolution - static_cast<float>(block.dx(i)) * kUnit;
+    const float my = block.fy[i] * resolution - static_cast<float>(block.dy(i)) * kUnit;
+    const float reached = block.distance(i) != 255 ? 1.0F : 0.0F;
+    weight[i] = reached / (1.0F + (mx * mx + my * my) * inverse_square);
     ex[i] = place.c * mx + place.s * my;
     ey[i] = place.c * my - place.s * mx;
   }
 }
 
-PullSums pullsAt(const CellView& cells, const DenseScan& scan, std::size_t returns,
-                 const Placement& place, float robust_sigma)
+SIGLOC_WIDE_VECTORS PullSums pullsAt(const CellView& cells, const DenseScan& scan,
+                                     std::size_t returns, const Placement& place,
+                                     float robust_sigma)
 {
   PullSums sums;
   CellView::Block block;
@@ -134,7 +127,7 @@ PullSums pullsAt(const CellView& cells, const DenseScan& scan, std::size_t retur
   {
     const std::size_t count = std::min(CellView::Block::kSize, returns - first);
     block.fill(cells, place, &scan.x[first], &scan.y[first], count);
-    offsetsFromRidge(cells, block, place, count, robust_sigma, weight, ex, ey);
+    offsetsFromRidge(block, cells.resolution(), place, count, robust_sigma, weight, ex, ey);
     sums.add(scan, first, count, weight, ex, ey);
   }
   return sums;
@@ -155,7 +148,7 @@ PullSums informationAt(const CellView& cells, const DenseScan& scan, const Place
     block.fill(cells, place, &scan.x[first], &scan.y[first], count);
     for (std::size_t i = 0; i < count; ++i)
     {
-      const float fine = likelihood[cells.at(block, i).distance];
+      const float fine = likelihood[block.distance(i)];
       weight[i] = fine > kLeastLikelihood ? fine : 0.0F;
     }
     sums.add(scan, first, count, weight, no_offset, no_offset);

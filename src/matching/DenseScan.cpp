@@ -127,7 +127,7 @@ DenseScan makeDenseScan(const ObservedScene& scene, std::size_t max_beams)
   DenseScan scan;
   scan.origins = scene.sensor_origins;
   for (auto* column :
-       {&scan.x, &scan.y, &scan.pull_xx, &scan.pull_xy, &scan.pull_yy, &scan.by_length})
+       {&scan.x, &scan.y, &scan.pull_xx, &scan.pull_xy, &scan.pull_yy, &scan.balance})
   {
     column->reserve(count);
   }
@@ -140,12 +140,13 @@ DenseScan makeDenseScan(const ObservedScene& scene, std::size_t max_beams)
     scan.x.push_back(static_cast<float>(beam.point.x));
     scan.y.push_back(static_cast<float>(beam.point.y));
     addPull(walls, beam.point, scan);
-    scan.by_length.push_back(static_cast<float>(lengthShare(scene.beams, i * total / count)));
+    scan.balance.push_back(
+        static_cast<float>(std::sqrt(lengthShare(scene.beams, i * total / count))));
     scan.isolated.push_back(isIsolated(scene.beams, i * total / count) ? 1 : 0);
     scan.origin.push_back(beam.origin);
   }
-  const float sum = std::accumulate(scan.by_length.begin(), scan.by_length.end(), 0.0F);
-  for (float& weight : scan.by_length) weight *= static_cast<float>(count) / sum;
+  const float sum = std::accumulate(scan.balance.begin(), scan.balance.end(), 0.0F);
+  for (float& weight : scan.balance) weight *= static_cast<float>(count) / sum;
   return scan;
 }
 }  // namespace sigloc

@@ -14,6 +14,7 @@
 #include "likelihood_table.h"
 #include "QuickField.h"
 #include "SolidWalls.h"
+#include "wide_vectors.h"
 
 namespace sigloc
 {
@@ -30,9 +31,11 @@ constexpr std::size_t kMiddleScored = 48;
 constexpr int kMiddleSteps = 3;
 constexpr std::size_t kFinalKept = 16;
 constexpr std::size_t kFinalBeams = 96;
+constexpr double kFinalLead = 0.3;  // of the best; what is farther behind is not refined further
 constexpr int kFinalSteps = 3;
 constexpr std::size_t kSettled = 4;
-constexpr int kSettleSteps = 6;
+constexpr int kSettleSteps = 12;
+constexpr double kSettleLoss = 0.01;  // of the score, that settling may cost
 constexpr double kDistinctDistance = 0.5;  // [m]
 constexpr double kApartDistance = 0.08;  // [m]
 constexpr double kDistinctAngle = 17.0 * M_PI / 180.0;  // [rad]
@@ -109,32 +112,50 @@ class TakenPoses
   std::size_t count_ = 0;
 };
 
-/// The same scan, with the pull of its returns weighed by the wall they stand for.
-DenseScan weighedByLength(DenseScan scan)
+/// The same scan, with the pull of its returns balanced.
+DenseScan balancedScan(DenseScan scan)
 {
   for (std::size_t i = 0; i < scan.size(); ++i)
   {
-    scan.pull_xx[i] *= scan.by_length[i];
-    scan.pull_xy[i] *= scan.by_length[i];
-    scan.pull_yy[i] *= scan.by_length[i];
+    scan.pull_xx[i] *= scan.balance[i];
+    scan.pull_xy[i] *= scan.balance[i];
+    scan.pull_yy[i] *= scan.balance[i];
   }
   return scan;
 }
 
-/// Calls `visit(i, cell)` for the first `count` returns and the cells they end in.
-template <class Visit>
-void forEachCell(const DenseField& field, const DenseScan& scan, const TPose2D& pose,
-                 std::size_t count, Visit&& visit)
+/// What the field says of where a scan's beams end.
+struct EndSums
 {
-  const Placement place(pose);
+  float fine = 0, coarse = 0;  ///< likelihoods
+  std::uint32_t in_free = 0, specks = 0, unknown = 0;  ///< returns away from any wall
+};
+
+SIGLOC_WIDE_VECTORS EndSums sumsOfEnds(const DenseField& field, const DenseScan& scan,
+                                       const Placement& place, std::size_t count)
+{
+  constexpr auto kFarFromWall = static_cast<std::uint8_t>(kFreeMargin / DenseField::kDistanceUnit);
   const CellView cells(field);
+  const LikelihoodTable& fine = fineTable();
+  const LikelihoodTable& coarse = coarseTable();
+  EndSums sums;
   CellView::Block block;
   for (std::size_t first = 0; first < count; first += CellView::Block::kSize)
   {
     const std::size_t size = std::min(CellView::Block::kSize, count - first);
     block.fill(cells, place, &scan.x[first], &scan.y[first], size);
-    for (std::size_t i = 0; i < size; ++i) visit(first + i, cells.at(block, i));
+    for (std::size_t i = 0; i < size; ++i)
+    {
+      const std::uint8_t distance = block.distance(i);
+      sums.fine += fine[distance];
+      sums.coarse += coarse[distance];
+      if (distance <= kFarFromWall) continue;
+      const CellState state = block.state(i);
+      if (state == CellState::free) ++(scan.isolated[first + i] != 0 ? sums.specks : sums.in_free);
+      if (state == CellState::unknown) ++sums.unknown;
+    }
   }
+  return sums;
 }
 }  // namespace
 
@@ -164,40 +185,44 @@ std::vector<RankedPose> DenseVerifier::rank(const DenseScan& scan,
   keepDistinct(poses, kFinalKept, kApartDistance);
 
   // 3. The best of those, refined on more beams and judged by all of them.
+  const double promising = poses.empty() ? 0 : poses.front().evidence.score - kFinalLead;
   for (RankedPose& pose : poses)
   {
-    pose.pose = refine(scan, pose.pose, kFinalSteps, kFinalBeams);
+    if (pose.evidence.score >= promising)
+    {
+      pose.pose = refine(scan, pose.pose, kFinalSteps, kFinalBeams);
+    }
     pose.evidence = evaluate(scan, pose.pose, kFinalRays);
   }
   keepDistinct(poses, max_ranked);
 
   // 4. What may win or be the runner-up is settled on all beams.
-  const DenseScan by_length = weighedByLength(scan);
+  const DenseScan balanced = balancedScan(scan);
   const double contender = poses.empty() ? 0 : poses.front().evidence.score - kContender;
   for (std::size_t k = 0; k < std::min(kSettled, poses.size()); ++k)
   {
     RankedPose& pose = poses[k];
     if (pose.evidence.score < contender) break;
-    settle(scan, by_length, pose);
+    settle(scan, balanced, pose);
   }
   keepDistinct(poses, max_ranked);
   return poses;
 }
 
-/// Refines a pose on all beams, with every return and with every stretch of wall weighing alike:
-/// where the map's walls are off, many returns from a near one would drown the others. The score
-/// decides.
-void DenseVerifier::settle(const DenseScan& scan, const DenseScan& by_length,
-                           RankedPose& pose) const
+/// Refines a pose on all beams. What all of them say of its place outweighs a small loss of score.
+void DenseVerifier::settle(const DenseScan& scan, const DenseScan& balanced, RankedPose& pose) const
 {
-  const TPose2D start = pose.pose;
-  castRays(scan, start, kRayBeams, pose.evidence);
-  for (const DenseScan* weighed : {&scan, &by_length})
+  RankedPose settled;
+  settled.pose = refine(balanced, pose.pose, kSettleSteps, scan.size());
+  settled.evidence = evaluate(scan, settled.pose, kRayBeams);
+  // Rays only lower a score: often the ends alone tell that the start is not better.
+  const double of_ends = pose.evidence.score + kThroughPenalty * pose.evidence.through_wall;
+  if (settled.evidence.score < of_ends - kSettleLoss)
   {
-    const TPose2D settled = refine(*weighed, start, kSettleSteps, scan.size());
-    const DenseEvidence evidence = evaluate(scan, settled, kRayBeams);
-    if (evidence.score >= pose.evidence.score) pose = {settled, evidence};
+    pose.evidence = evaluate(scan, pose.pose, kRayBeams);
+    if (settled.evidence.score < pose.evidence.score - kSettleLoss) return;
   }
+  pose = settled;
 }
 
 std::vector<RankedPose> DenseVerifier::refineBest(const DenseScan& scan,
@@ -233,13 +258,8 @@ double DenseVerifier::likelihood(const DenseScan& scan, const TPose2D& pose,
                                  std::size_t beams) const
 {
   const std::size_t count = std::min(beams, scan.size());
-  const LikelihoodTable& fine = fineTable();
-  const LikelihoodTable& coarse = coarseTable();
-  float sum = 0;
-  forEachCell(field_, scan, pose, count,
-              [&](std::size_t /*i*/, const DenseCell& cell)
-              { sum += fine[cell.distance] + coarse[cell.distance]; });
-  return 0.5 * static_cast<double>(sum) / static_cast<double>(count);
+  const EndSums sums = sumsOfEnds(field_, scan, Placement(pose), count);
+  return 0.5 * static_cast<double>(sums.fine + sums.coarse) / static_cast<double>(count);
 }
 
 DenseEvidence DenseVerifier::evaluate(const DenseScan& scan, const TPose2D& pose) const
@@ -252,39 +272,16 @@ DenseEvidence DenseVerifier::evaluate(const DenseScan& scan, const TPose2D& pose
 {
   DenseEvidence evidence;
   if (scan.size() == 0) return evidence;
-  const auto far_from_wall = static_cast<std::uint8_t>(kFreeMargin / DenseField::kDistanceUnit);
-  const LikelihoodTable& fine_of = fineTable();
-  const LikelihoodTable& coarse_of = coarseTable();
-  float fine = 0;
-  float coarse = 0;
-  std::size_t in_free = 0;
-  std::size_t specks = 0;
-  std::size_t unknown = 0;
-  forEachCell(field_, scan, pose, scan.size(),
-              [&](std::size_t i, const DenseCell& cell)
-              {
-                fine += fine_of[cell.distance];
-                coarse += coarse_of[cell.distance];
-                if (cell.distance <= far_from_wall) return;
-                if (cell.state == CellState::free) ++(scan.isolated[i] != 0 ? specks : in_free);
-                if (cell.state == CellState::unknown) ++unknown;
-              });
+  const EndSums sums = sumsOfEnds(field_, scan, Placement(pose), scan.size());
   // A lone return in free space is clutter, and says nothing.
-  const auto n = static_cast<double>(std::max<std::size_t>(1, scan.size() - specks));
-  evidence.fine = static_cast<double>(fine) / n;
-  evidence.coarse = static_cast<double>(coarse) / n;
-  evidence.in_free = static_cast<double>(in_free) / n;
-  evidence.unknown = static_cast<double>(unknown) / n;
-  castRays(scan, pose, rays, evidence);
-  return evidence;
-}
-
-/// Completes the evidence by the first `rays` beams' way to their ends.
-void DenseVerifier::castRays(const DenseScan& scan, const TPose2D& pose, std::size_t rays,
-                             DenseEvidence& evidence) const
-{
+  const auto n = static_cast<double>(std::max<std::size_t>(1, scan.size() - sums.specks));
+  evidence.fine = static_cast<double>(sums.fine) / n;
+  evidence.coarse = static_cast<double>(sums.coarse) / n;
+  evidence.in_free = static_cast<double>(sums.in_free) / n;
+  evidence.unknown = static_cast<double>(sums.unknown) / n;
   evidence.through_wall = solid_walls_->throughShare(scan, pose, rays);
   evidence.score = 0.5 * (evidence.fine + evidence.coarse) -
                    kThroughPenalty * evidence.through_wall - kFreePenalty * evidence.in_free;
+  return evidence;
 }
 }  // namespace sigloc

@@ -21,8 +21,10 @@ constexpr double kBorder = 20.0;  // [m] around the map where returns are looked
 constexpr double kStandingCell = 0.5;  // [m]
 constexpr std::uint8_t kStandingCentre = 2;
 constexpr std::size_t kReturns = 24;
-constexpr std::size_t kGlanceReturns = 8;  // of those, by which very many proposals are thinned
-constexpr std::size_t kGlanceKept = 2048;
+constexpr std::size_t kGlanceReturns = 8;  // of those, by which proposals are thinned first
+constexpr std::size_t kGlanceShare = 4;  // one in so many is kept,
+constexpr std::size_t kLeastGlanceKept = 512;  // but no fewer,
+constexpr std::size_t kMostGlanceKept = 2048;  // and no more
 constexpr std::uint32_t kHeadings = 512;  // 0.35 degrees to the nearest: 0.1 m at 16 m
 
 std::uint32_t ratioOf(const RasterFrame& coarse, const RasterFrame& fine)
@@ -46,7 +48,8 @@ RasterFrame likelihoodFrame(const RasterFrame& field)
 /// them: which ones stay must not hang on their order.
 void keepBest(std::vector<QuickLook>& looks, std::size_t count)
 {
-  std::vector<std::uint32_t> with_score(255 * kGlanceReturns + 1);
+  if (looks.size() <= count) return;
+  std::array<std::uint32_t, 255 * kGlanceReturns + 1> with_score{};
   for (const QuickLook& look : looks) ++with_score[look.score];
   std::size_t kept = 0;
   auto lowest = static_cast<std::uint32_t>(with_score.size());
@@ -80,6 +83,7 @@ class QuickField::TurnedReturns
         scale_(static_cast<float>(1.0 / field.frame_.resolution)),
         width_(static_cast<std::int32_t>(field.frame_.width)),
         height_(static_cast<std::int32_t>(field.frame_.height)),
+        border_(static_cast<std::int32_t>(field.border_)),
         table_(new Turned[kHeadings])
   {
     for (std::size_t i = 0; i < kReturns; ++i)
@@ -99,7 +103,7 @@ class QuickField::TurnedReturns
  private:
   struct Turned
   {
-    std::int32_t min_x, max_x, min_y, max_y;
+    bool in_border;  // the returns reach no farther than the border around the map
     std::array<std::int32_t, kReturns> dx, dy, flat;
   };
 
@@ -111,8 +115,7 @@ class QuickField::TurnedReturns
     const auto x = static_cast<std::int32_t>((p.x - x0_) * scale_);
     const auto y = static_cast<std::int32_t>((p.y - y0_) * scale_);
     std::uint32_t sum = 0;
-    if (x + turned.min_x >= 0 && x + turned.max_x < width_ && y + turned.min_y >= 0 &&
-        y + turned.max_y < height_)
+    if (turned.in_border)
     {
       const std::uint8_t* cell = byteAt(x, y);
       for (std::size_t i = from; i < to; ++i) sum += cell[turned.flat[i]];
@@ -151,23 +154,22 @@ class QuickField::TurnedReturns
         1 << 14;  // truncation rounds to the nearest where all is positive
     const float c = std::cos(phi);
     const float s = std::sin(phi);
-    Turned out{};
+    std::int32_t reach = 0;
     for (std::size_t i = 0; i < kReturns; ++i)
     {
-      out.dx[i] = static_cast<std::int32_t>(c * x_[i] - s * y_[i] + (kShift + 0.5F)) - kShift;
-      out.dy[i] = static_cast<std::int32_t>(s * x_[i] + c * y_[i] + (kShift + 0.5F)) - kShift;
-      out.flat[i] = out.dy[i] * width_ + out.dx[i];
-      out.min_x = std::min(out.min_x, out.dx[i]);
-      out.max_x = std::max(out.max_x, out.dx[i]);
-      out.min_y = std::min(out.min_y, out.dy[i]);
-      out.max_y = std::max(out.max_y, out.dy[i]);
+      const auto dx = static_cast<std::int32_t>(c * x_[i] - s * y_[i] + (kShift + 0.5F)) - kShift;
+      const auto dy = static_cast<std::int32_t>(s * x_[i] + c * y_[i] + (kShift + 0.5F)) - kShift;
+      turned.dx[i] = dx;
+      turned.dy[i] = dy;
+      turned.flat[i] = dy * width_ + dx;
+      reach = std::max(reach, std::max(std::abs(dx), std::abs(dy)));
     }
-    turned = out;
+    turned.in_border = reach < border_;
   }
 
   const std::uint8_t* bytes_;
   float x0_, y0_, scale_;
-  std::int32_t width_, height_;
+  std::int32_t width_, height_, border_;
   std::array<float, kReturns> x_, y_;  // [cells], robot frame
   std::bitset<kHeadings> ready_;
   std::unique_ptr<Turned[]> table_;  // its rows are left as they are until they are asked for
@@ -184,12 +186,12 @@ QuickField::QuickField(const DenseField& field)
 void QuickField::fillLikelihoods(const DenseField& field)
 {
   const std::uint32_t ratio = ratioOf(frame_, field.frame);
-  const auto border = std::min(static_cast<std::uint32_t>(std::ceil(kBorder / frame_.resolution)),
-                               std::max(frame_.width, frame_.height));
-  frame_.origin.x -= border * frame_.resolution;
-  frame_.origin.y -= border * frame_.resolution;
-  frame_.width += 2 * border;
-  frame_.height += 2 * border;
+  border_ = std::min(static_cast<std::uint32_t>(std::ceil(kBorder / frame_.resolution)),
+                     std::max(frame_.width, frame_.height));
+  frame_.origin.x -= border_ * frame_.resolution;
+  frame_.origin.y -= border_ * frame_.resolution;
+  frame_.width += 2 * border_;
+  frame_.height += 2 * border_;
   likelihoods_.assign(cellCount(frame_), 0);
   std::array<std::uint8_t, 256> bytes{};
   for (std::size_t d = 0; d < bytes.size(); ++d)
@@ -200,7 +202,7 @@ void QuickField::fillLikelihoods(const DenseField& field)
   {
     const DenseCell* row = &field.cells[static_cast<std::size_t>(y) * field.frame.width];
     std::uint8_t* likelihood =
-        &likelihoods_[static_cast<std::size_t>(y / ratio + border) * frame_.width + border];
+        &likelihoods_[static_cast<std::size_t>(y / ratio + border_) * frame_.width + border_];
     for (std::uint32_t x = 0; x < field.frame.width; ++x)
     {
       std::uint8_t& best = likelihood[x / ratio];
@@ -256,7 +258,8 @@ std::vector<QuickLook> QuickField::standing(const std::vector<PoseProposal>& pro
     const float y = (proposals[k].y - y0) * scale;
     if (!(x >= 0 && y >= 0 && x < width && y < height)) continue;
     const std::size_t cell =
-        static_cast<std::size_t>(y) * standing_frame_.width + static_cast<std::size_t>(x);
+        static_cast<std::size_t>(static_cast<std::int32_t>(y)) * standing_frame_.width +
+        static_cast<std::uint32_t>(static_cast<std::int32_t>(x));
     // Kept or written over by the next: which of them stand follows no pattern to be guessed.
     looks[count] = {0, k};
     count += standing_[cell] != 0 ? 1 : 0;
@@ -271,7 +274,7 @@ std::vector<QuickLook> QuickField::look(const DenseScan& scan,
   std::vector<QuickLook> looks = standing(proposals);
   TurnedReturns returns(scan, *this);
   returns.addTo<0, kGlanceReturns>(looks, proposals);
-  if (looks.size() > 2 * kGlanceKept) keepBest(looks, kGlanceKept);
+  keepBest(looks, std::clamp(looks.size() / kGlanceShare, kLeastGlanceKept, kMostGlanceKept));
   returns.addTo<kGlanceReturns, kReturns>(looks, proposals);
   return looks;
 }

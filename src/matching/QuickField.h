@@ -40,6 +40,7 @@ class QuickField
   std::vector<QuickLook> standing(const std::vector<PoseProposal>& proposals) const;
 
   RasterFrame frame_;  ///< of the likelihoods, with a border around the map
+  std::uint32_t border_ = 0;  ///< [cells] of it
   std::vector<std::uint8_t> likelihoods_;
   RasterFrame standing_frame_;
   std::vector<std::uint8_t> standing_;  ///< not 0: free space in or beside the cell

@@ -17,6 +17,9 @@ namespace
 {
 constexpr double kCell = 0.1;  // [m]
 constexpr float kMargin = 0.4F;  // [m] before its end a beam must be clear of walls
+constexpr float kBeyondRim =
+    0.25F;  // [cells] that lead well into the next cell: a grazed rim is no wall
+constexpr float kTiny = 1e-6F;
 
 /// Chessboard distance [cells] to the nearest zero cell, in two passes, exact up to 255.
 void spreadRings(std::vector<std::uint8_t>& rings, std::uint32_t width, std::uint32_t height)
@@ -79,64 +82,106 @@ double SolidWalls::throughShare(const DenseScan& scan, const TPose2D& pose, std:
 {
   const std::size_t count = std::min(beams, scan.size());
   const Placement place(pose);
-  std::vector<Ray> rays;
-  rays.reserve(count);
+  std::size_t crossed = 0;
+  for (std::size_t first = 0; first < count; first += kRays)
+  {
+    crossed += crossings(raysOf(scan, place, first, std::min(kRays, count - first)));
+  }
+  return static_cast<double>(crossed) / static_cast<double>(count);
+}
+
+/// The beams from `first` on, up to the margin before their ends.
+SolidWalls::Rays SolidWalls::raysOf(const DenseScan& scan, const Placement& place,
+                                    std::size_t first, std::size_t count) const
+{
+  const auto x0 = static_cast<float>(frame_.origin.x);
+  const auto y0 = static_cast<float>(frame_.origin.y);
+  Rays rays;
+  rays.count = count;
   for (std::size_t i = 0; i < count; ++i)
   {
-    const TPoint2D& origin = scan.origins[scan.origin[i]];
+    const TPoint2D& origin = scan.origins[scan.origin[first + i]];
     const auto ox = static_cast<float>(origin.x);
     const auto oy = static_cast<float>(origin.y);
-    const float x = place.placedX(ox, oy);
-    const float y = place.placedY(ox, oy);
-    const float dx = place.placedX(scan.x[i], scan.y[i]) - x;
-    const float dy = place.placedY(scan.x[i], scan.y[i]) - y;
-    const float length = std::sqrt(dx * dx + dy * dy);
-    if (length <= kMargin) continue;
-    rays.push_back({x, y, dx / length, dy / length, length - kMargin, 0});
+    rays.x[i] = (place.placedX(ox, oy) - x0) * scale_;
+    rays.y[i] = (place.placedY(ox, oy) - y0) * scale_;
+    rays.dx[i] = (place.placedX(scan.x[first + i], scan.y[first + i]) - x0) * scale_ - rays.x[i];
+    rays.dy[i] = (place.placedY(scan.x[first + i], scan.y[first + i]) - y0) * scale_ - rays.y[i];
   }
-  return static_cast<double>(crossings(rays)) / static_cast<double>(count);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const float length =
+        std::max(std::sqrt(rays.dx[i] * rays.dx[i] + rays.dy[i] * rays.dy[i]), kTiny);
+    rays.dx[i] /= length;
+    rays.dy[i] /= length;
+    rays.length[i] = length - kMargin * scale_;
+    rays.per_column[i] = 1.0F / (rays.dx[i] + std::copysign(kTiny, rays.dx[i]));
+    rays.per_row[i] = 1.0F / (rays.dy[i] + std::copysign(kTiny, rays.dy[i]));
+  }
+  return rays;
 }
 
 /// How many of the rays meet a solid wall. They advance in turns: a ray's next look-up waits for
 /// its last, those of different rays don't wait for each other.
-std::size_t SolidWalls::crossings(std::vector<Ray>& rays) const
+std::size_t SolidWalls::crossings(const Rays& rays) const
 {
   const CellView cells(field_);
+  std::array<float, kRays> along{};
+  std::array<std::uint8_t, kRays> active;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < rays.count; ++i)
+  {
+    active[count] = static_cast<std::uint8_t>(i);
+    count += rays.length[i] > 0 ? 1 : 0;
+  }
   std::size_t crossed = 0;
-  std::size_t active = rays.size();
-  while (active > 0)
+  while (count > 0)
   {
     std::size_t kept = 0;
-    for (std::size_t i = 0; i < active; ++i)
+    for (std::size_t k = 0; k < count; ++k)
     {
-      Ray ray = rays[i];
-      const float clear =
-          clearanceAt(cells, ray.x + ray.along * ray.dx, ray.y + ray.along * ray.dy);
-      ray.along += clear;
-      if (clear == 0) ++crossed;
-      if (clear > 0 && ray.along < ray.length) rays[kept++] = ray;
+      const std::uint8_t i = active[k];
+      const float x = rays.x[i] + along[i] * rays.dx[i];
+      const float y = rays.y[i] + along[i] * rays.dy[i];
+      const auto column = static_cast<std::int32_t>(x);
+      const auto row = static_cast<std::int32_t>(y);
+      const std::uint8_t rings = ringsAt(column, row);
+      float clear = 0;
+      if (rings > 0)
+      {
+        // To the rim of the clear rings, and a little beyond.
+        const float reach = static_cast<float>(rings) - 0.5F;
+        const float right = x - static_cast<float>(column) - 0.5F;
+        const float up = y - static_cast<float>(row) - 0.5F;
+        const float per_column = rays.per_column[i];
+        const float per_row = rays.per_row[i];
+        clear = std::min(reach * std::abs(per_column) - right * per_column,
+                         reach * std::abs(per_row) - up * per_row);
+        clear = std::max(clear, 0.0F) + kBeyondRim;
+      }
+      else
+      {
+        clear = clearanceBesideWall(cells, x, y);
+      }
+      along[i] += clear;
+      crossed += clear == 0 ? 1 : 0;
+      active[kept] = i;
+      kept += clear > 0 && along[i] < rays.length[i] ? 1 : 0;
     }
-    active = kept;
+    count = kept;
   }
   return crossed;
 }
 
-/// How far [m] a ray may advance from (x, y) [m] without passing a solid wall; 0: it met one.
-float SolidWalls::clearanceAt(const CellView& cells, float x, float y) const
+/// How far [cells] a ray may advance from a place in a cell that holds a solid wall; 0: it met it.
+float SolidWalls::clearanceBesideWall(const CellView& cells, float x, float y) const
 {
   const auto coarse = static_cast<float>(frame_.resolution);
-  const float fx = (x - static_cast<float>(frame_.origin.x)) * scale_;
-  const float fy = (y - static_cast<float>(frame_.origin.y)) * scale_;
-  const bool inside = fx >= 0 && fy >= 0 && fx < static_cast<float>(frame_.width) &&
-                      fy < static_cast<float>(frame_.height);
-  if (!inside) return coarse;
-  const std::uint8_t rings =
-      clear_rings_[static_cast<std::size_t>(fy) * frame_.width + static_cast<std::size_t>(fx)];
-  if (rings > 1) return coarse * static_cast<float>(rings - 1);
-  const DenseCell& cell = cells.at(x, y);
+  const DenseCell& cell = cells.at(x * coarse + static_cast<float>(frame_.origin.x),
+                                   y * coarse + static_cast<float>(frame_.origin.y));
   if (cell.state == CellState::solid_wall) return 0;
   const auto fine = static_cast<float>(field_.frame.resolution);
   constexpr auto kUnit = static_cast<float>(DenseField::kDistanceUnit);
-  return std::max(static_cast<float>(cell.distance) * kUnit - 1.42F * fine, 0.7F * fine);
+  return scale_ * std::max(static_cast<float>(cell.distance) * kUnit - 1.42F * fine, 0.7F * fine);
 }
 }  // namespace sigloc

@@ -22,8 +22,9 @@ struct DenseScan
   /// How a return pulls, robot frame: n nᵀ along the unit normal of the wall it lies on; off any
   /// wall half the unit matrix. \cite algorithm eq. (6.4)
   std::vector<float> pull_xx, pull_xy, pull_yy;
-  /// Weight of a return where every stretch of wall weighs alike, instead of every return; mean 1.
-  std::vector<float> by_length;
+  /// Weight of a return halfway between every return and every stretch of wall weighing alike, mean
+  /// 1. \cite algorithm eq. (6.11)
+  std::vector<float> balance;
   std::vector<std::uint8_t> isolated;  ///< not 0: no beam beside it ends near it, may be clutter
   std::vector<std::uint32_t> origin;  ///< index into origins
   std::vector<mrpt::math::TPoint2D> origins;
@@ -100,11 +101,9 @@ class DenseVerifier
   std::vector<RankedPose> refineBest(const DenseScan& scan,
                                      const std::vector<PoseProposal>& proposals,
                                      std::vector<QuickLook> looks) const;
-  void settle(const DenseScan& scan, const DenseScan& by_length, RankedPose& pose) const;
+  void settle(const DenseScan& scan, const DenseScan& balanced, RankedPose& pose) const;
   DenseEvidence evaluate(const DenseScan& scan, const mrpt::math::TPose2D& pose,
                          std::size_t rays) const;
-  void castRays(const DenseScan& scan, const mrpt::math::TPose2D& pose, std::size_t rays,
-                DenseEvidence& evidence) const;
   double likelihood(const DenseScan& scan, const mrpt::math::TPose2D& pose,
                     std::size_t beams) const;
 
