@@ -40,6 +40,9 @@ ScanPoints validPoints(const LaserScan& scan, const FeatureExtractorOptions& opt
   ScanPoints out;
   out.beam_spacing = scan.angle_step;
   out.closed = coversFullCircle(scan);
+  out.points.reserve(n);
+  out.ranges.reserve(n);
+  out.beams.reserve(n);
   for (std::size_t i = 0; i < n; ++i)
   {
     const double range = static_cast<double>(scan.ranges[i]);
@@ -56,7 +59,7 @@ ScanPoints validPoints(const LaserScan& scan, const FeatureExtractorOptions& opt
   return out;
 }
 
-void dropSpeckles(ScanPoints& scan, const FeatureExtractorOptions& options)
+bool dropSpeckles(ScanPoints& scan, const FeatureExtractorOptions& options)
 {
   constexpr std::size_t kReach = 2;  // returns to either side
   constexpr std::size_t kFarther = 3;  // of those four
@@ -66,7 +69,9 @@ void dropSpeckles(ScanPoints& scan, const FeatureExtractorOptions& options)
     std::size_t farther = 0;
     for (std::size_t step = 1; step <= kReach; ++step)
     {
-      for (const std::size_t other : {(i + n - step) % n, (i + step) % n})
+      const std::size_t before = i >= step ? i - step : i + n - step;
+      const std::size_t after = i + step < n ? i + step : i + step - n;
+      for (const std::size_t other : {before, after})
       {
         const bool across_seam = other > i ? other - i > kReach : i - other > kReach;
         if (across_seam && !scan.closed) continue;
@@ -76,17 +81,22 @@ void dropSpeckles(ScanPoints& scan, const FeatureExtractorOptions& options)
     }
     return farther >= kFarther;
   };
-  ScanPoints kept;
-  kept.beam_spacing = scan.beam_spacing;
-  kept.closed = scan.closed;
+  if (n <= 2 * kReach) return false;
+  std::vector<std::uint8_t> speckles(n);
+  for (std::size_t i = 0; i < n; ++i) speckles[i] = is_speckle(i) ? 1 : 0;
+  std::size_t kept = 0;
   for (std::size_t i = 0; i < n; ++i)
   {
-    if (n > 2 * kReach && is_speckle(i)) continue;
-    kept.points.push_back(scan.points[i]);
-    kept.ranges.push_back(scan.ranges[i]);
-    kept.beams.push_back(scan.beams[i]);
+    if (speckles[i] != 0) continue;
+    scan.points[kept] = scan.points[i];
+    scan.ranges[kept] = scan.ranges[i];
+    scan.beams[kept] = scan.beams[i];
+    ++kept;
   }
-  scan = std::move(kept);
+  scan.points.resize(kept);
+  scan.ranges.resize(kept);
+  scan.beams.resize(kept);
+  return kept < n;
 }
 
 void startAtBreak(ScanPoints& scan, const FeatureExtractorOptions& options)

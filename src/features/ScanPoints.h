@@ -31,8 +31,9 @@ struct PointRange
 ScanPoints validPoints(const LaserScan& scan, const FeatureExtractorOptions& options);
 
 /// Drops returns that lie near none of the two before and the two after and are nearer than most of
-/// them: dust, rain, insects. They tell no place and tear walls apart. \cite algorithm eq. (2.8)
-void dropSpeckles(ScanPoints& scan, const FeatureExtractorOptions& options);
+/// them: dust, rain, insects. They tell no place and tear walls apart. Returns whether there were
+/// any. \cite algorithm eq. (2.8)
+bool dropSpeckles(ScanPoints& scan, const FeatureExtractorOptions& options);
 
 /// Turns a full-circle scan so that no wall is cut by its seam: it starts at a break or, where the
 /// outline is closed, at the farthest return, which is a corner.

@@ -134,7 +134,8 @@ SIGLOC_WIDE_VECTORS PullSums pullsAt(const CellView& cells, const DenseScan& sca
 }
 
 /// Of the returns that lie on walls, weighted by the fine likelihood.
-PullSums informationAt(const CellView& cells, const DenseScan& scan, const Placement& place)
+SIGLOC_WIDE_VECTORS PullSums informationAt(const CellView& cells, const DenseScan& scan,
+                                           const Placement& place)
 {
   constexpr float kLeastLikelihood = 0.05F;
   const LikelihoodTable& likelihood = fineTable();
