@@ -12,13 +12,6 @@ namespace sigloc
 {
 namespace
 {
-constexpr double kMaxRelative = 3.0;  // log-odds one unit of travel can tell at most
-constexpr double kMaxLost = 3.0;
-constexpr double kMaxConfirmed = 12.0;  // what was confirmed long ago can still be lost
-constexpr double kMinConfirmed = -1.0;  // what look-alikes hid for long can still be confirmed
-constexpr double kMaxAgainst = 2.0;  // log-odds a metre
-constexpr double kFarBetter = 4.0;  // log-odds
-constexpr double kSure = 0.9;  // a relocation that overrules all tracks
 constexpr double kDoubt = -3.0;  // log of Wald's lower bound, as in (5.7)
 constexpr double kContradicted = -1.0;  // nothing is claimed
 constexpr double kMemory = 10.0;  // [m] of travel after which a feature is seen afresh
@@ -191,17 +184,7 @@ void FeatureFollowing::weighElsewhere(TrackSet& set, const RelocationResult& res
     best = std::max(best, candidate.score);
   }
   const double lead = kFeatureTempering * (best_tracked - best_untracked);
-  double here = std::clamp(lead, -kMaxLost, kMaxLost);
-  const bool held =
-      std::any_of(set.tracks.begin(), set.tracks.end(),
-                  [&](const Track& track) { return track.confirmed >= options_.confirmation; });
-  if (held && lead > -kFarBetter) here = std::max(here, 0.0);
-  set.elsewhere *= std::exp(-fresh_share * here);
-  const bool overruled = !result.candidates.empty() &&
-                         result.candidates.front().probability >= kSure &&
-                         set.trackAt(result.candidates.front().pose.mean) == nullptr;
-  if (overruled) set.elsewhere = std::max(set.elsewhere, options_.suspicion);
-  set.normalise();
+  set.weighElsewhere(result, lead, lead < -kFarBetter, fresh_share);
 }
 
 /// The features of a candidate share the error of the odometry that gathered them, and its pose the

@@ -24,20 +24,19 @@ namespace
 constexpr std::size_t kUpdateBeams = 180;  // a track is updated with
 constexpr double kMaxOpenSigma = 0.5;  // [m], a wider pose is a line of poses
 constexpr double kNotHere = 0.98;
-constexpr double kMaxLost = 3.0;
-constexpr double kMaxConfirmed = 12.0;  // what was confirmed long ago can still be lost
-constexpr double kMinConfirmed = -1.0;  // what look-alikes hid for long can still be confirmed
-constexpr double kMaxAgainst = 2.0;  // log-odds a metre
 constexpr double kUnfollowed = -11.7;  // log-odds of a pose before anything has come into view
 constexpr double kLeadFollowed = 13.0;  // per score ahead of the relocation's best other pose
-constexpr double kFarBetter = 4.0;  // log-likelihood
-constexpr double kSure = 0.9;  // a relocation that overrules all tracks
 
 const DenseField* fieldOf(const FeatureMap& map)
 {
   return map.field() ? &*map.field() : nullptr;
 }
 
+/// By how much candidate k is ahead of all others in the score.
+double leadOf(const RelocationResult& result, std::size_t k)
+{
+  return std::max(0.0, result.candidates[k].score - rivalScore(result, k));
+}
 }  // namespace
 
 struct HypothesisTracker::State
@@ -72,7 +71,6 @@ struct HypothesisTracker::State
   TrackSet set;
   std::unique_ptr<FeatureFollowing> by_features;  // where no dense field backs the map
   std::uint64_t next_id = 1;
-  double travel_step = 0;  // [m], turns included, of the last motion
   double travel_since_relocation = 0;  // [m]
   double travelled = 0;  // [m] in all
   bool first_step = true;
@@ -260,7 +258,7 @@ void HypothesisTracker::State::confirm(const RelocationResult& result, const Den
     {
       if (set.trackAt(result.candidates[k].pose.mean) != &track) continue;
       evidence = presenceEvidence(result, k);
-      lead = std::max(0.0, result.candidates[k].score - rivalScore(result, k));
+      lead = leadOf(result, k);
     }
     const double novelty = track.seen.add(scan, track.hypothesis.pose.mean, travelled);
     const double gain =
@@ -288,19 +286,9 @@ void HypothesisTracker::State::weighElsewhere(const RelocationResult& result, do
   }
   const double fit =
       result.candidates.empty() ? 0 : fitLogOdds(result.candidates.front()) + kPriorHereLogOdds;
-  double here = std::clamp(fit + leadLogOdds(best_tracked, best_untracked), -kMaxLost, kMaxLost);
-  const bool held = std::any_of(set.tracks.begin(), set.tracks.end(),
-                                [](const Track& track) { return track.held(); });
   const bool beaten =
       logLikelihoodOfScore(best_untracked) - logLikelihoodOfScore(best_tracked) > kFarBetter;
-  const bool firm = held && !beaten;
-  if (firm) here = std::max(here, 0.0);
-  set.elsewhere *= std::exp(-fresh_share * here);
-  const bool overruled = !firm && !result.candidates.empty() &&
-                         result.candidates.front().probability >= kSure &&
-                         set.trackAt(result.candidates.front().pose.mean) == nullptr;
-  if (overruled) set.elsewhere = std::max(set.elsewhere, options.suspicion);
-  set.normalise();
+  set.weighElsewhere(result, fit + leadLogOdds(best_tracked, best_untracked), beaten, fresh_share);
 }
 
 /// A track at a candidate that no track holds.
@@ -318,8 +306,8 @@ Track HypothesisTracker::State::startAt(const RelocationResult& result, std::siz
   fresh.confirmed = std::clamp(kPriorHereLogOdds + std::min(evidence, view * evidence),
                                kMinConfirmed, kMaxConfirmed);
   fresh.evidence = matcher->verifier()->evaluate(scan, candidate.pose.mean);
-  const double lead = std::max(0.0, candidate.score - rivalScore(result, k));
-  fresh.followed = kUnfollowed + view * (followedLogOdds(fresh.evidence) + kLeadFollowed * lead);
+  fresh.addFollowed(kUnfollowed +
+                    view * (followedLogOdds(fresh.evidence) + kLeadFollowed * leadOf(result, k)));
   return fresh;
 }
 

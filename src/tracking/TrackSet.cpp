@@ -24,10 +24,9 @@ constexpr double kSameDistance = 0.5;  // [m], a proposal this near to a track c
 constexpr double kSameAngle = 17.0 * M_PI / 180.0;
 constexpr double kMergeDistance = 0.3;  // [m]
 constexpr double kMergeAngle = 10.0 * M_PI / 180.0;
-constexpr double kMaxRelative = 3.0;  // log-odds one unit of travel can tell at most
-constexpr double kMaxLost = 3.0;
 constexpr double kMinFollowed = -13.0;
 constexpr double kMaxFollowed = 18.0;
+constexpr double kSure = 0.9;  // a relocation that overrules all tracks
 constexpr double kMostNews = 4.0;  // views that a metre can bring
 constexpr double kScoreMemory = 0.9;  // of the running mean of the score, per step
 constexpr double kCorrelation = 12.0;  // scans of neighbouring steps share their errors
@@ -205,6 +204,20 @@ Track* TrackSet::trackAt(const TPose2D& pose)
     if (coincide(track.hypothesis.pose.mean, pose, kSameDistance, kSameAngle)) return &track;
   }
   return nullptr;
+}
+
+void TrackSet::weighElsewhere(const RelocationResult& result, double here, bool beaten,
+                              double fresh_share)
+{
+  const bool firm = !beaten && std::any_of(tracks.begin(), tracks.end(),
+                                           [](const Track& track) { return track.held(); });
+  const double told = std::clamp(here, firm ? 0.0 : -kMaxLost, kMaxLost);
+  elsewhere *= std::exp(-fresh_share * told);
+  const bool overruled = !firm && !result.candidates.empty() &&
+                         result.candidates.front().probability >= kSure &&
+                         trackAt(result.candidates.front().pose.mean) == nullptr;
+  if (overruled) elsewhere = std::max(elsewhere, options_.suspicion);
+  normalise();
 }
 
 /// What is only the floor of "somewhere else" starts tracks but feeds none: else look-alikes would

@@ -17,6 +17,16 @@
 
 namespace sigloc
 {
+// Bounds of what one relocation or one unit of travel can tell, in log-odds; with a dense field and
+// without. Section 8 of docs/algorithm.md gives them where they are used.
+constexpr double kMaxRelative = 3.0;  // between rivals
+constexpr double kMaxLost = 3.0;  // for "somewhere else"
+constexpr double kMaxConfirmed = 12.0;  // what was confirmed long ago can still be lost
+constexpr double kMinConfirmed = -1.0;  // what look-alikes hid for long can still be confirmed
+constexpr double kMaxAgainst = 2.0;  // against a track, a metre
+constexpr double kHeld = 4.0;  // from which on a track is not given up for a look-alike
+constexpr double kFarBetter = 4.0;  // by which a place must beat what is held
+
 /// What a track remembers of the mapped features it was paired with.
 struct FeatureMemory
 {
@@ -46,7 +56,7 @@ struct Track
   double presence() const { return confirmed + followed; }
 
   /// Whether a relocation or the way has told enough not to give the track up for a look-alike.
-  bool held() const { return std::max(confirmed, presence()) >= 4.0; }
+  bool held() const { return std::max(confirmed, presence()) >= kHeld; }
 };
 
 /// True for poses so near to each other that their tracks are merged.
@@ -74,6 +84,11 @@ class TrackSet
 
   /// Scales all weights so that they sum to one.
   void normalise();
+
+  /// Moves the weight of "somewhere else" by what a relocation that is `fresh_share` news says for
+  /// the tracks, `here` in log-odds, while none is held that the relocation's best place without a
+  /// track beats by far (`beaten`). Eq. (8.8)
+  void weighElsewhere(const RelocationResult& result, double here, bool beaten, double fresh_share);
 
   /// Deals the lost share of the belief out as a relocation says: to the tracks at its candidates,
   /// to new ones that `start` makes of candidate k, and back to "somewhere else". Eq. (8.9)
