@@ -81,12 +81,13 @@ double followedLogOdds(const DenseEvidence& evidence)
 {
   constexpr double kMisfitOfChance = 0.25;  // where the map explains no more than a foreign one
   constexpr double kFloor = 0.03;
-  constexpr double kSlope = 2.1;
-  constexpr double kThrough = 17.0;
-  // What ends where the map knows nothing says nothing.
+  constexpr double kSlope = 1.17;
+  constexpr double kThrough = 2.5;
+  // What ends where the map knows nothing says nothing, nor what ends in its free space: people and
+  // moved furniture hide walls.
   const double known = 1.0 - evidence.unknown;
   if (known <= 0) return 0;
-  const double misfit = std::max(0.0, 1.0 - evidence.coarse / known);
+  const double misfit = std::max(0.0, 1.0 - (evidence.coarse + evidence.in_free) / known);
   return known * (kSlope * std::log(kMisfitOfChance / (misfit + kFloor)) -
                   kThrough * evidence.through_wall);
 }

@@ -24,18 +24,12 @@ namespace
 constexpr std::size_t kUpdateBeams = 180;  // a track is updated with
 constexpr double kMaxOpenSigma = 0.5;  // [m], a wider pose is a line of poses
 constexpr double kNotHere = 0.98;
-constexpr double kUnfollowed = -11.7;  // log-odds of a pose before anything has come into view
-constexpr double kLeadFollowed = 13.0;  // per score ahead of the relocation's best other pose
+constexpr double kHidden = 0.5;  // weight of a relocation that fails to find a track
+constexpr double kUnfollowed = -6.5;  // log-odds of a pose before anything has come into view
 
 const DenseField* fieldOf(const FeatureMap& map)
 {
   return map.field() ? &*map.field() : nullptr;
-}
-
-/// By how much candidate k is ahead of all others in the score.
-double leadOf(const RelocationResult& result, std::size_t k)
-{
-  return std::max(0.0, result.candidates[k].score - rivalScore(result, k));
 }
 }  // namespace
 
@@ -247,7 +241,6 @@ void HypothesisTracker::State::confirm(const RelocationResult& result, const Den
   for (Track& track : set.tracks)
   {
     double evidence = -kMaxAgainst;
-    double lead = 0;
     if (!result.candidates.empty())
     {
       // For a track that the relocation did not find: what its best answer would be there.
@@ -256,16 +249,17 @@ void HypothesisTracker::State::confirm(const RelocationResult& result, const Den
     }
     for (std::size_t k = result.candidates.size(); k-- > 0;)
     {
-      if (set.trackAt(result.candidates[k].pose.mean) != &track) continue;
-      evidence = presenceEvidence(result, k);
-      lead = leadOf(result, k);
+      if (set.trackAt(result.candidates[k].pose.mean) == &track)
+      {
+        evidence = presenceEvidence(result, k);
+      }
     }
     const double novelty = track.seen.add(scan, track.hypothesis.pose.mean, travelled);
     const double gain =
-        evidence > 0 ? novelty * std::min(evidence, kMaxConfirmed)
-                     : fresh_share * std::clamp(evidence + kPriorHereLogOdds, -kMaxAgainst, 0.0);
+        evidence > 0
+            ? novelty * std::min(evidence, kMaxConfirmed)
+            : fresh_share * kHidden * std::clamp(evidence + kPriorHereLogOdds, -kMaxAgainst, 0.0);
     track.confirmed = std::clamp(track.confirmed + gain, kMinConfirmed, kMaxConfirmed);
-    track.addFollowed(novelty * kLeadFollowed * lead);
   }
 }
 
@@ -306,8 +300,7 @@ Track HypothesisTracker::State::startAt(const RelocationResult& result, std::siz
   fresh.confirmed = std::clamp(kPriorHereLogOdds + std::min(evidence, view * evidence),
                                kMinConfirmed, kMaxConfirmed);
   fresh.evidence = matcher->verifier()->evaluate(scan, candidate.pose.mean);
-  fresh.addFollowed(kUnfollowed +
-                    view * (followedLogOdds(fresh.evidence) + kLeadFollowed * leadOf(result, k)));
+  fresh.addFollowed(kUnfollowed + view * followedLogOdds(fresh.evidence));
   return fresh;
 }
 

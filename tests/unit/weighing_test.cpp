@@ -159,8 +159,8 @@ TEST(FollowedLogOdds, FallsWithWhatTheMapDoesNotExplain)
   DenseEvidence foreign;
   foreign.coarse = 0.76;
   foreign.through_wall = 0.18;
-  EXPECT_GT(followedLogOdds(right), 3.0);
-  EXPECT_LT(followedLogOdds(foreign), -2.0);
+  EXPECT_GT(followedLogOdds(right), 1.5);
+  EXPECT_LT(followedLogOdds(foreign), -0.5);
   double last = followedLogOdds(right);
   for (int k = 0; k < 9; ++k)
   {
@@ -169,6 +169,16 @@ TEST(FollowedLogOdds, FallsWithWhatTheMapDoesNotExplain)
     EXPECT_LT(now, last);
     last = now;
   }
+}
+
+TEST(FollowedLogOdds, WhatEndsInFreeSpaceSaysNothing)
+{
+  DenseEvidence clear;
+  clear.coarse = 0.98;
+  DenseEvidence hidden = clear;
+  hidden.coarse = 0.58;
+  hidden.in_free = 0.4;
+  EXPECT_NEAR(followedLogOdds(hidden), followedLogOdds(clear), 1e-12);
 }
 
 TEST(FollowedLogOdds, UnknownLandSaysNothing)
