@@ -15,9 +15,10 @@ void freeTable(void* table) noexcept;
 template <class T>
 struct TableAllocator
 {
-  using value_type = T;
+  using value_type = T;  // NOLINT(readability-identifier-naming): what allocators call it
   TableAllocator() = default;
   template <class U>
+  // NOLINTNEXTLINE(google-explicit-constructor): allocators convert
   TableAllocator(const TableAllocator<U>& /*other*/)
   {
   }
