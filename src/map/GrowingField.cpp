@@ -167,7 +167,8 @@ void GrowingField::solveAround(const std::vector<CellBox>& changed)
   for (std::size_t i = 0; i < blocks.size();)
   {
     std::size_t next = i + 1;
-    const auto [row, column] = blocks[i];
+    const std::int32_t row = blocks[i].first;
+    const std::int32_t column = blocks[i].second;
     const auto follows = [&](std::size_t k)
     { return blocks[k] == std::make_pair(row, column + static_cast<std::int32_t>(k - i)); };
     while (next < blocks.size() && follows(next)) ++next;
