@@ -209,18 +209,21 @@ std::vector<RankedPose> DenseVerifier::rank(const DenseScan& scan,
   return poses;
 }
 
-/// Refines a pose on all beams. What all of them say of its place outweighs a small loss of score.
-void DenseVerifier::settle(const DenseScan& scan, const DenseScan& balanced, RankedPose& pose) const
+/// Refines a pose on all beams. What all of them say of its place outweighs a small loss of score;
+/// the place still ranks by the better of the two.
+void DenseVerifier::settle(const DenseScan& scan, const DenseScan& balanced,
+                           RankedPose& pose) const
 {
   RankedPose settled;
   settled.pose = refine(balanced, pose.pose, kSettleSteps, scan.size());
   settled.evidence = evaluate(scan, settled.pose, kRayBeams);
   // Rays only lower a score: often the ends alone tell that the start is not better.
   const double of_ends = pose.evidence.score + kThroughPenalty * pose.evidence.through_wall;
-  if (settled.evidence.score < of_ends - kSettleLoss)
+  if (settled.evidence.score < of_ends)
   {
     pose.evidence = evaluate(scan, pose.pose, kRayBeams);
     if (settled.evidence.score < pose.evidence.score - kSettleLoss) return;
+    if (settled.evidence.score < pose.evidence.score) settled.evidence = pose.evidence;
   }
   pose = settled;
 }
