@@ -211,8 +211,7 @@ std::vector<RankedPose> DenseVerifier::rank(const DenseScan& scan,
 
 /// Refines a pose on all beams. What all of them say of its place outweighs a small loss of score;
 /// the place still ranks by the better of the two.
-void DenseVerifier::settle(const DenseScan& scan, const DenseScan& balanced,
-                           RankedPose& pose) const
+void DenseVerifier::settle(const DenseScan& scan, const DenseScan& balanced, RankedPose& pose) const
 {
   RankedPose settled;
   settled.pose = refine(balanced, pose.pose, kSettleSteps, scan.size());

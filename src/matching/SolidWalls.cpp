@@ -18,7 +18,7 @@ namespace
 constexpr double kCell = 0.1;  // [m]
 constexpr float kMargin = 0.4F;  // [m] before its end a beam must be clear of walls
 constexpr float kBeyondRim =
-    0.25F;  // [cells] that lead well into the next cell: a grazed rim is no wall
+    0.12F;  // [cells] that lead into the next cell; a grazed rim is no wall
 constexpr float kTiny = 1e-6F;
 
 /// Chessboard distance [cells] to the nearest zero cell, in two passes, exact up to 255.
