@@ -226,7 +226,7 @@ void PatternIndex::appendPattern(const PreparedMap& map, const PatternMembers& s
   const PatternShape shape = shapeOf(ordered.data(), size_);
   if (shape.values[0] > kLongest) return;
 
-  CellKey cell;
+  CellKey cell{};
   for (std::size_t v = 0; v < valueCount(); ++v)
   {
     if (v < hashedCount()) cell = extended(cell, v, cellOf(shape.values[v]));

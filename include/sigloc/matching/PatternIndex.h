@@ -84,8 +84,8 @@ class PatternIndex
   /// so lie side by side in memory: a look-up asks for many of them.
   struct CellKey
   {
-    std::uint64_t group = 0;
-    std::uint32_t member = 0;
+    std::uint64_t group;  // no initial values: a look-up makes room for thousands
+    std::uint32_t member;
   };
   /// The key of a cell from that of its first `v` values and its place along the next one.
   CellKey extended(const CellKey& key, std::size_t v, std::int64_t cell) const
