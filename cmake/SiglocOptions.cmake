@@ -19,10 +19,9 @@ set(SIGLOC_SANITIZE "" CACHE STRING "Sanitizers, as -fsanitize takes them (addre
 option(SIGLOC_COVERAGE "Instrument for coverage" OFF)
 
 add_library(sigloc_flags INTERFACE)
-# No code reads errno after a call of <cmath>, and loops may take several steps at a time where they say
-# so (omp simd; no threads).
+# No code reads errno after a call of <cmath>.
 target_compile_options(sigloc_flags INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wshadow
-                       -fno-math-errno -fopenmp-simd)
+                       -fno-math-errno)
 if(SIGLOC_WERROR)
   target_compile_options(sigloc_flags INTERFACE -Werror)
 endif()

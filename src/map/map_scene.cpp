@@ -17,12 +17,8 @@ constexpr double kRange = 30.0;  // [m]
 
 bool isFree(const DenseField& field, const TPoint2D& place)
 {
-  const double x = std::floor((place.x - field.frame.origin.x) / field.frame.resolution);
-  const double y = std::floor((place.y - field.frame.origin.y) / field.frame.resolution);
-  if (!(x >= 0 && y >= 0 && x < field.frame.width && y < field.frame.height)) return false;
-  const std::size_t cell =
-      static_cast<std::size_t>(y) * field.frame.width + static_cast<std::size_t>(x);
-  return field.cells[cell].state == CellState::free;
+  const DenseCell* cell = cellAt(field, place);
+  return cell != nullptr && cell->state == CellState::free;
 }
 }  // namespace
 

@@ -18,13 +18,9 @@ constexpr double kReachInSigmas = 4.0;
 /// Distance to the nearest wall [m], kFar off the map or beyond what the field stores.
 double wallDistance(const DenseField& field, const TPoint2D& point)
 {
-  const RasterFrame& frame = field.frame;
-  const double x = std::floor((point.x - frame.origin.x) / frame.resolution);
-  const double y = std::floor((point.y - frame.origin.y) / frame.resolution);
-  if (!(x >= 0 && y >= 0 && x < frame.width && y < frame.height)) return kFar;
-  const std::size_t cell = static_cast<std::size_t>(y) * frame.width + static_cast<std::size_t>(x);
-  const std::uint8_t distance = field.cells[cell].distance;
-  return distance == 255 ? kFar : distance * DenseField::kDistanceUnit;
+  const DenseCell* cell = cellAt(field, point);
+  if (cell == nullptr || cell->distance == 255) return kFar;
+  return cell->distance * DenseField::kDistanceUnit;
 }
 
 template <class Distance>

@@ -40,41 +40,45 @@ struct PullSums
   void add(const DenseScan& scan, std::size_t first, std::size_t count, const Floats& weight,
            const Floats& ex, const Floats& ey)
   {
-    const float* x = &scan.x[first];
-    const float* y = &scan.y[first];
-    const float* pull_xx = &scan.pull_xx[first];
-    const float* pull_xy = &scan.pull_xy[first];
-    const float* pull_yy = &scan.pull_yy[first];
-    float sxx = 0, sxy = 0, sxt = 0, syy = 0, syt = 0, stt = 0, sgx = 0, sgy = 0, sgt = 0;
-#pragma omp simd reduction(+ : sxx, sxy, sxt, syy, syt, stt, sgx, sgy, sgt)
-    for (std::size_t i = 0; i < count; ++i)
+    WideFloat sxx{}, sxy{}, sxt{}, syy{}, syt{}, stt{}, sgx{}, sgy{}, sgt{};
+    for (std::size_t i = 0; i < count; i += kWideFloats)
     {
-      const float wxx = weight[i] * pull_xx[i];
-      const float wxy = weight[i] * pull_xy[i];
-      const float wyy = weight[i] * pull_yy[i];
-      const float wxt = x[i] * wxy - y[i] * wxx;
-      const float wyt = x[i] * wyy - y[i] * wxy;
-      const float force_x = wxx * ex[i] + wxy * ey[i];
-      const float force_y = wxy * ex[i] + wyy * ey[i];
+      const std::size_t n = std::min(kWideFloats, count - i);
+      WideFloat w, x, y, pull_xx, pull_xy, pull_yy, offset_x, offset_y;
+      loadWide(&weight[i], n, w);
+      loadWide(&scan.x[first + i], n, x);
+      loadWide(&scan.y[first + i], n, y);
+      loadWide(&scan.pull_xx[first + i], n, pull_xx);
+      loadWide(&scan.pull_xy[first + i], n, pull_xy);
+      loadWide(&scan.pull_yy[first + i], n, pull_yy);
+      loadWide(&ex[i], n, offset_x);
+      loadWide(&ey[i], n, offset_y);
+      const WideFloat wxx = w * pull_xx;
+      const WideFloat wxy = w * pull_xy;
+      const WideFloat wyy = w * pull_yy;
+      const WideFloat wxt = x * wxy - y * wxx;
+      const WideFloat wyt = x * wyy - y * wxy;
+      const WideFloat force_x = wxx * offset_x + wxy * offset_y;
+      const WideFloat force_y = wxy * offset_x + wyy * offset_y;
       sxx += wxx;
       sxy += wxy;
       sxt += wxt;
       syy += wyy;
       syt += wyt;
-      stt += x[i] * wyt - y[i] * wxt;
+      stt += x * wyt - y * wxt;
       sgx += force_x;
       sgy += force_y;
-      sgt += x[i] * force_y - y[i] * force_x;
+      sgt += x * force_y - y * force_x;
     }
-    xx += sxx;
-    xy += sxy;
-    xt += sxt;
-    yy += syy;
-    yt += syt;
-    tt += stt;
-    gx += sgx;
-    gy += sgy;
-    gt += sgt;
+    xx += sumOf(sxx);
+    xy += sumOf(sxy);
+    xt += sumOf(sxt);
+    yy += sumOf(syy);
+    yt += sumOf(syt);
+    tt += sumOf(stt);
+    gx += sumOf(sgx);
+    gy += sumOf(sgy);
+    gt += sumOf(sgt);
   }
 
   /// The move that (6.7) asks for, by Cholesky; kHold keeps the system positive definite.

@@ -35,6 +35,13 @@ constexpr double kLocalized = 0.99;
 constexpr double kNotHere = 0.98;
 constexpr double kMaxOpenSigma = 0.5;  // [m], a wider pose is a line of poses
 
+/// The score of the best candidate but the k-th, or what chance reaches where there is none.
+double rivalScore(const RelocationResult& result, std::size_t k)
+{
+  const std::size_t rival = k == 0 ? 1 : 0;
+  return rival < result.candidates.size() ? result.candidates[rival].score : kChanceScore;
+}
+
 /// The verdict that the weights allow.
 void decide(RelocationResult& result)
 {
@@ -104,12 +111,6 @@ double fitLogOdds(const Candidate& candidate)
 double leadLogOdds(double score, double rival_score)
 {
   return kLeadSlope * (logLikelihoodOfScore(score) - logLikelihoodOfScore(rival_score));
-}
-
-double rivalScore(const RelocationResult& result, std::size_t k)
-{
-  const std::size_t rival = k == 0 ? 1 : 0;
-  return rival < result.candidates.size() ? result.candidates[rival].score : kChanceScore;
 }
 
 double presenceEvidence(const RelocationResult& result, std::size_t k)

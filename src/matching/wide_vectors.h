@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
+#include <cstring>
+
 /// Before a function: it is compiled twice, and the form for wide vectors is taken where the
 /// processor has them. Everything called in its loops is inlined into both forms.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
@@ -10,3 +13,29 @@
 #else
 #define SIGLOC_WIDE_VECTORS
 #endif
+
+namespace sigloc
+{
+constexpr std::size_t kWideFloats = 8;
+
+/// Eight floats that are worked on together, by as many instructions as the processor needs: sums
+/// come out the same, bit for bit, whether it takes four at once or eight.
+using WideFloat = float __attribute__((vector_size(kWideFloats * sizeof(float))));
+
+/// Reads the first n <= 8 of them; the others become 0.
+inline void loadWide(const float* from, std::size_t n, WideFloat& to)
+{
+  if (n == kWideFloats)
+  {
+    std::memcpy(&to, from, sizeof(to));
+    return;
+  }
+  to = WideFloat{};
+  std::memcpy(&to, from, n * sizeof(float));
+}
+
+inline float sumOf(const WideFloat& v)
+{
+  return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));
+}
+}  // namespace sigloc

@@ -4,6 +4,8 @@
 
 #include <mrpt/math/TPoint2D.h>
 
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -65,6 +67,16 @@ struct DenseField
   double free_area = 0;  ///< [m^2] known to be free
   std::uint32_t wall_cells = 0;
 };
+
+/// Returns the cell that a point of the map frame [m] falls into, or null outside of the field.
+inline const DenseCell* cellAt(const DenseField& field, const mrpt::math::TPoint2D& point)
+{
+  const RasterFrame& frame = field.frame;
+  const double x = std::floor((point.x - frame.origin.x) / frame.resolution);
+  const double y = std::floor((point.y - frame.origin.y) / frame.resolution);
+  if (!(x >= 0 && y >= 0 && x < frame.width && y < frame.height)) return nullptr;
+  return &field.cells[static_cast<std::size_t>(y) * frame.width + static_cast<std::size_t>(x)];
+}
 
 /// Returns how far [m] a cell is at least from any wall when its distance is 255: the distance byte
 /// ends at 1.27 m, the offset bytes at 127 cells.

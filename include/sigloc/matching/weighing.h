@@ -36,10 +36,6 @@ double fitLogOdds(const Candidate& candidate);
 /// \cite algorithm eq. (7.2)
 double leadLogOdds(double score, double rival_score);
 
-/// Returns the score of the best candidate but the k-th, or what chance reaches where there is
-/// none.
-double rivalScore(const RelocationResult& result, std::size_t k);
-
 /// Returns how much candidate k's scan speaks for standing in the map at all: the log-odds (7.2)
 /// without their prior, the best other candidate being the rival. Evidence of one scan, to be added
 /// up over scans of different places. \cite algorithm eq. (7.2)
