@@ -27,9 +27,9 @@ constexpr double kBetterThanChance = 1;  // hypotheses as good expected by chanc
 // The second look may fail this much less: how much of a place is indexed varies from place to
 // place.
 constexpr double kLookAgain = 0.1;
-// A hundred more draws cost little beside answering nothing sure, or trying smaller bases next:
-// before that they may fail this much less.
-constexpr double kDrawsAreCheap = 0.01;
+// More draws cost little beside answering nothing sure, or trying smaller bases next: before that
+// they may fail this much less. Where a map is sparse few of the patterns seen are indexed.
+constexpr double kDrawsAreCheap = 1e-6;
 // Share of the gate within which an order is taken to be undecided: every further order is a
 // further look-up, and an order missed costs one draw of many.
 constexpr double kOrderShare = 0.5;
