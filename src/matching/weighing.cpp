@@ -84,19 +84,21 @@ double reliabilityOf(const DenseEvidence& evidence)
   return std::clamp((evidence.fine - 0.5 * evidence.through_wall) / seen, 0.0, 1.0);
 }
 
+double unexplainedShare(const DenseEvidence& evidence)
+{
+  const double known = 1.0 - evidence.unknown;
+  return known > 0 ? std::max(0.0, 1.0 - (evidence.coarse + evidence.in_free) / known) : 0.0;
+}
+
 double followedLogOdds(const DenseEvidence& evidence)
 {
   constexpr double kMisfitOfChance = 0.25;  // where the map explains no more than a foreign one
   constexpr double kFloor = 0.03;
   constexpr double kSlope = 1.17;
   constexpr double kThrough = 2.5;
-  // What ends where the map knows nothing says nothing, nor what ends in its free space: people and
-  // moved furniture hide walls.
-  const double known = 1.0 - evidence.unknown;
-  if (known <= 0) return 0;
-  const double misfit = std::max(0.0, 1.0 - (evidence.coarse + evidence.in_free) / known);
-  return known * (kSlope * std::log(kMisfitOfChance / (misfit + kFloor)) -
-                  kThrough * evidence.through_wall);
+  const double misfit = unexplainedShare(evidence);
+  return (1.0 - evidence.unknown) * (kSlope * std::log(kMisfitOfChance / (misfit + kFloor)) -
+                                     kThrough * evidence.through_wall);
 }
 
 double fitLogOdds(const Candidate& candidate)

@@ -50,6 +50,7 @@ struct HypothesisTracker::State
   double travelSeen(double assumed);
   double freshShare() const;
   bool suspicious() const;
+  bool doubtful() const;
   bool wantsRelocation() const;
   void relocate(const ObservedScene& scene, const DenseScan& scan);
   void confirm(const RelocationResult& result, const DenseScan& scan, double fresh_share);
@@ -69,6 +70,7 @@ struct HypothesisTracker::State
   double travelled = 0;  // [m] in all
   bool first_step = true;
   bool relocated = false;
+  std::uint64_t found_id = 0;  // of the track that this step's relocation found best, or 0
   double reliability = 0;  // of the first hypothesis when enough was last seen
   std::uint64_t seen_id = 0;  // of the track that was heaviest when the robot last moved
   mrpt::math::TPose2D seen_pose;  // where it was then
@@ -115,6 +117,7 @@ const Belief& HypothesisTracker::step(const std::optional<MotionIncrement>& moti
 {
   State& s = *state_;
   s.relocated = false;
+  s.found_id = 0;
   const bool sees_enough = s.by_features ? s.by_features->look(s.set, motion, scene)
                                          : scene.beams.size() >= s.matcher->options().min_beams;
   const double travel = s.set.predict(motion);
@@ -205,6 +208,15 @@ bool HypothesisTracker::State::suspicious() const
   return first.hypothesis.age > 1 && first.score < first.mean_score - options.score_drop;
 }
 
+/// Suspicion is allayed where a relocation finds no better place in the whole map: something stands
+/// in the way, or was moved.
+bool HypothesisTracker::State::doubtful() const
+{
+  const Track& first = set.tracks.front();
+  if (by_features && FeatureFollowing::contradicts(first)) return true;
+  return suspicious() && first.hypothesis.id != found_id;
+}
+
 /// At the start, after a sudden fall of the score, at a steady rate while several poses or none
 /// hold, and at a low one to confirm what is held.
 bool HypothesisTracker::State::wantsRelocation() const
@@ -227,6 +239,9 @@ void HypothesisTracker::State::relocate(const ObservedScene& scene, const DenseS
   travel_since_relocation = 0;
   if (result.verdict == Verdict::too_little_seen) return;
 
+  const Track* best =
+      result.candidates.empty() ? nullptr : set.trackAt(result.candidates.front().pose.mean);
+  if (best != nullptr) found_id = best->hypothesis.id;
   confirm(result, scan, fresh_share);
   weighElsewhere(result, fresh_share);
   set.dealOut(result, [&](std::size_t k) { return startAt(result, k, scan); });
@@ -301,6 +316,7 @@ Track HypothesisTracker::State::startAt(const RelocationResult& result, std::siz
                                kMinConfirmed, kMaxConfirmed);
   fresh.evidence = matcher->verifier()->evaluate(scan, candidate.pose.mean);
   fresh.addFollowed(kUnfollowed + view * followedLogOdds(fresh.evidence));
+  fresh.addMisfit(0);
   return fresh;
 }
 
@@ -350,9 +366,7 @@ void HypothesisTracker::State::publish(const ObservedScene& scene)
   belief.reliability = reliability;
   const bool open = largestPositionSigma(first.pose) >= kMaxOpenSigma;
   const bool confirmed = set.tracks.front().presence() >= options.confirmation;
-  const bool doubtful =
-      suspicious() || (by_features && FeatureFollowing::contradicts(set.tracks.front()));
-  if (first.weight >= options.localized_probability && confirmed && !doubtful && !open)
+  if (first.weight >= options.localized_probability && confirmed && !doubtful() && !open)
   {
     belief.verdict = Verdict::localized;
     belief.probability = first.weight;
@@ -369,10 +383,10 @@ void HypothesisTracker::State::publish(const ObservedScene& scene)
     belief.verdict = Verdict::ambiguous;
     belief.probability = 1.0 - first.weight;
     const bool rivalled = first.weight < options.localized_probability;
-    belief.reason = open       ? "the position is open along a line"
-                    : doubtful ? "the hypothesis explains much less than it used to"
-                    : rivalled ? describeRivals(belief.hypotheses, fieldOf(matcher->map()))
-                               : "too little has been seen that only this map explains";
+    belief.reason = open         ? "the position is open along a line"
+                    : doubtful() ? "the hypothesis explains much less than it used to"
+                    : rivalled   ? describeRivals(belief.hypotheses, fieldOf(matcher->map()))
+                                 : "too little has been seen that only this map explains";
   }
 }
 }  // namespace sigloc

@@ -24,6 +24,10 @@ constexpr double kSameDistance = 0.5;  // [m], a proposal this near to a track c
 constexpr double kSameAngle = 17.0 * M_PI / 180.0;
 constexpr double kMergeDistance = 0.3;  // [m]
 constexpr double kMergeAngle = 10.0 * M_PI / 180.0;
+constexpr double kMisfitMemory = 3.0;  // [m] of travel
+constexpr double kMisfitFloor = 0.03;  // share that even the right pose leaves unexplained
+constexpr double kUsualMisfit = 0.068;  // with its floor, of a pose that may be right or foreign
+constexpr double kFitSlope = 1.04;
 constexpr double kMinFollowed = -8.0;
 constexpr double kMaxFollowed = 12.0;
 constexpr double kSure = 0.9;  // a relocation that overrules all tracks
@@ -53,6 +57,19 @@ bool wouldMerge(const TPose2D& a, const TPose2D& b)
 void Track::addFollowed(double log_odds)
 {
   followed = std::clamp(followed + log_odds, kMinFollowed, kMaxFollowed);
+}
+
+void Track::addMisfit(double travel)
+{
+  const double now = unexplainedShare(evidence) + evidence.through_wall;
+  const double fresh = misfit ? 1.0 - std::exp(-travel / kMisfitMemory) : 1.0;
+  misfit = misfit.value_or(0) + fresh * (now - misfit.value_or(0));
+}
+
+double Track::presence() const
+{
+  const double fit = misfit ? kFitSlope * std::log(kUsualMisfit / (*misfit + kMisfitFloor)) : 0.0;
+  return confirmed + followed + fit;
 }
 
 double TrackSet::predict(const std::optional<MotionIncrement>& motion)
@@ -162,6 +179,7 @@ void TrackSet::follow(const DenseScan& scan, double travelled, double travel)
     const double novelty =
         std::min(most, track.on_the_way.add(scan, track.hypothesis.pose.mean, travelled));
     track.addFollowed(novelty * followedLogOdds(track.evidence));
+    track.addMisfit(travel);
   }
 }
 

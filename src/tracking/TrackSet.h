@@ -47,13 +47,17 @@ struct Track
   SeenStructure seen;  // what that evidence rests on
   double followed = 0;  // log-odds from how the map explained what came into view on the way
   SeenStructure on_the_way;  // what has come into view
+  std::optional<double> misfit;  // of what is seen, known or new, lately; none without a field
   FeatureMemory features;  // in a map without a dense field
 
   /// Adds to `followed`, within its bounds.
   void addFollowed(double log_odds);
 
+  /// Takes what the map leaves unexplained of the last scan into its mean over some travel [m].
+  void addMisfit(double travel);
+
   /// Log-odds of standing in the map at all, eq. (8.22)
-  double presence() const { return confirmed + followed; }
+  double presence() const;
 
   /// Whether a relocation or the way has told enough not to give the track up for a look-alike.
   bool held() const { return std::max(confirmed, presence()) >= kHeld; }

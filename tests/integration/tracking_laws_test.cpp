@@ -269,6 +269,42 @@ TEST(Tracker, NoticesAKidnap)
   EXPECT_GE(right, 5);
 }
 
+/// Four people around the robot, each hiding a twelfth of all there is to see.
+void crowd(LaserScan& scan)
+{
+  const std::size_t n = scan.ranges.size();
+  for (std::size_t person = 0; person < 4; ++person)
+  {
+    const float distance = 0.7F + 0.3F * static_cast<float>(person);
+    const std::size_t first = person * n / 4;
+    for (std::size_t i = first; i < first + n / 12; ++i)
+    {
+      scan.ranges[i] = std::min(scan.ranges[i], distance);
+    }
+  }
+}
+
+TEST(Tracker, ACrowdDoesNotUnsettleIt)
+{
+  int localized = 0;
+  int stays = 0;
+  for (std::uint64_t seed = 61; seed < 71; ++seed)
+  {
+    HypothesisTracker tracker(office().matcher());
+    auto drive = driveThrough(office().world(), 12, seed);
+    DriveStep last = drive.back();
+    drive.pop_back();
+    if (!follow(tracker, drive).right_at_end) continue;
+    ++localized;
+    crowd(*last.scan);
+    const Belief& belief = tracker.step(last.motion, observeScene({*last.scan}));
+    EXPECT_FALSE(confidentlyWrong(belief, last.world_from_robot)) << "seed " << seed;
+    stays += belief.verdict == Verdict::localized;
+  }
+  EXPECT_GE(localized, 8);
+  EXPECT_GE(stays, localized - 1);
+}
+
 TEST(Tracker, InAForeignMapItIsSeldomLocalized)
 {
   int drives = 0;

@@ -18,6 +18,11 @@ double logLikelihoodOfScore(double score);
 /// cut short, the share on walls, less what came through walls. \cite algorithm eq. (8.11)
 double reliabilityOf(const DenseEvidence& evidence);
 
+/// Returns the share, in [0, 1], of what ends where the map knows something that it does not
+/// explain. What ends in its free space counts as explained: people and moved furniture hide walls.
+/// \cite algorithm eq. (8.21)
+double unexplainedShare(const DenseEvidence& evidence);
+
 /// Returns what a tracked pose's scan adds to the log-odds of standing in the map, were all that it
 /// sees new to the track: how much of it the map explains, and how little it contradicts.
 /// \cite algorithm eq. (8.21)
