@@ -95,7 +95,7 @@ double followedLogOdds(const DenseEvidence& evidence)
   constexpr double kMisfitOfChance = 0.25;  // where the map explains no more than a foreign one
   constexpr double kFloor = 0.03;
   constexpr double kSlope = 1.17;
-  constexpr double kThrough = 7.5;
+  constexpr double kThrough = 5.0;
   const double misfit = unexplainedShare(evidence);
   return (1.0 - evidence.unknown) * (kSlope * std::log(kMisfitOfChance / (misfit + kFloor)) -
                                      kThrough * evidence.through_wall);
