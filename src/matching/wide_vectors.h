@@ -22,7 +22,8 @@ constexpr std::size_t kWideFloats = 8;
 /// come out the same, bit for bit, whether it takes four at once or eight.
 using WideFloat = float __attribute__((vector_size(kWideFloats * sizeof(float))));
 
-/// Reads the first n <= 8 of them; the others become 0.
+/// Reads the first n <= 8 of them; the others become 0. Into an argument, because how a wide vector
+/// is returned hangs on the instructions that a function is compiled for.
 inline void loadWide(const float* from, std::size_t n, WideFloat& to)
 {
   if (n == kWideFloats)
