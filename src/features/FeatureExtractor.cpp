@@ -325,9 +325,14 @@ void appendScan(ScanPoints scan, const TPose2D& robot_from_sensor, double range_
 
   const auto origin = static_cast<std::uint32_t>(scene.sensor_origins.size());
   scene.sensor_origins.emplace_back(robot_from_sensor.x, robot_from_sensor.y);
-  for (const TPoint2D& point : scan.points)
+  const double c = std::cos(robot_from_sensor.phi);
+  const double s = std::sin(robot_from_sensor.phi);
+  scene.beams.reserve(scene.beams.size() + scan.points.size());
+  for (const TPoint2D& p : scan.points)
   {
-    scene.beams.push_back({robot_from_sensor.composePoint(point), origin});
+    scene.beams.push_back(
+        {{robot_from_sensor.x + c * p.x - s * p.y, robot_from_sensor.y + s * p.x + c * p.y},
+         origin});
   }
   const auto first_feature = static_cast<std::int32_t>(scene.features.size());
   for (Feature feature : featuresOfScan(scan, std::max(range_sigma, 0.001), options))

@@ -156,14 +156,17 @@ void BaseProposer::proposeSlidWalls(const std::vector<Feature>& observed, std::s
       const double high = std::max(mapped.length - inside, 0.5 * mapped.length);
       const int steps = static_cast<int>(std::ceil((high - low) / options_.slide_step));
       const double step = steps == 0 ? 0 : (high - low) / steps;
-      const PoseProposal first =
-          poseCarrying(wall->position, mapped.start + tangent * low, phi, c, s);
+      PoseProposal next = poseCarrying(wall->position, mapped.start + tangent * low, phi, c, s);
       const auto dx = static_cast<float>(tangent.x * step);
       const auto dy = static_cast<float>(tangent.y * step);
-      for (int k = 0; k <= steps; ++k)
+      // Room first: what is pushed back keeps nothing in registers.
+      const std::size_t size = out.size();
+      out.resize(size + static_cast<std::size_t>(steps) + 1);
+      for (auto to = out.begin() + static_cast<std::ptrdiff_t>(size); to != out.end(); ++to)
       {
-        const auto along = static_cast<float>(k);
-        out.push_back({first.x + along * dx, first.y + along * dy, first.phi});
+        *to = next;
+        next.x += dx;
+        next.y += dy;
       }
     }
   }

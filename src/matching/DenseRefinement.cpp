@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <Eigen/Dense>
+#include <vector>
 
 #include "CellView.h"
 #include "likelihood_table.h"
@@ -160,33 +161,63 @@ SIGLOC_WIDE_VECTORS PullSums informationAt(const CellView& cells, const DenseSca
   }
   return sums;
 }
+/// The pose after a step in the robot frame.
+TPose2D movedBy(const TPose2D& pose, const Placement& place, const std::array<double, 3>& move)
+{
+  const auto c = static_cast<double>(place.c);
+  const auto s = static_cast<double>(place.s);
+  return {pose.x + c * move[0] - s * move[1], pose.y + s * move[0] + c * move[1],
+          pose.phi + move[2]};
+}
+
+bool isLast(const std::array<double, 3>& move)
+{
+  return std::abs(move[0]) + std::abs(move[1]) < kConverged && std::abs(move[2]) < kConverged;
+}
+
+bool isNear(const TPose2D& pose, const TPose2D& start)
+{
+  return std::hypot(pose.x - start.x, pose.y - start.y) <= kMaxShift &&
+         std::abs(wrapToPi(pose.phi - start.phi)) <= kMaxTurn;
+}
 }  // namespace
 
 TPose2D DenseVerifier::refine(const DenseScan& scan, const TPose2D& start, int steps,
                               std::size_t beams) const
 {
+  std::vector<TPose2D> poses{start};
+  refineAll(scan, poses, steps, beams);
+  return poses.front();
+}
+
+/// The poses take their steps in turns: each waits for its own sums, not for those of the others.
+void DenseVerifier::refineAll(const DenseScan& scan, std::vector<TPose2D>& poses, int steps,
+                              std::size_t beams) const
+{
   const CellView cells(field_);
   const std::size_t count = std::min(beams, scan.size());
-  TPose2D pose = start;
+  const std::vector<TPose2D> starts = poses;
+  std::vector<TPose2D*> moving;
+  moving.reserve(poses.size());
+  for (TPose2D& pose : poses) moving.push_back(&pose);
   for (int step = 0; step < steps; ++step)
   {
-    const Placement place(pose);
     const float robust_sigma = step == 0 ? kFirstRobustSigma : kRobustSigma;
-    const std::array<double, 3> move = pullsAt(cells, scan, count, place, robust_sigma).step();
-    const auto c = static_cast<double>(place.c);
-    const auto s = static_cast<double>(place.s);
-    pose.x += c * move[0] - s * move[1];
-    pose.y += s * move[0] + c * move[1];
-    pose.phi += move[2];
-    if (std::abs(move[0]) + std::abs(move[1]) < kConverged && std::abs(move[2]) < kConverged)
+    std::size_t kept = 0;
+    for (TPose2D* pose : moving)
     {
-      break;
+      const Placement place(*pose);
+      const std::array<double, 3> move = pullsAt(cells, scan, count, place, robust_sigma).step();
+      *pose = movedBy(*pose, place, move);
+      if (!isLast(move)) moving[kept++] = pose;
     }
+    moving.resize(kept);
   }
-  pose.phi = wrapToPi(pose.phi);
-  const bool inside = std::hypot(pose.x - start.x, pose.y - start.y) <= kMaxShift &&
-                      std::abs(wrapToPi(pose.phi - start.phi)) <= kMaxTurn;
-  return inside ? pose : start;
+  for (std::size_t k = 0; k < poses.size(); ++k)
+  {
+    poses[k].phi = wrapToPi(poses[k].phi);
+    if (!isNear(poses[k], starts[k])) poses[k] = starts[k];
+  }
 }
 
 mrpt::math::CMatrixDouble33 DenseVerifier::covarianceAt(const DenseScan& scan, const TPose2D& pose,

@@ -136,13 +136,13 @@ DenseScan makeDenseScan(const ObservedScene& scene, std::size_t max_beams)
   const std::vector<ObservedWall> walls = observedWalls(scene.features);
   for (const std::uint32_t i : interleavedOrder(static_cast<std::uint32_t>(count)))
   {
-    const BeamEnd& beam = scene.beams[i * total / count];
+    const std::size_t at = i * total / count;
+    const BeamEnd& beam = scene.beams[at];
     scan.x.push_back(static_cast<float>(beam.point.x));
     scan.y.push_back(static_cast<float>(beam.point.y));
     addPull(walls, beam.point, scan);
-    scan.balance.push_back(
-        static_cast<float>(std::sqrt(lengthShare(scene.beams, i * total / count))));
-    scan.isolated.push_back(isIsolated(scene.beams, i * total / count) ? 1 : 0);
+    scan.balance.push_back(static_cast<float>(std::sqrt(lengthShare(scene.beams, at))));
+    scan.isolated.push_back(isIsolated(scene.beams, at) ? 1 : 0);
     scan.origin.push_back(beam.origin);
   }
   const float sum = std::accumulate(scan.balance.begin(), scan.balance.end(), 0.0F);

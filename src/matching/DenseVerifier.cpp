@@ -25,7 +25,7 @@ using mrpt::math::wrapToPi;
 namespace
 {
 constexpr std::size_t kQuickSorted = 1024;  // best first looks that are sorted at all
-constexpr std::size_t kQuickKept = 48;  // places that are refined: the cascade's knob
+constexpr std::size_t kQuickKept = 40;  // places that are refined: the cascade's knob
 constexpr std::size_t kMiddleBeams = 32;
 constexpr std::size_t kMiddleScored = 48;
 constexpr int kMiddleSteps = 3;
@@ -186,13 +186,17 @@ std::vector<RankedPose> DenseVerifier::rank(const DenseScan& scan,
 
   // 3. The best of those, refined on more beams and judged by all of them.
   const double promising = poses.empty() ? 0 : poses.front().evidence.score - kFinalLead;
-  for (RankedPose& pose : poses)
+  std::vector<TPose2D> refined;
+  for (const RankedPose& pose : poses)
   {
-    if (pose.evidence.score >= promising)
-    {
-      pose.pose = refine(scan, pose.pose, kFinalSteps, kFinalBeams);
-    }
-    pose.evidence = evaluate(scan, pose.pose, kFinalRays);
+    if (pose.evidence.score < promising) break;
+    refined.push_back(pose.pose);
+  }
+  refineAll(scan, refined, kFinalSteps, kFinalBeams);
+  for (std::size_t k = 0; k < poses.size(); ++k)
+  {
+    if (k < refined.size()) poses[k].pose = refined[k];
+    poses[k].evidence = evaluate(scan, poses[k].pose, kFinalRays);
   }
   keepDistinct(poses, max_ranked);
 
@@ -236,21 +240,25 @@ std::vector<RankedPose> DenseVerifier::refineBest(const DenseScan& scan,
   // Few are taken before there are enough: a heap sorts no more than those.
   std::make_heap(looks.begin(), looks.end(), worse);
   auto end = looks.end();
-  std::vector<RankedPose> poses;
-  poses.reserve(kQuickKept);
+  std::vector<TPose2D> places;
+  places.reserve(kQuickKept);
   // By distance, not by cells of the map: moving the map must not change which ones are refined.
   TakenPoses taken;
-  for (std::size_t k = 0; k < kQuickSorted && end != looks.begin() && poses.size() < kQuickKept;
+  for (std::size_t k = 0; k < kQuickSorted && end != looks.begin() && places.size() < kQuickKept;
        ++k)
   {
     std::pop_heap(looks.begin(), end, worse);
     const PoseProposal& p = proposals[(--end)->index];
     if (taken.holdsNear(p)) continue;
     taken.add(p);
-    RankedPose pose;
-    pose.pose = refine(scan, {p.x, p.y, p.phi}, kMiddleSteps, kMiddleBeams);
-    pose.evidence.score = likelihood(scan, pose.pose, kMiddleScored);
-    poses.push_back(pose);
+    places.emplace_back(p.x, p.y, p.phi);
+  }
+  refineAll(scan, places, kMiddleSteps, kMiddleBeams);
+  std::vector<RankedPose> poses(places.size());
+  for (std::size_t k = 0; k < places.size(); ++k)
+  {
+    poses[k].pose = places[k];
+    poses[k].evidence.score = likelihood(scan, places[k], kMiddleScored);
   }
   return poses;
 }

@@ -19,7 +19,9 @@ constexpr double kLargestCell = 0.2;  // [m], of maps whose raster would leave t
 constexpr std::size_t kCachedCells = 2U << 20U;
 constexpr double kBorder = 20.0;  // [m] around the map where returns are looked up unchecked
 constexpr double kStandingCell = 0.5;  // [m]
-constexpr std::uint8_t kStandingCentre = 2;
+/// The lowest bit of a byte, of which the likelihood has the others: a robot could stand there.
+/// It is too little to matter in a sum of bytes.
+constexpr std::uint8_t kStanding = 1;
 constexpr std::size_t kReturns = 24;
 constexpr std::size_t kGlanceReturns = 8;  // of those, by which proposals are thinned first
 constexpr std::size_t kGlanceShare = 4;  // one in so many is kept,
@@ -42,6 +44,45 @@ RasterFrame likelihoodFrame(const RasterFrame& field)
 {
   const RasterFrame frame = coarserFrame(field, kCell);
   return cellCount(frame) <= kCachedCells ? frame : coarserFrame(field, kLargestCell);
+}
+
+/// For each block of the field kStanding if it holds free space, else 0.
+std::vector<std::uint8_t> freeBlocks(const DenseField& field, const RasterFrame& blocks)
+{
+  const std::uint32_t ratio = ratioOf(blocks, field.frame);
+  std::vector<std::uint8_t> out(cellCount(blocks), 0);
+  for (std::uint32_t y = 0; y < field.frame.height; ++y)
+  {
+    const DenseCell* row = &field.cells[static_cast<std::size_t>(y) * field.frame.width];
+    std::uint8_t* to = &out[static_cast<std::size_t>(y / ratio) * blocks.width];
+    for (std::uint32_t x = 0; x < field.frame.width; ++x)
+    {
+      if (row[x].state == CellState::free) to[x / ratio] = kStanding;
+    }
+  }
+  return out;
+}
+
+/// Where free space is no farther than in the next block there is a place to stand: a map may end a
+/// little early.
+std::vector<std::uint8_t> withNeighbours(const RasterFrame& blocks,
+                                         const std::vector<std::uint8_t>& free)
+{
+  std::vector<std::uint8_t> out(free.size(), 0);
+  for (std::uint32_t y = 0; y < blocks.height; ++y)
+  {
+    for (std::uint32_t x = 0; x < blocks.width; ++x)
+    {
+      if (free[static_cast<std::size_t>(y) * blocks.width + x] == 0) continue;
+      const std::uint32_t left = x == 0 ? 0 : x - 1;
+      const std::uint32_t end = std::min(x + 2, blocks.width);
+      for (std::uint32_t j = y == 0 ? 0 : y - 1; j < std::min(y + 2, blocks.height); ++j)
+      {
+        std::fill_n(&out[static_cast<std::size_t>(j) * blocks.width + left], end - left, kStanding);
+      }
+    }
+  }
+  return out;
 }
 
 /// Keeps the best `count` of looks that were a glance only, and those that tie with the last of
@@ -93,11 +134,36 @@ class QuickField::TurnedReturns
     }
   }
 
-  /// Adds the likelihood bytes of the returns `from` to `to` at each look's pose to its score.
-  template <std::size_t from, std::size_t to>
-  void addTo(std::vector<QuickLook>& looks, const std::vector<PoseProposal>& proposals)
+  /// Looks at the proposals that a robot could stand at by the first kGlanceReturns.
+  std::vector<QuickLook> glance(const std::vector<PoseProposal>& proposals)
   {
-    for (QuickLook& look : looks) look.score += sumAt<from, to>(proposals[look.index]);
+    std::vector<QuickLook> looks(proposals.size());
+    std::size_t count = 0;
+    for (std::uint32_t k = 0; k < proposals.size(); ++k)
+    {
+      const PoseProposal& p = proposals[k];
+      const float x = columnOf(p);
+      const float y = rowOf(p);
+      if (!(x >= 0 && y >= 0 && x < static_cast<float>(width_) && y < static_cast<float>(height_)))
+      {
+        continue;
+      }
+      // Kept or written over by the next: which of them stand follows no pattern to be guessed.
+      looks[count] = {sumAt<0, kGlanceReturns>(p), k};
+      const std::uint8_t here = *byteAt(static_cast<std::int32_t>(x), static_cast<std::int32_t>(y));
+      count += here & kStanding;
+    }
+    looks.resize(count);
+    return looks;
+  }
+
+  /// Adds what the other returns say at each look's pose to its score.
+  void lookFurther(std::vector<QuickLook>& looks, const std::vector<PoseProposal>& proposals)
+  {
+    for (QuickLook& look : looks)
+    {
+      look.score += sumAt<kGlanceReturns, kReturns>(proposals[look.index]);
+    }
   }
 
  private:
@@ -107,13 +173,16 @@ class QuickField::TurnedReturns
     std::array<std::int32_t, kReturns> dx, dy, flat;
   };
 
+  float columnOf(const PoseProposal& p) const { return (p.x - x0_) * scale_; }
+  float rowOf(const PoseProposal& p) const { return (p.y - y0_) * scale_; }
+
+  /// The sum of the bytes where the returns `from` to `to` fall at a pose inside of the raster.
   template <std::size_t from, std::size_t to>
   std::uint32_t sumAt(const PoseProposal& p)
   {
     const Turned& turned = at(p.phi);
-    // A place to stand lies inside the raster, so the cells are not negative.
-    const auto x = static_cast<std::int32_t>((p.x - x0_) * scale_);
-    const auto y = static_cast<std::int32_t>((p.y - y0_) * scale_);
+    const auto x = static_cast<std::int32_t>(columnOf(p));
+    const auto y = static_cast<std::int32_t>(rowOf(p));
     std::uint32_t sum = 0;
     if (turned.in_border)
     {
@@ -175,12 +244,10 @@ class QuickField::TurnedReturns
   std::unique_ptr<Turned[]> table_;  // its rows are left as they are until they are asked for
 };
 
-QuickField::QuickField(const DenseField& field)
-    : frame_(likelihoodFrame(field.frame)),
-      standing_frame_(coarserFrame(field.frame, kStandingCell))
+QuickField::QuickField(const DenseField& field) : frame_(likelihoodFrame(field.frame))
 {
   fillLikelihoods(field);
-  fillStanding(field);
+  markStanding(field);
 }
 
 void QuickField::fillLikelihoods(const DenseField& field)
@@ -196,7 +263,8 @@ void QuickField::fillLikelihoods(const DenseField& field)
   std::array<std::uint8_t, 256> bytes{};
   for (std::size_t d = 0; d < bytes.size(); ++d)
   {
-    bytes[d] = static_cast<std::uint8_t>(std::lround(255.0F * coarseTable()[d]));
+    const auto byte = static_cast<std::uint8_t>(std::lround(255.0F * coarseTable()[d]));
+    bytes[d] = byte & static_cast<std::uint8_t>(~kStanding);
   }
   for (std::uint32_t y = 0; y < field.frame.height; ++y)
   {
@@ -211,71 +279,31 @@ void QuickField::fillLikelihoods(const DenseField& field)
   }
 }
 
-void QuickField::fillStanding(const DenseField& field)
+void QuickField::markStanding(const DenseField& field)
 {
-  const std::uint32_t ratio = ratioOf(standing_frame_, field.frame);
-  standing_.assign(cellCount(standing_frame_), 0);
-  for (std::uint32_t y = 0; y < field.frame.height; ++y)
+  const RasterFrame blocks = coarserFrame(field.frame, kStandingCell);
+  const std::vector<std::uint8_t> standing = withNeighbours(blocks, freeBlocks(field, blocks));
+  const std::uint32_t ratio = ratioOf(frame_, field.frame);
+  const std::uint32_t block_ratio = ratioOf(blocks, field.frame);
+  for (std::uint32_t y = border_; y < frame_.height - border_; ++y)
   {
-    const DenseCell* row = &field.cells[static_cast<std::size_t>(y) * field.frame.width];
-    for (std::uint32_t x = 0; x < field.frame.width; ++x)
+    std::uint8_t* row = &likelihoods_[static_cast<std::size_t>(y) * frame_.width];
+    const std::uint8_t* block_row =
+        &standing[static_cast<std::size_t>((y - border_) * ratio / block_ratio) * blocks.width];
+    for (std::uint32_t x = border_; x < frame_.width - border_; ++x)
     {
-      if (row[x].state == CellState::free) markStanding(x / ratio, y / ratio);
+      row[x] |= block_row[(x - border_) * ratio / block_ratio];
     }
   }
-}
-
-/// Free space makes its own cell and those around it places to stand: a map may end a little early.
-void QuickField::markStanding(std::uint32_t x, std::uint32_t y)
-{
-  const std::uint32_t right = std::min(x + 1, standing_frame_.width - 1);
-  const std::uint32_t top = std::min(y + 1, standing_frame_.height - 1);
-  if (standing_[static_cast<std::size_t>(y) * standing_frame_.width + x] == kStandingCentre) return;
-  for (std::uint32_t j = y == 0 ? 0 : y - 1; j <= top; ++j)
-  {
-    for (std::uint32_t i = x == 0 ? 0 : x - 1; i <= right; ++i)
-    {
-      std::uint8_t& cell = standing_[static_cast<std::size_t>(j) * standing_frame_.width + i];
-      cell = std::max<std::uint8_t>(cell, 1);
-    }
-  }
-  standing_[static_cast<std::size_t>(y) * standing_frame_.width + x] = kStandingCentre;
-}
-
-/// A look, not yet taken, at every proposal that a robot could stand at.
-std::vector<QuickLook> QuickField::standing(const std::vector<PoseProposal>& proposals) const
-{
-  const auto scale = static_cast<float>(1.0 / standing_frame_.resolution);
-  const auto x0 = static_cast<float>(standing_frame_.origin.x);
-  const auto y0 = static_cast<float>(standing_frame_.origin.y);
-  const auto width = static_cast<float>(standing_frame_.width);
-  const auto height = static_cast<float>(standing_frame_.height);
-  std::vector<QuickLook> looks(proposals.size());
-  std::size_t count = 0;
-  for (std::uint32_t k = 0; k < proposals.size(); ++k)
-  {
-    const float x = (proposals[k].x - x0) * scale;
-    const float y = (proposals[k].y - y0) * scale;
-    if (!(x >= 0 && y >= 0 && x < width && y < height)) continue;
-    const std::size_t cell =
-        static_cast<std::size_t>(static_cast<std::int32_t>(y)) * standing_frame_.width +
-        static_cast<std::uint32_t>(static_cast<std::int32_t>(x));
-    // Kept or written over by the next: which of them stand follows no pattern to be guessed.
-    looks[count] = {0, k};
-    count += standing_[cell] != 0 ? 1 : 0;
-  }
-  looks.resize(count);
-  return looks;
 }
 
 std::vector<QuickLook> QuickField::look(const DenseScan& scan,
                                         const std::vector<PoseProposal>& proposals) const
 {
-  std::vector<QuickLook> looks = standing(proposals);
   TurnedReturns returns(scan, *this);
-  returns.addTo<0, kGlanceReturns>(looks, proposals);
+  std::vector<QuickLook> looks = returns.glance(proposals);
   keepBest(looks, std::clamp(looks.size() / kGlanceShare, kLeastGlanceKept, kMostGlanceKept));
-  returns.addTo<kGlanceReturns, kReturns>(looks, proposals);
+  returns.lookFurther(looks, proposals);
   return looks;
 }
 }  // namespace sigloc

@@ -35,14 +35,10 @@ class QuickField
  private:
   class TurnedReturns;
   void fillLikelihoods(const DenseField& field);
-  void fillStanding(const DenseField& field);
-  void markStanding(std::uint32_t x, std::uint32_t y);
-  std::vector<QuickLook> standing(const std::vector<PoseProposal>& proposals) const;
+  void markStanding(const DenseField& field);
 
-  RasterFrame frame_;  ///< of the likelihoods, with a border around the map
+  RasterFrame frame_;  ///< with a border around the map
   std::uint32_t border_ = 0;  ///< [cells] of it
-  std::vector<std::uint8_t> likelihoods_;
-  RasterFrame standing_frame_;
-  std::vector<std::uint8_t> standing_;  ///< not 0: free space in or beside the cell
+  std::vector<std::uint8_t> likelihoods_;  ///< and in their lowest bit whether a robot could stand
 };
 }  // namespace sigloc

@@ -181,13 +181,16 @@ void SignatureMatcher::verifyDensely(const ObservedScene& scene,
     return judgedCandidates(*verifier_, scene, scan, poses, options_.max_candidates,
                             result.counters.poses_scored);
   };
-  const auto outside =
-      std::stable_partition(proposals.begin(), proposals.end(),
-                            [&](const PoseProposal& p) {
-                              return !region || region->contains({p.x, p.y, p.phi});
-                            });
-  const std::vector<Candidate> rivals = judged({outside, proposals.end()});
-  proposals.erase(outside, proposals.end());
+  std::vector<Candidate> rivals;
+  if (region)
+  {
+    const auto outside = std::stable_partition(proposals.begin(), proposals.end(),
+                                               [&](const PoseProposal& p) {
+                                                 return region->contains({p.x, p.y, p.phi});
+                                               });
+    rivals = judged({outside, proposals.end()});
+    proposals.erase(outside, proposals.end());
+  }
   result.candidates = judged(proposals);
   for (Candidate& candidate : result.candidates)
   {

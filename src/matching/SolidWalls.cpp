@@ -3,10 +3,11 @@
 #include "SolidWalls.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "CellView.h"
-#include "QuickField.h"
+#include "wide_vectors.h"
 
 namespace sigloc
 {
@@ -15,10 +16,8 @@ using mrpt::math::TPose2D;
 
 namespace
 {
-constexpr double kCell = 0.1;  // [m]
 constexpr float kMargin = 0.4F;  // [m] before its end a beam must be clear of walls
-constexpr float kBeyondRim =
-    0.12F;  // [cells] that lead into the next cell; a grazed rim is no wall
+constexpr float kBeyondRim = 0.7F;  // [cells] on from the rim; a grazed cell is no wall
 constexpr float kTiny = 1e-6F;
 
 /// Chessboard distance [cells] to the nearest zero cell, in two passes, exact up to 255.
@@ -56,26 +55,101 @@ void spreadRings(std::vector<std::uint8_t>& rings, std::uint32_t width, std::uin
     }
   }
 }
+
+constexpr std::size_t kRays = 64;  // at a time
+
+/// In cells of the frame, from its origin.
+struct Rays
+{
+  std::size_t count;  // a multiple of eight
+  std::array<float, kRays> x, y;
+  std::array<float, kRays> dx, dy;  // unit vectors
+  std::array<float, kRays> length;
+  std::array<float, kRays> per_column, per_row;  // length that leads on by one, signed
+};
+
+/// The `count` beams from `first` on, up to the margin before their ends; those that fill up the
+/// last eight have no length.
+Rays raysOf(const RasterFrame& frame, const DenseScan& scan, const Placement& place,
+            std::size_t first, std::size_t count)
+{
+  const auto scale = static_cast<float>(1.0 / frame.resolution);
+  const auto x0 = static_cast<float>(frame.origin.x);
+  const auto y0 = static_cast<float>(frame.origin.y);
+  Rays rays;
+  rays.count = (count + kWideFloats - 1) / kWideFloats * kWideFloats;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const TPoint2D& origin = scan.origins[scan.origin[first + i]];
+    const auto ox = static_cast<float>(origin.x);
+    const auto oy = static_cast<float>(origin.y);
+    rays.x[i] = (place.placedX(ox, oy) - x0) * scale;
+    rays.y[i] = (place.placedY(ox, oy) - y0) * scale;
+    rays.dx[i] = (place.placedX(scan.x[first + i], scan.y[first + i]) - x0) * scale - rays.x[i];
+    rays.dy[i] = (place.placedY(scan.x[first + i], scan.y[first + i]) - y0) * scale - rays.y[i];
+  }
+  for (std::size_t i = count; i < rays.count; ++i)
+  {
+    rays.x[i] = rays.y[i] = rays.dx[i] = rays.dy[i] = 0;
+  }
+  for (std::size_t i = 0; i < rays.count; ++i)
+  {
+    const float length =
+        std::max(std::sqrt(rays.dx[i] * rays.dx[i] + rays.dy[i] * rays.dy[i]), kTiny);
+    rays.dx[i] /= length;
+    rays.dy[i] /= length;
+    rays.length[i] = length - kMargin * scale;
+    rays.per_column[i] = 1.0F / (rays.dx[i] + std::copysign(kTiny, rays.dx[i]));
+    rays.per_row[i] = 1.0F / (rays.dy[i] + std::copysign(kTiny, rays.dy[i]));
+  }
+  return rays;
+}
+
+/// Tells of eight rays that have come `along` [cells] how many rings of cells around them are
+/// clear, and how far they may go on: to the rim of those, and a little beyond.
+inline void lookAround(const RasterFrame& frame, const std::uint8_t* clear_rings, const Rays& rays,
+                       std::size_t first, const WideFloat& along, WideInt& rings, WideFloat& clear)
+{
+  WideFloat x, y, dx, dy, per_column, per_row;
+  loadWide(&rays.x[first], kWideFloats, x);
+  loadWide(&rays.y[first], kWideFloats, y);
+  loadWide(&rays.dx[first], kWideFloats, dx);
+  loadWide(&rays.dy[first], kWideFloats, dy);
+  loadWide(&rays.per_column[first], kWideFloats, per_column);
+  loadWide(&rays.per_row[first], kWideFloats, per_row);
+  x += along * dx;
+  y += along * dy;
+  const WideInt column = __builtin_convertvector(x, WideInt);
+  const WideInt row = __builtin_convertvector(y, WideInt);
+  const auto width = static_cast<std::int32_t>(frame.width);
+  const auto height = static_cast<std::int32_t>(frame.height);
+  const std::int32_t outside = width * height;
+  const WideInt is_inside = (column >= 0) & (row >= 0) & (column < width) & (row < height);
+  const WideInt cell = ((row * width + column) & is_inside) | (outside & ~is_inside);
+  rings = WideInt{clear_rings[cell[0]], clear_rings[cell[1]], clear_rings[cell[2]],
+                  clear_rings[cell[3]], clear_rings[cell[4]], clear_rings[cell[5]],
+                  clear_rings[cell[6]], clear_rings[cell[7]]};
+  const WideFloat reach = __builtin_convertvector(rings, WideFloat) - 0.5F;
+  const WideFloat right = x - __builtin_convertvector(column, WideFloat) - 0.5F;
+  const WideFloat up = y - __builtin_convertvector(row, WideFloat) - 0.5F;
+  const WideFloat to_column =
+      reach * (per_column < 0.0F ? -per_column : per_column) - right * per_column;
+  const WideFloat to_row = reach * (per_row < 0.0F ? -per_row : per_row) - up * per_row;
+  const WideFloat to_rim = to_column < to_row ? to_column : to_row;
+  clear = (to_rim > 0.0F ? to_rim : WideFloat{}) + kBeyondRim;
+}
 }  // namespace
 
-SolidWalls::SolidWalls(const DenseField& field)
-    : field_(field),
-      frame_(coarserFrame(field.frame, kCell)),
-      scale_(static_cast<float>(1.0 / frame_.resolution))
+SolidWalls::SolidWalls(const DenseField& field) : frame_(field.frame)
 {
-  const auto ratio =
-      static_cast<std::uint32_t>(std::lround(frame_.resolution / field.frame.resolution));
-  clear_rings_.assign(static_cast<std::size_t>(frame_.width) * frame_.height, 255);
-  for (std::uint32_t y = 0; y < field.frame.height; ++y)
+  clear_rings_.reserve(field.cells.size() + 1);
+  for (const DenseCell& cell : field.cells)
   {
-    const DenseCell* row = &field.cells[static_cast<std::size_t>(y) * field.frame.width];
-    std::uint8_t* rings = &clear_rings_[static_cast<std::size_t>(y / ratio) * frame_.width];
-    for (std::uint32_t x = 0; x < field.frame.width; ++x)
-    {
-      if (row[x].state == CellState::solid_wall) rings[x / ratio] = 0;
-    }
+    clear_rings_.push_back(cell.state == CellState::solid_wall ? 0 : 255);
   }
   spreadRings(clear_rings_, frame_.width, frame_.height);
+  // Outside nothing is near but what may be just inside.
+  clear_rings_.push_back(1);
 }
 
 double SolidWalls::throughShare(const DenseScan& scan, const TPose2D& pose, std::size_t beams) const
@@ -85,103 +159,53 @@ double SolidWalls::throughShare(const DenseScan& scan, const TPose2D& pose, std:
   std::size_t crossed = 0;
   for (std::size_t first = 0; first < count; first += kRays)
   {
-    crossed += crossings(raysOf(scan, place, first, std::min(kRays, count - first)));
+    crossed += crossings(scan, place, first, std::min(kRays, count - first));
   }
   return static_cast<double>(crossed) / static_cast<double>(count);
 }
 
-/// The beams from `first` on, up to the margin before their ends.
-SolidWalls::Rays SolidWalls::raysOf(const DenseScan& scan, const Placement& place,
-                                    std::size_t first, std::size_t count) const
+/// How many of the beams meet a solid wall. They advance eight at a time, and the eights in turns:
+/// a ray's next look-up waits for its last, those of different rays don't wait for each other.
+SIGLOC_WIDE_VECTORS std::size_t SolidWalls::crossings(const DenseScan& scan, const Placement& place,
+                                                      std::size_t first, std::size_t count) const
 {
-  const auto x0 = static_cast<float>(frame_.origin.x);
-  const auto y0 = static_cast<float>(frame_.origin.y);
-  Rays rays;
-  rays.count = count;
-  for (std::size_t i = 0; i < count; ++i)
+  struct Eight
   {
-    const TPoint2D& origin = scan.origins[scan.origin[first + i]];
-    const auto ox = static_cast<float>(origin.x);
-    const auto oy = static_cast<float>(origin.y);
-    rays.x[i] = (place.placedX(ox, oy) - x0) * scale_;
-    rays.y[i] = (place.placedY(ox, oy) - y0) * scale_;
-    rays.dx[i] = (place.placedX(scan.x[first + i], scan.y[first + i]) - x0) * scale_ - rays.x[i];
-    rays.dy[i] = (place.placedY(scan.x[first + i], scan.y[first + i]) - y0) * scale_ - rays.y[i];
-  }
-  for (std::size_t i = 0; i < count; ++i)
+    std::size_t first;
+    WideFloat along;  // [cells] that they have come
+    WideInt under_way;  // all bits of those that are
+  };
+  const Rays rays = raysOf(frame_, scan, place, first, count);
+  std::array<Eight, kRays / kWideFloats> eights;
+  std::size_t advancing = 0;
+  for (std::size_t i = 0; i < rays.count; i += kWideFloats)
   {
-    const float length =
-        std::max(std::sqrt(rays.dx[i] * rays.dx[i] + rays.dy[i] * rays.dy[i]), kTiny);
-    rays.dx[i] /= length;
-    rays.dy[i] /= length;
-    rays.length[i] = length - kMargin * scale_;
-    rays.per_column[i] = 1.0F / (rays.dx[i] + std::copysign(kTiny, rays.dx[i]));
-    rays.per_row[i] = 1.0F / (rays.dy[i] + std::copysign(kTiny, rays.dy[i]));
+    WideFloat length;
+    loadWide(&rays.length[i], kWideFloats, length);
+    eights[advancing++] = {i, WideFloat{}, length > 0.0F};
   }
-  return rays;
-}
-
-/// How many of the rays meet a solid wall. They advance in turns: a ray's next look-up waits for
-/// its last, those of different rays don't wait for each other.
-std::size_t SolidWalls::crossings(const Rays& rays) const
-{
-  const CellView cells(field_);
-  std::array<float, kRays> along{};
-  std::array<std::uint8_t, kRays> active;
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < rays.count; ++i)
-  {
-    active[count] = static_cast<std::uint8_t>(i);
-    count += rays.length[i] > 0 ? 1 : 0;
-  }
-  std::size_t crossed = 0;
-  while (count > 0)
+  WideInt crossed{};
+  while (advancing > 0)
   {
     std::size_t kept = 0;
-    for (std::size_t k = 0; k < count; ++k)
+    for (std::size_t k = 0; k < advancing; ++k)
     {
-      const std::uint8_t i = active[k];
-      const float x = rays.x[i] + along[i] * rays.dx[i];
-      const float y = rays.y[i] + along[i] * rays.dy[i];
-      const auto column = static_cast<std::int32_t>(x);
-      const auto row = static_cast<std::int32_t>(y);
-      const std::uint8_t rings = ringsAt(column, row);
-      float clear = 0;
-      if (rings > 0)
-      {
-        // To the rim of the clear rings, and a little beyond.
-        const float reach = static_cast<float>(rings) - 0.5F;
-        const float right = x - static_cast<float>(column) - 0.5F;
-        const float up = y - static_cast<float>(row) - 0.5F;
-        const float per_column = rays.per_column[i];
-        const float per_row = rays.per_row[i];
-        clear = std::min(reach * std::abs(per_column) - right * per_column,
-                         reach * std::abs(per_row) - up * per_row);
-        clear = std::max(clear, 0.0F) + kBeyondRim;
-      }
-      else
-      {
-        clear = clearanceBesideWall(cells, x, y);
-      }
-      along[i] += clear;
-      crossed += clear == 0 ? 1 : 0;
-      active[kept] = i;
-      kept += clear > 0 && along[i] < rays.length[i] ? 1 : 0;
+      Eight eight = eights[k];
+      WideInt rings;
+      WideFloat clear;
+      WideFloat length;
+      lookAround(frame_, clear_rings_.data(), rays, eight.first, eight.along, rings, clear);
+      loadWide(&rays.length[eight.first], kWideFloats, length);
+      eight.along += clear;
+      crossed -= eight.under_way & (rings == 0);
+      eight.under_way &= (rings != 0) & (eight.along < length);
+      eights[kept] = eight;
+      kept += anyOf(eight.under_way) ? 1 : 0;
     }
-    count = kept;
+    advancing = kept;
   }
-  return crossed;
-}
-
-/// How far [cells] a ray may advance from a place in a cell that holds a solid wall; 0: it met it.
-float SolidWalls::clearanceBesideWall(const CellView& cells, float x, float y) const
-{
-  const auto coarse = static_cast<float>(frame_.resolution);
-  const DenseCell& cell = cells.at(x * coarse + static_cast<float>(frame_.origin.x),
-                                   y * coarse + static_cast<float>(frame_.origin.y));
-  if (cell.state == CellState::solid_wall) return 0;
-  const auto fine = static_cast<float>(field_.frame.resolution);
-  constexpr auto kUnit = static_cast<float>(DenseField::kDistanceUnit);
-  return scale_ * std::max(static_cast<float>(cell.distance) * kUnit - 1.42F * fine, 0.7F * fine);
+  std::size_t sum = 0;
+  for (std::size_t i = 0; i < kWideFloats; ++i) sum += static_cast<std::size_t>(crossed[i]);
+  return sum;
 }
 }  // namespace sigloc

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 
 /// Before a function: it is compiled twice, and the form for wide vectors is taken where the
@@ -22,6 +24,9 @@ constexpr std::size_t kWideFloats = 8;
 /// come out the same, bit for bit, whether it takes four at once or eight.
 using WideFloat = float __attribute__((vector_size(kWideFloats * sizeof(float))));
 
+/// And eight integers. A comparison of two of either kind gives -1 where it holds, 0 elsewhere.
+using WideInt = std::int32_t __attribute__((vector_size(kWideFloats * sizeof(std::int32_t))));
+
 /// Reads the first n <= 8 of them; the others become 0. Into an argument, because how a wide vector
 /// is returned hangs on the instructions that a function is compiled for.
 inline void loadWide(const float* from, std::size_t n, WideFloat& to)
@@ -38,5 +43,15 @@ inline void loadWide(const float* from, std::size_t n, WideFloat& to)
 inline float sumOf(const WideFloat& v)
 {
   return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));
+}
+
+/// Whether any of them is not 0.
+inline bool anyOf(const WideInt& v)
+{
+  std::array<std::uint64_t, sizeof(v) / sizeof(std::uint64_t)> pairs;
+  std::memcpy(pairs.data(), &v, sizeof(v));
+  std::uint64_t all = 0;
+  for (const std::uint64_t pair : pairs) all |= pair;
+  return all != 0;
 }
 }  // namespace sigloc

@@ -101,6 +101,8 @@ class DenseVerifier
   std::vector<RankedPose> refineBest(const DenseScan& scan,
                                      const std::vector<PoseProposal>& proposals,
                                      std::vector<QuickLook> looks) const;
+  void refineAll(const DenseScan& scan, std::vector<mrpt::math::TPose2D>& poses, int steps,
+                 std::size_t beams) const;
   void settle(const DenseScan& scan, const DenseScan& balanced, RankedPose& pose) const;
   DenseEvidence evaluate(const DenseScan& scan, const mrpt::math::TPose2D& pose,
                          std::size_t rays) const;
