@@ -44,6 +44,16 @@ TrackDrive readForeignDrive(const std::filesystem::path& rawlog)
   return drive;
 }
 
+// Stamped earlier than a step before it: steps were delayed, and the truth of this one's time is
+// that of another's. Far earlier the clock was set anew.
+bool isStampedLate(double time, double& latest)
+{
+  constexpr double kClockSet = 10.0;  // [s]
+  const bool is_late = time < latest && latest - time < kClockSet;
+  if (!is_late) latest = time;
+  return is_late;
+}
+
 TrackDrive readDrive(const TrackOptions& options, const std::vector<TPose2D>& mapped_poses)
 {
   const auto truth = GroundTruth::read(options.ground_truth, options.map_from_truth);
@@ -54,11 +64,12 @@ TrackDrive readDrive(const TrackOptions& options, const std::vector<TPose2D>& ma
   TrackDrive drive;
   std::optional<TPose2D> last;
   double travelled = 0;
+  double latest = 0;  // [s]
   for (std::size_t i = 0; auto step = reader.next(); ++i)
   {
     if (step->scans.empty()) continue;
     TrackDriveStep out;
-    out.truth = truth.at(i, step->time);
+    if (!isStampedLate(step->time, latest)) out.truth = truth.at(i, step->time);
     if (out.truth && last) travelled += std::hypot(out.truth->x - last->x, out.truth->y - last->y);
     if (out.truth) last = out.truth;
     out.travelled = travelled;

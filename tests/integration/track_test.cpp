@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "bridge/rawlog_files.h"
+
 namespace sigloc
 {
 namespace
@@ -201,6 +203,36 @@ TEST(Track, RefusesALogThatIsTooShort)
   options.starts = 0;
   EXPECT_THROW(runTrack(options), std::invalid_argument);
 }
+
+// Two steps that waited in a buffer were stamped when it was emptied: the truth of the next ones'
+// times is that of others.
+TEST(Track, StepsStampedBeforeEarlierOnesHaveNoTruth)
+{
+  const test::TemporaryFolder folder;
+  std::vector<mrpt::serialization::CSerializable::Ptr> log;
+  for (const double time : {100.0, 100.5, 101.6, 101.8, 101.0, 101.7, 102.5, 103.0})
+  {
+    log.push_back(test::makeScan(time));
+  }
+  test::writeObjects(folder / "log.rawlog", log);
+  test::writeText(folder / "truth.txt",
+                  "100 0 0 0\n100.5 .2 0 0\n101.6 .4 0 0\n101.8 .6 0 0\n102.5 .8 0 0\n"
+                  "103 1 0 0\n");
+  TrackOptions options = officeOptions();
+  options.rawlog = folder / "log.rawlog";
+  options.ground_truth = folder / "truth.txt";
+  options.methods = {"signature"};
+  options.starts = 1;
+  options.travel = 0.9;
+  const TrackReport report = runTrack(options);
+  const auto& steps = report.methods.front().runs.front().steps;
+  ASSERT_GE(steps.size(), 7U);
+  for (std::size_t i = 0; i < steps.size(); ++i)
+  {
+    EXPECT_EQ(std::isnan(steps[i].error.distance), i == 4 || i == 5) << "step " << i;
+  }
+}
+
 TEST(Track, NamesALandmarkLogThatItCannotRead)
 {
   TrackOptions options;
