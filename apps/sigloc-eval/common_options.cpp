@@ -73,13 +73,19 @@ std::optional<PoseRegion> CommonOptions::poseRegion() const
     prior.x_max = region[1];
     prior.y_min = region[2];
     prior.y_max = region[3];
-    if (prior.x_min > prior.x_max || prior.y_min > prior.y_max)
+    // Not what is not a number, either.
+    if (!(prior.x_min <= prior.x_max && prior.y_min <= prior.y_max))
     {
       throw std::invalid_argument("--region: the lower bound exceeds the upper one");
     }
   }
   if (!heading.empty())
   {
+    if (!(std::isfinite(heading[0]) && heading[1] >= 0))
+    {
+      throw std::invalid_argument(
+          "--heading: needs a heading and a tolerance that is not negative");
+    }
     prior.heading = heading[0] * M_PI / 180;
     prior.heading_tolerance = heading[1] * M_PI / 180;
   }

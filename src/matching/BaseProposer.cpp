@@ -88,16 +88,28 @@ BaseProposer::BaseProposer(const FeatureMap& map, const BaseProposerOptions& opt
             });
 }
 
-std::vector<PoseProposal> BaseProposer::propose(const std::vector<Feature>& observed,
-                                                Effort effort) const
+std::vector<PoseProposal> BaseProposer::propose(const std::vector<Feature>& observed) const
 {
-  const bool thorough = effort == Effort::thorough;
   std::vector<PoseProposal> proposals;
   proposals.reserve(std::min(options_.budget, kUsualProposals));
   proposeWallEnds(observed, proposals);
-  proposeCirclePairs(observed, thorough ? options_.thorough_pairs : options_.max_pairs, proposals);
-  proposeSlidWalls(observed, thorough ? options_.thorough_slid_walls : options_.slid_walls,
-                   proposals);
+  proposeCirclePairs(observed, 0, options_.max_pairs, proposals);
+  const std::vector<const Feature*> walls = wallsToSlide(observed);
+  for (std::size_t i = 0; i < walls.size(); ++i)
+  {
+    if (i >= options_.slid_walls && proposals.size() >= options_.enough) break;
+    slide(*walls[i], proposals);
+  }
+  if (proposals.size() > options_.budget) proposals.resize(options_.budget);
+  return proposals;
+}
+
+std::vector<PoseProposal> BaseProposer::proposeFurther(const std::vector<Feature>& observed) const
+{
+  std::vector<PoseProposal> proposals;
+  proposeCirclePairs(observed, options_.max_pairs, options_.thorough_pairs, proposals);
+  const std::vector<const Feature*> walls = wallsToSlide(observed);
+  for (std::size_t i = options_.slid_walls; i < walls.size(); ++i) slide(*walls[i], proposals);
   if (proposals.size() > options_.budget) proposals.resize(options_.budget);
   return proposals;
 }
@@ -119,8 +131,8 @@ void BaseProposer::proposeWallEnds(const std::vector<Feature>& observed,
   }
 }
 
-void BaseProposer::proposeSlidWalls(const std::vector<Feature>& observed, std::size_t count,
-                                    std::vector<PoseProposal>& out) const
+/// The longest observed walls that tell different things.
+std::vector<const Feature*> BaseProposer::wallsToSlide(const std::vector<Feature>& observed) const
 {
   std::vector<const Feature*> walls;
   for (const Feature& feature : observed)
@@ -132,55 +144,57 @@ void BaseProposer::proposeSlidWalls(const std::vector<Feature>& observed, std::s
   std::vector<const Feature*> slid;
   for (const Feature* wall : walls)
   {
-    if (slid.size() == std::max<std::size_t>(count, options_.thorough_slid_walls)) break;
+    if (slid.size() == std::max(options_.slid_walls, options_.thorough_slid_walls)) break;
     const bool fresh =
         std::all_of(slid.begin(), slid.end(),
                     [&](const Feature* other)
                     { return std::abs(wrapToPi(wall->direction - other->direction)) > kParallel; });
     if (fresh) slid.push_back(wall);
   }
-  for (std::size_t i = 0; i < slid.size(); ++i)
+  return slid;
+}
+
+/// Lays an observed wall on every mapped one that is long enough.
+void BaseProposer::slide(const Feature& wall, std::vector<PoseProposal>& out) const
+{
+  const TPoint2D normal = directionVector(wall);
+  const double inside = wall.size * (0.5 - options_.overhang);
+  for (const MappedWall& mapped : walls_)
   {
-    if (i >= count && out.size() >= options_.enough) break;
-    const Feature* wall = slid[i];
-    const TPoint2D normal = directionVector(*wall);
-    const double inside = wall->size * (0.5 - options_.overhang);
-    for (const MappedWall& mapped : walls_)
+    if (mapped.length + options_.length_tolerance < wall.size * (1.0 - options_.overhang)) break;
+    const double phi = mapped.direction - wall.direction;
+    const double c = mapped.c * normal.x + mapped.s * normal.y;
+    const double s = mapped.s * normal.x - mapped.c * normal.y;
+    const TPoint2D tangent(mapped.s, -mapped.c);
+    const double low = std::min(inside, 0.5 * mapped.length);
+    const double high = std::max(mapped.length - inside, 0.5 * mapped.length);
+    const int steps = static_cast<int>(std::ceil((high - low) / options_.slide_step));
+    const double step = steps == 0 ? 0 : (high - low) / steps;
+    PoseProposal next = poseCarrying(wall.position, mapped.start + tangent * low, phi, c, s);
+    const auto dx = static_cast<float>(tangent.x * step);
+    const auto dy = static_cast<float>(tangent.y * step);
+    // Room first: what is pushed back keeps nothing in registers.
+    const std::size_t size = out.size();
+    out.resize(size + static_cast<std::size_t>(steps) + 1);
+    for (auto to = out.begin() + static_cast<std::ptrdiff_t>(size); to != out.end(); ++to)
     {
-      if (mapped.length + options_.length_tolerance < wall->size * (1.0 - options_.overhang)) break;
-      const double phi = mapped.direction - wall->direction;
-      const double c = mapped.c * normal.x + mapped.s * normal.y;
-      const double s = mapped.s * normal.x - mapped.c * normal.y;
-      const TPoint2D tangent(mapped.s, -mapped.c);
-      const double low = std::min(inside, 0.5 * mapped.length);
-      const double high = std::max(mapped.length - inside, 0.5 * mapped.length);
-      const int steps = static_cast<int>(std::ceil((high - low) / options_.slide_step));
-      const double step = steps == 0 ? 0 : (high - low) / steps;
-      PoseProposal next = poseCarrying(wall->position, mapped.start + tangent * low, phi, c, s);
-      const auto dx = static_cast<float>(tangent.x * step);
-      const auto dy = static_cast<float>(tangent.y * step);
-      // Room first: what is pushed back keeps nothing in registers.
-      const std::size_t size = out.size();
-      out.resize(size + static_cast<std::size_t>(steps) + 1);
-      for (auto to = out.begin() + static_cast<std::ptrdiff_t>(size); to != out.end(); ++to)
-      {
-        *to = next;
-        next.x += dx;
-        next.y += dy;
-      }
+      *to = next;
+      next.x += dx;
+      next.y += dy;
     }
   }
 }
 
-void BaseProposer::proposeCirclePairs(const std::vector<Feature>& observed, std::size_t count,
-                                      std::vector<PoseProposal>& out) const
+/// By the observed pairs from the `first` rarest to before the `last`.
+void BaseProposer::proposeCirclePairs(const std::vector<Feature>& observed, std::size_t first,
+                                      std::size_t last, std::vector<PoseProposal>& out) const
 {
   struct Choice
   {
     std::size_t count;
     const Feature* a;
     const Feature* b;
-    std::vector<CirclePair>::const_iterator first, last;
+    std::vector<CirclePair>::const_iterator begin, end;
   };
   std::vector<Choice> choices;
   for (std::size_t i = 0; i < observed.size(); ++i)
@@ -192,25 +206,25 @@ void BaseProposer::proposeCirclePairs(const std::vector<Feature>& observed, std:
       const double distance = (observed[i].position - observed[j].position).norm();
       if (distance < kMinPairDistance || distance > options_.pair_range) continue;
       const auto less = [](const CirclePair& p, double d) { return p.distance < d; };
-      const auto first =
+      const auto begin =
           std::lower_bound(pairs_.begin(), pairs_.end(), distance - options_.pair_tolerance, less);
-      const auto last =
-          std::lower_bound(first, pairs_.end(), distance + options_.pair_tolerance, less);
+      const auto end =
+          std::lower_bound(begin, pairs_.end(), distance + options_.pair_tolerance, less);
       choices.push_back(
-          {static_cast<std::size_t>(last - first), &observed[i], &observed[j], first, last});
+          {static_cast<std::size_t>(end - begin), &observed[i], &observed[j], begin, end});
     }
   }
   std::stable_sort(choices.begin(), choices.end(),
                    [](const Choice& a, const Choice& b) { return a.count < b.count; });
-  if (choices.size() > count) choices.resize(count);
-  for (const Choice& choice : choices)
+  for (std::size_t k = first; k < std::min(last, choices.size()); ++k)
   {
+    const Choice& choice = choices[k];
     const TPoint2D seen = choice.b->position - choice.a->position;
     const double bearing = std::atan2(seen.y, seen.x);
     const double c = std::cos(bearing);
     const double s = std::sin(bearing);
     const TPoint2D middle_seen = (choice.a->position + choice.b->position) * 0.5;
-    for (auto pair = choice.first; pair != choice.last; ++pair)
+    for (auto pair = choice.begin; pair != choice.end; ++pair)
     {
       if (std::abs(pair->from_radius - choice.a->size) > kRadiusTolerance ||
           std::abs(pair->to_radius - choice.b->size) > kRadiusTolerance)

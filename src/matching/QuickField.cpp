@@ -137,6 +137,9 @@ class QuickField::TurnedReturns
   /// Looks at the proposals that a robot could stand at by the first kGlanceReturns.
   std::vector<QuickLook> glance(const std::vector<PoseProposal>& proposals)
   {
+    const auto near_rim = static_cast<float>(border_);
+    const auto right_rim = static_cast<float>(width_ - border_);
+    const auto top_rim = static_cast<float>(height_ - border_);
     std::vector<QuickLook> looks(proposals.size());
     std::size_t count = 0;
     for (std::uint32_t k = 0; k < proposals.size(); ++k)
@@ -144,10 +147,8 @@ class QuickField::TurnedReturns
       const PoseProposal& p = proposals[k];
       const float x = columnOf(p);
       const float y = rowOf(p);
-      if (!(x >= 0 && y >= 0 && x < static_cast<float>(width_) && y < static_cast<float>(height_)))
-      {
-        continue;
-      }
+      // Nobody stands in the border, and from there it would not hold all returns.
+      if (!(x >= near_rim && y >= near_rim && x < right_rim && y < top_rim)) continue;
       // Kept or written over by the next: which of them stand follows no pattern to be guessed.
       looks[count] = {sumAt<0, kGlanceReturns>(p), k};
       const std::uint8_t here = *byteAt(static_cast<std::int32_t>(x), static_cast<std::int32_t>(y));

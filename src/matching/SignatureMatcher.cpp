@@ -23,7 +23,7 @@ using mrpt::math::TPose2D;
 
 namespace
 {
-constexpr double kPoorScore = 0.5;  // an answer below this calls for more proposals
+constexpr double kPoorScore = 0.65;  // an answer below this calls for more proposals
 constexpr std::size_t kMinLandmarks = 2;  // without a laser
 constexpr std::size_t kMaxBeams = 400;  // used of a scene; more are thinned evenly
 
@@ -46,13 +46,15 @@ bool seesWalls(const ObservedScene& scene)
                      [](const Feature& feature) { return feature.type == FeatureType::segment; });
 }
 
-std::vector<PoseProposal> proposalsOf(const std::vector<FeatureHypothesis>& hypotheses)
+/// The poses of hypotheses or candidates.
+template <class Posed>
+std::vector<PoseProposal> proposalsOf(const std::vector<Posed>& all)
 {
   std::vector<PoseProposal> proposals;
-  proposals.reserve(hypotheses.size());
-  for (const FeatureHypothesis& hypothesis : hypotheses)
+  proposals.reserve(all.size());
+  for (const Posed& posed : all)
   {
-    const TPose2D& pose = hypothesis.pose.mean;
+    const TPose2D& pose = posed.pose.mean;
     proposals.push_back(
         {static_cast<float>(pose.x), static_cast<float>(pose.y), static_cast<float>(pose.phi)});
   }
@@ -145,35 +147,41 @@ RelocationResult SignatureMatcher::localize(const ObservedScene& scene,
 std::vector<TPose2D> SignatureMatcher::propose(const ObservedScene& scene) const
 {
   MatchingCounters counters;
-  const std::vector<PoseProposal> proposals =
+  std::vector<PoseProposal> proposals =
       generator_ ? proposalsOf(generator_->generate(scene.features, counters))
-                 : proposer_->propose(scene.features, BaseProposer::Effort::thorough);
+                 : proposer_->propose(scene.features);
+  if (proposer_)
+  {
+    const std::vector<PoseProposal> further = proposer_->proposeFurther(scene.features);
+    proposals.insert(proposals.end(), further.begin(), further.end());
+  }
   std::vector<TPose2D> poses;
   poses.reserve(proposals.size());
   for (const PoseProposal& p : proposals) poses.emplace_back(p.x, p.y, p.phi);
   return poses;
 }
 
-/// The usual proposals explain nearly every scene; more are judged only where they don't.
+/// The first proposals explain nearly every scene; where they do so poorly, what is left of them
+/// competes with further ones.
 void SignatureMatcher::verifyBases(const ObservedScene& scene,
                                    const std::optional<PoseRegion>& region,
                                    RelocationResult& result) const
 {
-  for (const auto effort : {BaseProposer::Effort::usual, BaseProposer::Effort::thorough})
-  {
-    std::vector<PoseProposal> proposals = proposer_->propose(scene.features, effort);
-    result.counters.hypotheses += proposals.size();
-    result.candidates.clear();
-    verifyDensely(scene, std::move(proposals), {}, region, result);
-    if (!result.candidates.empty() && result.candidates.front().score >= kPoorScore) return;
-  }
+  std::vector<PoseProposal> proposals = proposer_->propose(scene.features);
+  result.counters.hypotheses += proposals.size();
+  std::vector<PoseProposal> left = verifyDensely(scene, std::move(proposals), {}, region, result);
+  if (!result.candidates.empty() && result.candidates.front().score >= kPoorScore) return;
+  proposals = proposer_->proposeFurther(scene.features);
+  result.counters.hypotheses += proposals.size();
+  if (proposals.empty()) return;
+  proposals.insert(proposals.end(), left.begin(), left.end());
+  verifyDensely(scene, std::move(proposals), {}, region, result);
 }
 
-void SignatureMatcher::verifyDensely(const ObservedScene& scene,
-                                     std::vector<PoseProposal> proposals,
-                                     const std::vector<FeatureHypothesis>& hypotheses,
-                                     const std::optional<PoseRegion>& region,
-                                     RelocationResult& result) const
+std::vector<PoseProposal> SignatureMatcher::verifyDensely(
+    const ObservedScene& scene, std::vector<PoseProposal> proposals,
+    const std::vector<FeatureHypothesis>& hypotheses, const std::optional<PoseRegion>& region,
+    RelocationResult& result) const
 {
   const DenseScan scan = makeDenseScan(scene, kMaxBeams);
   const auto judged = [&](const std::vector<PoseProposal>& poses)
@@ -201,5 +209,10 @@ void SignatureMatcher::verifyDensely(const ObservedScene& scene,
                             ? 0
                             : missedProbability(hypotheses, result.candidates.front().pose.mean);
   weighCandidates(result, rivals, missed);
+
+  std::vector<PoseProposal> left = proposalsOf(result.candidates);
+  const std::vector<PoseProposal> left_outside = proposalsOf(rivals);
+  left.insert(left.end(), left_outside.begin(), left_outside.end());
+  return left;
 }
 }  // namespace sigloc

@@ -64,16 +64,18 @@ struct Rays
   std::size_t count;  // a multiple of eight
   std::array<float, kRays> x, y;
   std::array<float, kRays> dx, dy;  // unit vectors
-  std::array<float, kRays> length;
+  std::array<float, kRays> start, length;  // of what of them lies in the frame
   std::array<float, kRays> per_column, per_row;  // length that leads on by one, signed
 };
 
-/// The `count` beams from `first` on, up to the margin before their ends; those that fill up the
-/// last eight have no length.
+/// The `count` beams from `first` on, up to the margin before their ends, as far as they lie in the
+/// frame; those that fill up the last eight have no length.
 Rays raysOf(const RasterFrame& frame, const DenseScan& scan, const Placement& place,
             std::size_t first, std::size_t count)
 {
   const auto scale = static_cast<float>(1.0 / frame.resolution);
+  const auto width = static_cast<float>(frame.width);
+  const auto height = static_cast<float>(frame.height);
   const auto x0 = static_cast<float>(frame.origin.x);
   const auto y0 = static_cast<float>(frame.origin.y);
   Rays rays;
@@ -98,9 +100,16 @@ Rays raysOf(const RasterFrame& frame, const DenseScan& scan, const Placement& pl
         std::max(std::sqrt(rays.dx[i] * rays.dx[i] + rays.dy[i] * rays.dy[i]), kTiny);
     rays.dx[i] /= length;
     rays.dy[i] /= length;
-    rays.length[i] = length - kMargin * scale;
     rays.per_column[i] = 1.0F / (rays.dx[i] + std::copysign(kTiny, rays.dx[i]));
     rays.per_row[i] = 1.0F / (rays.dy[i] + std::copysign(kTiny, rays.dy[i]));
+    // However far a beam goes, beyond the frame it meets nothing.
+    const float left = -rays.x[i] * rays.per_column[i];
+    const float right = (width - rays.x[i]) * rays.per_column[i];
+    const float bottom = -rays.y[i] * rays.per_row[i];
+    const float top = (height - rays.y[i]) * rays.per_row[i];
+    rays.start[i] = std::max(0.0F, std::max(std::min(left, right), std::min(bottom, top)));
+    rays.length[i] =
+        std::min(length - kMargin * scale, std::min(std::max(left, right), std::max(bottom, top)));
   }
   return rays;
 }
@@ -180,9 +189,10 @@ SIGLOC_WIDE_VECTORS std::size_t SolidWalls::crossings(const DenseScan& scan, con
   std::size_t advancing = 0;
   for (std::size_t i = 0; i < rays.count; i += kWideFloats)
   {
-    WideFloat length;
+    WideFloat start, length;
+    loadWide(&rays.start[i], kWideFloats, start);
     loadWide(&rays.length[i], kWideFloats, length);
-    eights[advancing++] = {i, WideFloat{}, length > 0.0F};
+    eights[advancing++] = {i, start, start < length};
   }
   WideInt crossed{};
   while (advancing > 0)

@@ -105,6 +105,10 @@ TEST(DenseVerifier, CountsBeamsThatPassASolidWall)
   ObservedScene far = room.scene(inside);
   for (BeamEnd& beam : far.beams) beam.point *= 20.0 / beam.point.norm();
   EXPECT_EQ(verifier.evaluate(makeDenseScan(far, 400), inside).through_wall, 1);
+  // Nor does it take forever how far they go.
+  ObservedScene endless = room.scene(inside);
+  for (BeamEnd& beam : endless.beams) beam.point *= 1e9;
+  EXPECT_EQ(verifier.evaluate(makeDenseScan(endless, 400), inside).through_wall, 1);
   // Beams that end a little behind a wall have met it within the margin only.
   ObservedScene behind = room.scene(inside);
   for (BeamEnd& beam : behind.beams) beam.point *= 1 + 0.2 / beam.point.norm();

@@ -26,7 +26,7 @@ struct BaseProposerOptions
   double pair_tolerance = 0.15;
   double pair_range = 15.0;
   std::uint32_t max_pairs = 3;
-  std::uint32_t thorough_pairs = 12;
+  std::uint32_t thorough_pairs = 6;
 
   template <class V>
   static void visitFields(V&& visit)
@@ -38,7 +38,7 @@ struct BaseProposerOptions
     visit(OptionField{"enough", &O::enough, 0U, 100000000U,
                       "[-] with fewer proposals another observed wall is slid"});
     visit(OptionField{"thorough_slid_walls", &O::thorough_slid_walls, 0U, 100U,
-                      "[-] the same when the first proposals explain the scene poorly"});
+                      "[-] the same where the first proposals explain the scene poorly"});
     visit(OptionField{"slide_step", &O::slide_step, 0.05, 5.0, "[m] step of a slid wall"});
     visit(OptionField{"overhang", &O::overhang, 0.0, 1.0,
                       "[-] share of an observed wall that may lie beyond the mapped one"});
@@ -51,7 +51,7 @@ struct BaseProposerOptions
     visit(OptionField{"max_pairs", &O::max_pairs, 0U, 1000U,
                       "[-] observed pairs of circles tried, rarest distance first"});
     visit(OptionField{"thorough_pairs", &O::thorough_pairs, 0U, 1000U,
-                      "[-] the same when the first proposals explain the scene poorly"});
+                      "[-] the same where the first proposals explain the scene poorly"});
   }
 };
 
@@ -63,17 +63,12 @@ class BaseProposer
  public:
   explicit BaseProposer(const FeatureMap& map, const BaseProposerOptions& options = {});
 
-  /// How many bases are used: enough for nearly every scene, or more when those explain it poorly.
-  enum class Effort
-  {
-    usual,
-    thorough
-  };
+  /// Returns the poses proposed for observed features by bases enough for nearly every scene, the
+  /// most telling ones first, at most `budget` of them.
+  std::vector<PoseProposal> propose(const std::vector<Feature>& observed) const;
 
-  /// Returns the poses proposed for observed features, the most telling bases first, at most
-  /// `budget` of them.
-  std::vector<PoseProposal> propose(const std::vector<Feature>& observed,
-                                    Effort effort = Effort::usual) const;
+  /// Returns those of further bases, for a scene that the first ones explain poorly.
+  std::vector<PoseProposal> proposeFurther(const std::vector<Feature>& observed) const;
 
  private:
   struct MappedEnd
@@ -101,9 +96,9 @@ class BaseProposer
   };
 
   void proposeWallEnds(const std::vector<Feature>& observed, std::vector<PoseProposal>& out) const;
-  void proposeSlidWalls(const std::vector<Feature>& observed, std::size_t count,
-                        std::vector<PoseProposal>& out) const;
-  void proposeCirclePairs(const std::vector<Feature>& observed, std::size_t count,
+  std::vector<const Feature*> wallsToSlide(const std::vector<Feature>& observed) const;
+  void slide(const Feature& wall, std::vector<PoseProposal>& out) const;
+  void proposeCirclePairs(const std::vector<Feature>& observed, std::size_t first, std::size_t last,
                           std::vector<PoseProposal>& out) const;
 
   BaseProposerOptions options_;

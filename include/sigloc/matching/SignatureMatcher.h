@@ -118,10 +118,13 @@ class SignatureMatcher
  private:
   void verifyBases(const ObservedScene& scene, const std::optional<PoseRegion>& region,
                    RelocationResult& result) const;
-  /// `hypotheses` that the proposals come from; none where proposals are nearly complete.
-  void verifyDensely(const ObservedScene& scene, std::vector<PoseProposal> proposals,
-                     const std::vector<FeatureHypothesis>& hypotheses,
-                     const std::optional<PoseRegion>& region, RelocationResult& result) const;
+  /// `hypotheses` that the proposals come from; none where proposals are nearly complete. Returns
+  /// the poses that are left of them, outside of the region as well.
+  std::vector<PoseProposal> verifyDensely(const ObservedScene& scene,
+                                          std::vector<PoseProposal> proposals,
+                                          const std::vector<FeatureHypothesis>& hypotheses,
+                                          const std::optional<PoseRegion>& region,
+                                          RelocationResult& result) const;
 
   std::shared_ptr<const FeatureMap> map_;
   MatcherOptions options_;
