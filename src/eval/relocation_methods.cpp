@@ -119,6 +119,7 @@ class LatticeRelocation : public RelocationMethod
     const DenseScan scan = makeDenseScan(scene, kMaxBeams);
     result.candidates = judgedCandidates(verifier_, scene, scan, proposals_, kMaxRanked,
                                          result.counters.poses_scored);
+    result.view = viewOf(scene);
     weighCandidates(result);
     return result;
   }

@@ -208,6 +208,7 @@ std::vector<PoseProposal> SignatureMatcher::verifyDensely(
   const double missed = hypotheses.empty() || result.candidates.empty()
                             ? 0
                             : missedProbability(hypotheses, result.candidates.front().pose.mean);
+  result.view = viewOf(scene);
   weighCandidates(result, rivals, missed);
 
   std::vector<PoseProposal> left = proposalsOf(result.candidates);

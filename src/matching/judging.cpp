@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sigloc/matching/judging.h"
 
+#include <bitset>
+#include <cmath>
+
 #include "explained_facts.h"
 
 namespace sigloc
@@ -29,5 +32,18 @@ std::vector<Candidate> judgedCandidates(const DenseVerifier& verifier, const Obs
     candidate.facts = explainedFacts(scene.features, verifier.field(), candidate.pose.mean);
   }
   return candidates;
+}
+
+double viewOf(const ObservedScene& scene)
+{
+  constexpr std::size_t kSectors = 24;
+  std::bitset<kSectors> seen;
+  for (const BeamEnd& beam : scene.beams)
+  {
+    const auto ray = beam.point - scene.sensor_origins[beam.origin];
+    const double turn = std::atan2(ray.y, ray.x) / (2 * M_PI) + 0.5;
+    seen.set(static_cast<std::size_t>(turn * kSectors) % kSectors);
+  }
+  return static_cast<double>(seen.count()) * 2 * M_PI / kSectors;
 }
 }  // namespace sigloc

@@ -22,6 +22,10 @@ constexpr double kThroughSlope = 20.0;  // per share of beams through walls
 constexpr double kFactSlope = 0.3;  // per explained fact
 constexpr double kLeadSlope = 0.46;  // per unit of log-likelihood ahead of the best rival
 constexpr double kFitOffset = 11.2;
+// A narrow view fits elsewhere by chance: what was fitted on scans of 180 degrees and more trusts
+// it too much.
+constexpr double kFullView = M_PI / 2;  // [rad]
+constexpr double kNarrowSlope = 12.0;  // of the log-odds per share that is missing
 constexpr double kPriorOutside = 0.01;  // of a pose outside the region it is said to be in
 constexpr double kChanceScore = 0.4;  // what chance reaches where there is no runner-up
 constexpr double kUsualScore = 0.8;  // of the right place
@@ -134,7 +138,9 @@ void weighCandidates(RelocationResult& result, const std::vector<Candidate>& out
   for (const Candidate& candidate : outside) sum_outside += kPriorOutside * weight_of(candidate);
   const double sum_missed = missed * std::exp(logLikelihoodOfScore(kUsualScore) - best);
 
-  const double here = 1.0 / (1.0 + std::exp(-presenceEvidence(result, 0) - kPriorHereLogOdds));
+  const double narrow = kNarrowSlope * std::max(0.0, 1.0 - result.view / kFullView);
+  const double here =
+      1.0 / (1.0 + std::exp(narrow - presenceEvidence(result, 0) - kPriorHereLogOdds));
   const double all = sum + sum_outside + sum_missed;
   for (Candidate& candidate : candidates) candidate.probability *= here / all;
   result.elsewhere = 1.0 - here * sum / all;

@@ -35,6 +35,20 @@ double sumOf(const RelocationResult& result)
   return sum;
 }
 
+TEST(Weighing, ANarrowViewConvincesLess)
+{
+  const auto probability = [](double view)
+  {
+    RelocationResult result = resultOf({0.9, 0.5});
+    result.view = view;
+    weighCandidates(result);
+    return result.candidates.front().probability;
+  };
+  EXPECT_EQ(probability(M_PI), probability(2 * M_PI));
+  EXPECT_LT(probability(M_PI / 3), probability(M_PI));
+  EXPECT_LT(probability(M_PI / 6), 0.1 * probability(M_PI));
+}
+
 TEST(Weighing, ProbabilitiesAndElsewhereSumToOne)
 {
   std::mt19937_64 random(3);

@@ -37,6 +37,7 @@ struct RelocationResult
   Verdict verdict = Verdict::too_little_seen;
   double probability = 0;  ///< of the verdict's claim; for `localized`, of the first candidate
   double elsewhere = 1;  ///< probability of standing where no candidate is
+  double view = 2 * M_PI;  ///< [rad] of the directions that something was seen in
   MatchingCounters counters;
 };
 

@@ -18,4 +18,8 @@ std::vector<Candidate> judgedCandidates(const DenseVerifier& verifier, const Obs
                                         const DenseScan& scan,
                                         const std::vector<PoseProposal>& proposals,
                                         std::size_t max_candidates, std::uint64_t& poses_scored);
+
+/// Returns how much of the circle around its sensors a scene shows returns in, by sectors of
+/// 15 degrees [rad].
+double viewOf(const ObservedScene& scene);
 }  // namespace sigloc
