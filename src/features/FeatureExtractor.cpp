@@ -325,6 +325,7 @@ void appendScan(ScanPoints scan, const TPose2D& robot_from_sensor, double range_
 
   const auto origin = static_cast<std::uint32_t>(scene.sensor_origins.size());
   scene.sensor_origins.emplace_back(robot_from_sensor.x, robot_from_sensor.y);
+  // composePoint() would turn the heading into sine and cosine once a beam.
   const double c = std::cos(robot_from_sensor.phi);
   const double s = std::sin(robot_from_sensor.phi);
   scene.beams.reserve(scene.beams.size() + scan.points.size());

@@ -117,15 +117,12 @@ RelocationResult SignatureMatcher::localize(const ObservedScene& scene,
   // 2. Verify: by the dense field where the map has one and there are returns to look up.
   if (verifier_ && !scene.beams.empty())
   {
+    const DenseScan scan = makeDenseScan(scene, kMaxBeams);
+    const Judged judged = generator_
+                              ? judge(scene, scan, proposalsOf(hypotheses), region, result.counters)
+                              : judgeBases(scene, scan, region, result.counters);
     // 3. ... and weigh the rivals and "somewhere else"; decide.
-    if (generator_)
-    {
-      verifyDensely(scene, proposalsOf(hypotheses), hypotheses, region, result);
-    }
-    else
-    {
-      verifyBases(scene, region, result);
-    }
+    concludeDensely(scene, scan, judged, hypotheses, result);
     return result;
   }
   std::optional<double> chance_of_places;
@@ -161,45 +158,58 @@ std::vector<TPose2D> SignatureMatcher::propose(const ObservedScene& scene) const
   return poses;
 }
 
-/// The first proposals explain nearly every scene; where they do so poorly, what is left of them
-/// competes with further ones.
-void SignatureMatcher::verifyBases(const ObservedScene& scene,
-                                   const std::optional<PoseRegion>& region,
-                                   RelocationResult& result) const
+/// The first proposals explain most scenes; where they do so poorly, what is left of them competes
+/// with further ones.
+SignatureMatcher::Judged SignatureMatcher::judgeBases(const ObservedScene& scene,
+                                                      const DenseScan& scan,
+                                                      const std::optional<PoseRegion>& region,
+                                                      MatchingCounters& counters) const
 {
   std::vector<PoseProposal> proposals = proposer_->propose(scene.features);
-  result.counters.hypotheses += proposals.size();
-  std::vector<PoseProposal> left = verifyDensely(scene, std::move(proposals), {}, region, result);
-  if (!result.candidates.empty() && result.candidates.front().score >= kPoorScore) return;
+  counters.hypotheses += proposals.size();
+  const Judged first = judge(scene, scan, std::move(proposals), region, counters);
+  if (!first.candidates.empty() && first.candidates.front().score >= kPoorScore) return first;
   proposals = proposer_->proposeFurther(scene.features);
-  result.counters.hypotheses += proposals.size();
-  if (proposals.empty()) return;
-  proposals.insert(proposals.end(), left.begin(), left.end());
-  verifyDensely(scene, std::move(proposals), {}, region, result);
+  counters.hypotheses += proposals.size();
+  if (proposals.empty()) return first;
+  for (const auto* left : {&first.candidates, &first.outside})
+  {
+    const std::vector<PoseProposal> again = proposalsOf(*left);
+    proposals.insert(proposals.end(), again.begin(), again.end());
+  }
+  return judge(scene, scan, std::move(proposals), region, counters);
 }
 
-std::vector<PoseProposal> SignatureMatcher::verifyDensely(
-    const ObservedScene& scene, std::vector<PoseProposal> proposals,
-    const std::vector<FeatureHypothesis>& hypotheses, const std::optional<PoseRegion>& region,
-    RelocationResult& result) const
+SignatureMatcher::Judged SignatureMatcher::judge(const ObservedScene& scene, const DenseScan& scan,
+                                                 std::vector<PoseProposal> proposals,
+                                                 const std::optional<PoseRegion>& region,
+                                                 MatchingCounters& counters) const
 {
-  const DenseScan scan = makeDenseScan(scene, kMaxBeams);
   const auto judged = [&](const std::vector<PoseProposal>& poses)
   {
     return judgedCandidates(*verifier_, scene, scan, poses, options_.max_candidates,
-                            result.counters.poses_scored);
+                            counters.poses_scored);
   };
-  std::vector<Candidate> rivals;
+  Judged out;
   if (region)
   {
     const auto outside = std::stable_partition(proposals.begin(), proposals.end(),
                                                [&](const PoseProposal& p) {
                                                  return region->contains({p.x, p.y, p.phi});
                                                });
-    rivals = judged({outside, proposals.end()});
+    out.outside = judged({outside, proposals.end()});
     proposals.erase(outside, proposals.end());
   }
-  result.candidates = judged(proposals);
+  out.candidates = judged(proposals);
+  return out;
+}
+
+void SignatureMatcher::concludeDensely(const ObservedScene& scene, const DenseScan& scan,
+                                       const Judged& judged,
+                                       const std::vector<FeatureHypothesis>& hypotheses,
+                                       RelocationResult& result) const
+{
+  result.candidates = judged.candidates;
   for (Candidate& candidate : result.candidates)
   {
     candidate.pose.covariance =
@@ -209,11 +219,6 @@ std::vector<PoseProposal> SignatureMatcher::verifyDensely(
                             ? 0
                             : missedProbability(hypotheses, result.candidates.front().pose.mean);
   result.view = viewOf(scene);
-  weighCandidates(result, rivals, missed);
-
-  std::vector<PoseProposal> left = proposalsOf(result.candidates);
-  const std::vector<PoseProposal> left_outside = proposalsOf(rivals);
-  left.insert(left.end(), left_outside.begin(), left_outside.end());
-  return left;
+  weighCandidates(result, judged.outside, missed);
 }
 }  // namespace sigloc

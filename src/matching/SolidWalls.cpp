@@ -201,6 +201,7 @@ SIGLOC_WIDE_VECTORS std::size_t SolidWalls::crossings(const DenseScan& scan, con
     for (std::size_t k = 0; k < advancing; ++k)
     {
       Eight eight = eights[k];
+      const WideFloat before = eight.along;
       WideInt rings;
       WideFloat clear;
       WideFloat length;
@@ -208,7 +209,8 @@ SIGLOC_WIDE_VECTORS std::size_t SolidWalls::crossings(const DenseScan& scan, con
       loadWide(&rays.length[eight.first], kWideFloats, length);
       eight.along += clear;
       crossed -= eight.under_way & (rings == 0);
-      eight.under_way &= (rings != 0) & (eight.along < length);
+      // A ray so far away that a step is lost in rounding gets no farther.
+      eight.under_way &= (rings != 0) & (eight.along < length) & (eight.along > before);
       eights[kept] = eight;
       kept += anyOf(eight.under_way) ? 1 : 0;
     }

@@ -117,6 +117,29 @@ TEST(DenseVerifier, CountsBeamsThatPassASolidWall)
   EXPECT_GT(verifier.evaluate(makeDenseScan(far, 400), {-3, 4, 0}).through_wall, 0.1);
 }
 
+// Read beyond the raster of the first look, when a proposal in its border was looked at.
+TEST(DenseVerifier, LooksAtNoProposalOffTheMap)
+{
+  const Room room;
+  const DenseVerifier verifier(room.field());
+  const DenseScan scan = makeDenseScan(room.scene({4, 4, 0.3}), 400);
+  std::vector<PoseProposal> around;
+  for (const float far : {-30.0F, -11.0F, -5.0F, 15.0F, 23.0F, 60.0F})
+  {
+    for (const float along : {-11.0F, 4.0F, 21.0F})
+    {
+      for (const float phi : {0.0F, 1.6F, 3.1F, 4.7F})
+      {
+        around.push_back({far, along, phi});
+        around.push_back({along, far, phi});
+      }
+    }
+  }
+  std::uint64_t scored = 0;
+  EXPECT_TRUE(verifier.rank(scan, around, 10, scored).empty());
+  EXPECT_EQ(scored, 0U);
+}
+
 TEST(DenseVerifier, LoneReturnsInFreeSpaceSayNothing)
 {
   const Room room;

@@ -77,6 +77,7 @@ struct MatcherOptions
 class BaseProposer;
 class DenseVerifier;
 class FeatureVerifier;
+struct DenseScan;
 struct PoseProposal;
 
 /// Relocation by matching signatures: says where in a known map the observed scene was seen.
@@ -117,15 +118,21 @@ class SignatureMatcher
   }
 
  private:
-  void verifyBases(const ObservedScene& scene, const std::optional<PoseRegion>& region,
-                   RelocationResult& result) const;
-  /// `hypotheses` that the proposals come from; none where proposals are nearly complete. Returns
-  /// the poses that are left of them, outside of the region as well.
-  std::vector<PoseProposal> verifyDensely(const ObservedScene& scene,
-                                          std::vector<PoseProposal> proposals,
-                                          const std::vector<FeatureHypothesis>& hypotheses,
-                                          const std::optional<PoseRegion>& region,
-                                          RelocationResult& result) const;
+  /// What the dense field left of proposals, best first.
+  struct Judged
+  {
+    std::vector<Candidate> candidates;
+    std::vector<Candidate> outside;  ///< of the region
+  };
+  Judged judge(const ObservedScene& scene, const DenseScan& scan,
+               std::vector<PoseProposal> proposals, const std::optional<PoseRegion>& region,
+               MatchingCounters& counters) const;
+  Judged judgeBases(const ObservedScene& scene, const DenseScan& scan,
+                    const std::optional<PoseRegion>& region, MatchingCounters& counters) const;
+  /// `hypotheses` that the proposals came from; none where proposals are nearly complete.
+  void concludeDensely(const ObservedScene& scene, const DenseScan& scan, const Judged& judged,
+                       const std::vector<FeatureHypothesis>& hypotheses,
+                       RelocationResult& result) const;
 
   std::shared_ptr<const FeatureMap> map_;
   MatcherOptions options_;
