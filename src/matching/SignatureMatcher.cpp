@@ -167,7 +167,7 @@ SignatureMatcher::Judged SignatureMatcher::judgeBases(const ObservedScene& scene
 {
   std::vector<PoseProposal> proposals = proposer_->propose(scene.features);
   counters.hypotheses += proposals.size();
-  const Judged first = judge(scene, scan, std::move(proposals), region, counters);
+  Judged first = judge(scene, scan, std::move(proposals), region, counters);
   if (!first.candidates.empty() && first.candidates.front().score >= kPoorScore) return first;
   proposals = proposer_->proposeFurther(scene.features);
   counters.hypotheses += proposals.size();
