@@ -170,7 +170,7 @@ class QuickField::TurnedReturns
  private:
   struct Turned
   {
-    bool in_border;  // the returns reach no farther than the border around the map
+    std::int32_t left, right, bottom, top;  // from here all returns fall on the raster
     std::array<std::int32_t, kReturns> dx, dy, flat;
   };
 
@@ -185,7 +185,7 @@ class QuickField::TurnedReturns
     const auto x = static_cast<std::int32_t>(columnOf(p));
     const auto y = static_cast<std::int32_t>(rowOf(p));
     std::uint32_t sum = 0;
-    if (turned.in_border)
+    if (x >= turned.left && x < turned.right && y >= turned.bottom && y < turned.top)
     {
       const std::uint8_t* cell = byteAt(x, y);
       for (std::size_t i = from; i < to; ++i) sum += cell[turned.flat[i]];
@@ -195,9 +195,14 @@ class QuickField::TurnedReturns
     {
       const std::int32_t ix = x + turned.dx[i];
       const std::int32_t iy = y + turned.dy[i];
-      if (ix >= 0 && iy >= 0 && ix < width_ && iy < height_) sum += *byteAt(ix, iy);
+      if (isWithin(ix, width_) && isWithin(iy, height_)) sum += *byteAt(ix, iy);
     }
     return sum;
+  }
+
+  static bool isWithin(std::int32_t index, std::int32_t size)
+  {
+    return static_cast<std::uint32_t>(index) < static_cast<std::uint32_t>(size);
   }
 
   const std::uint8_t* byteAt(std::int32_t x, std::int32_t y) const
@@ -224,7 +229,10 @@ class QuickField::TurnedReturns
         1 << 14;  // truncation rounds to the nearest where all is positive
     const float c = std::cos(phi);
     const float s = std::sin(phi);
-    std::int32_t reach = 0;
+    std::int32_t least_x = 0;
+    std::int32_t most_x = 0;
+    std::int32_t least_y = 0;
+    std::int32_t most_y = 0;
     for (std::size_t i = 0; i < kReturns; ++i)
     {
       const auto dx = static_cast<std::int32_t>(c * x_[i] - s * y_[i] + (kShift + 0.5F)) - kShift;
@@ -232,9 +240,15 @@ class QuickField::TurnedReturns
       turned.dx[i] = dx;
       turned.dy[i] = dy;
       turned.flat[i] = dy * width_ + dx;
-      reach = std::max(reach, std::max(std::abs(dx), std::abs(dy)));
+      least_x = std::min(least_x, dx);
+      most_x = std::max(most_x, dx);
+      least_y = std::min(least_y, dy);
+      most_y = std::max(most_y, dy);
     }
-    turned.in_border = reach < border_;
+    turned.left = -least_x;
+    turned.right = width_ - most_x;
+    turned.bottom = -least_y;
+    turned.top = height_ - most_y;
   }
 
   const std::uint8_t* bytes_;
