@@ -117,8 +117,9 @@ class LatticeRelocation : public RelocationMethod
     RelocationResult result;
     if (scene.beams.empty()) return result;
     const DenseScan scan = makeDenseScan(scene, kMaxBeams);
-    result.candidates = judgedCandidates(verifier_, scene, scan, proposals_, kMaxRanked,
-                                         result.counters.poses_scored);
+    result.candidates =
+        candidatesOf(verifier_.rank(scan, proposals_, kMaxRanked, result.counters.poses_scored),
+                     verifier_, scene);
     result.view = viewOf(scene);
     weighCandidates(result);
     return result;

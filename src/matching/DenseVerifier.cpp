@@ -29,10 +29,10 @@ constexpr std::size_t kQuickKept = 40;  // places that are refined: the cascade'
 constexpr std::size_t kMiddleBeams = 32;
 constexpr std::size_t kMiddleScored = 48;
 constexpr int kMiddleSteps = 3;
-constexpr std::size_t kFinalKept = 16;
-constexpr std::size_t kFinalBeams = 96;
+constexpr std::size_t kFinalKept = 12;
+constexpr std::size_t kFinalBeams = 64;
 constexpr double kFinalLead = 0.3;  // of the best; what is farther behind is not refined further
-constexpr int kFinalSteps = 3;
+constexpr int kFinalSteps = 2;
 constexpr std::size_t kSettled = 4;
 constexpr int kSettleSteps = 12;
 constexpr double kSettleLoss = 0.01;  // of the score, that settling may cost
@@ -75,6 +75,12 @@ void keepDistinct(std::vector<RankedPose>& poses, std::size_t count,
     if (fresh) kept.push_back(candidate);
   }
   poses = std::move(kept);
+}
+
+/// Of poses that are sorted, best first; 0 where there is none.
+double bestScore(const std::vector<RankedPose>& poses)
+{
+  return poses.empty() ? 0 : poses.front().evidence.score;
 }
 
 /// Proposals that were taken, to leave out others so near that one of them is enough to refine.
@@ -170,10 +176,10 @@ DenseVerifier::~DenseVerifier() = default;
 
 std::vector<RankedPose> DenseVerifier::rank(const DenseScan& scan,
                                             const std::vector<PoseProposal>& proposals,
-                                            std::size_t max_ranked,
-                                            std::uint64_t& poses_scored) const
+                                            std::size_t max_ranked, std::uint64_t& poses_scored,
+                                            std::vector<RankedPose> before) const
 {
-  if (scan.size() == 0) return {};
+  if (scan.size() == 0 || proposals.empty()) return before;
   // 1. A first look at every proposal with a few beams.
   std::vector<QuickLook> looks = quick_->look(scan, proposals);
   poses_scored += looks.size();
@@ -185,7 +191,7 @@ std::vector<RankedPose> DenseVerifier::rank(const DenseScan& scan,
   keepDistinct(poses, kFinalKept, kApartDistance);
 
   // 3. The best of those, refined on more beams and judged by all of them.
-  const double promising = poses.empty() ? 0 : poses.front().evidence.score - kFinalLead;
+  const double promising = std::max(bestScore(poses), bestScore(before)) - kFinalLead;
   std::vector<TPose2D> refined;
   for (const RankedPose& pose : poses)
   {
@@ -202,13 +208,14 @@ std::vector<RankedPose> DenseVerifier::rank(const DenseScan& scan,
 
   // 4. What may win or be the runner-up is settled on all beams.
   const DenseScan balanced = balancedScan(scan);
-  const double contender = poses.empty() ? 0 : poses.front().evidence.score - kContender;
+  const double contender = std::max(bestScore(poses), bestScore(before)) - kContender;
   for (std::size_t k = 0; k < std::min(kSettled, poses.size()); ++k)
   {
     RankedPose& pose = poses[k];
     if (pose.evidence.score < contender) break;
     settle(scan, balanced, pose);
   }
+  poses.insert(poses.end(), before.begin(), before.end());
   keepDistinct(poses, max_ranked);
   return poses;
 }

@@ -46,15 +46,13 @@ bool seesWalls(const ObservedScene& scene)
                      [](const Feature& feature) { return feature.type == FeatureType::segment; });
 }
 
-/// The poses of hypotheses or candidates.
-template <class Posed>
-std::vector<PoseProposal> proposalsOf(const std::vector<Posed>& all)
+std::vector<PoseProposal> proposalsOf(const std::vector<FeatureHypothesis>& hypotheses)
 {
   std::vector<PoseProposal> proposals;
-  proposals.reserve(all.size());
-  for (const Posed& posed : all)
+  proposals.reserve(hypotheses.size());
+  for (const FeatureHypothesis& hypothesis : hypotheses)
   {
-    const TPose2D& pose = posed.pose.mean;
+    const TPose2D& pose = hypothesis.pose.mean;
     proposals.push_back(
         {static_cast<float>(pose.x), static_cast<float>(pose.y), static_cast<float>(pose.phi)});
   }
@@ -119,7 +117,7 @@ RelocationResult SignatureMatcher::localize(const ObservedScene& scene,
   {
     const DenseScan scan = makeDenseScan(scene, kMaxBeams);
     const Judged judged = generator_
-                              ? judge(scene, scan, proposalsOf(hypotheses), region, result.counters)
+                              ? judge(scan, proposalsOf(hypotheses), region, result.counters, {})
                               : judgeBases(scene, scan, region, result.counters);
     // 3. ... and weigh the rivals and "somewhere else"; decide.
     concludeDensely(scene, scan, judged, hypotheses, result);
@@ -158,8 +156,8 @@ std::vector<TPose2D> SignatureMatcher::propose(const ObservedScene& scene) const
   return poses;
 }
 
-/// The first proposals explain most scenes; where they do so poorly, what is left of them competes
-/// with further ones.
+/// The first proposals explain most scenes; where they do so poorly, what they led to competes with
+/// further ones.
 SignatureMatcher::Judged SignatureMatcher::judgeBases(const ObservedScene& scene,
                                                       const DenseScan& scan,
                                                       const std::optional<PoseRegion>& region,
@@ -167,28 +165,22 @@ SignatureMatcher::Judged SignatureMatcher::judgeBases(const ObservedScene& scene
 {
   std::vector<PoseProposal> proposals = proposer_->propose(scene.features);
   counters.hypotheses += proposals.size();
-  Judged first = judge(scene, scan, std::move(proposals), region, counters);
-  if (!first.candidates.empty() && first.candidates.front().score >= kPoorScore) return first;
+  Judged first = judge(scan, std::move(proposals), region, counters, {});
+  if (!first.inside.empty() && first.inside.front().evidence.score >= kPoorScore) return first;
   proposals = proposer_->proposeFurther(scene.features);
   counters.hypotheses += proposals.size();
-  if (proposals.empty()) return first;
-  for (const auto* left : {&first.candidates, &first.outside})
-  {
-    const std::vector<PoseProposal> again = proposalsOf(*left);
-    proposals.insert(proposals.end(), again.begin(), again.end());
-  }
-  return judge(scene, scan, std::move(proposals), region, counters);
+  return judge(scan, std::move(proposals), region, counters, std::move(first));
 }
 
-SignatureMatcher::Judged SignatureMatcher::judge(const ObservedScene& scene, const DenseScan& scan,
+SignatureMatcher::Judged SignatureMatcher::judge(const DenseScan& scan,
                                                  std::vector<PoseProposal> proposals,
                                                  const std::optional<PoseRegion>& region,
-                                                 MatchingCounters& counters) const
+                                                 MatchingCounters& counters, Judged before) const
 {
-  const auto judged = [&](const std::vector<PoseProposal>& poses)
+  const auto ranked = [&](const std::vector<PoseProposal>& poses, std::vector<RankedPose> rivals)
   {
-    return judgedCandidates(*verifier_, scene, scan, poses, options_.max_candidates,
-                            counters.poses_scored);
+    return verifier_->rank(scan, poses, options_.max_candidates, counters.poses_scored,
+                           std::move(rivals));
   };
   Judged out;
   if (region)
@@ -197,10 +189,10 @@ SignatureMatcher::Judged SignatureMatcher::judge(const ObservedScene& scene, con
                                                [&](const PoseProposal& p) {
                                                  return region->contains({p.x, p.y, p.phi});
                                                });
-    out.outside = judged({outside, proposals.end()});
+    out.outside = ranked({outside, proposals.end()}, std::move(before.outside));
     proposals.erase(outside, proposals.end());
   }
-  out.candidates = judged(proposals);
+  out.inside = ranked(proposals, std::move(before.inside));
   return out;
 }
 
@@ -209,7 +201,7 @@ void SignatureMatcher::concludeDensely(const ObservedScene& scene, const DenseSc
                                        const std::vector<FeatureHypothesis>& hypotheses,
                                        RelocationResult& result) const
 {
-  result.candidates = judged.candidates;
+  result.candidates = candidatesOf(judged.inside, *verifier_, scene);
   for (Candidate& candidate : result.candidates)
   {
     candidate.pose.covariance =
@@ -219,6 +211,6 @@ void SignatureMatcher::concludeDensely(const ObservedScene& scene, const DenseSc
                             ? 0
                             : missedProbability(hypotheses, result.candidates.front().pose.mean);
   result.view = viewOf(scene);
-  weighCandidates(result, judged.outside, missed);
+  weighCandidates(result, candidatesOf(judged.outside, *verifier_, scene), missed);
 }
 }  // namespace sigloc

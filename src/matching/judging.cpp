@@ -9,27 +9,24 @@
 
 namespace sigloc
 {
-std::vector<Candidate> judgedCandidates(const DenseVerifier& verifier, const ObservedScene& scene,
-                                        const DenseScan& scan,
-                                        const std::vector<PoseProposal>& proposals,
-                                        std::size_t max_candidates, std::uint64_t& poses_scored)
+std::vector<Candidate> candidatesOf(const std::vector<RankedPose>& ranked,
+                                    const DenseVerifier& verifier, const ObservedScene& scene)
 {
   std::vector<Candidate> candidates;
-  if (proposals.empty()) return candidates;
-  for (const RankedPose& ranked : verifier.rank(scan, proposals, max_candidates, poses_scored))
+  candidates.reserve(ranked.size());
+  for (const auto& [pose, evidence] : ranked)
   {
     Candidate candidate;
-    candidate.pose.mean = ranked.pose;
-    candidate.score = ranked.evidence.score;
-    candidate.explained = ranked.evidence.coarse;
-    candidate.through_wall = ranked.evidence.through_wall;
-    candidate.in_free = ranked.evidence.in_free;
-    candidates.push_back(candidate);
-  }
-  for (Candidate& candidate : candidates)
-  {
-    if (candidate.score < candidates.front().score - DenseVerifier::kContender) break;
-    candidate.facts = explainedFacts(scene.features, verifier.field(), candidate.pose.mean);
+    candidate.pose.mean = pose;
+    candidate.score = evidence.score;
+    candidate.explained = evidence.coarse;
+    candidate.through_wall = evidence.through_wall;
+    candidate.in_free = evidence.in_free;
+    if (evidence.score >= ranked.front().evidence.score - DenseVerifier::kContender)
+    {
+      candidate.facts = explainedFacts(scene.features, verifier.field(), pose);
+    }
+    candidates.push_back(std::move(candidate));
   }
   return candidates;
 }

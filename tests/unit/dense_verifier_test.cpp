@@ -94,6 +94,33 @@ TEST(DenseVerifier, RanksTheTrueCellOfALatticeFirst)
   }
 }
 
+TEST(DenseVerifier, RanksFurtherProposalsBesideThoseBefore)
+{
+  const Room room;
+  const DenseVerifier verifier(room.field());
+  const TPose2D truth(3, 2.5, 0.7);
+  const DenseScan scan = makeDenseScan(room.scene(truth), 400);
+  const std::vector<PoseProposal> near{{3.2F, 2.4F, 0.75F}, {2.8F, 2.6F, 0.65F}};
+  const std::vector<PoseProposal> elsewhere{{5, 5, 2}, {2, 5, -1.5F}, {6, 2, 3}};
+  std::uint64_t scored = 0;
+  const std::vector<RankedPose> right = verifier.rank(scan, near, 10, scored);
+  const std::vector<RankedPose> wrong = verifier.rank(scan, elsewhere, 10, scored);
+  ASSERT_EQ(right.size(), 1U);
+  ASSERT_FALSE(wrong.empty());
+  // Whichever come first, the best of all wins, and none is lost.
+  for (const auto& both : {verifier.rank(scan, elsewhere, 10, scored, right),
+                           verifier.rank(scan, near, 10, scored, wrong)})
+  {
+    ASSERT_EQ(both.size(), wrong.size() + 1);
+    EXPECT_EQ(both.front().evidence.score, right.front().evidence.score);
+    EXPECT_EQ(both.front().pose.x, right.front().pose.x);
+  }
+  // One place counts once, and no more are kept than asked for.
+  EXPECT_EQ(verifier.rank(scan, near, 10, scored, right).size(), 1U);
+  EXPECT_EQ(verifier.rank(scan, near, 2, scored, wrong).size(), 2U);
+  EXPECT_EQ(verifier.rank(scan, {}, 10, scored, right).size(), 1U);
+}
+
 TEST(DenseVerifier, CountsBeamsThatPassASolidWall)
 {
   const Room room;

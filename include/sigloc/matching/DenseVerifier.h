@@ -78,9 +78,11 @@ class DenseVerifier
   ~DenseVerifier();
 
   /// Returns at most `max_ranked` distinct poses (more than 0.5 m or 17 degrees apart), best first.
-  /// `poses_scored` is increased by the number of poses looked up.
+  /// `poses_scored` is increased by the number of poses looked up. Those that were ranked `before`
+  /// for the same scan compete with what the proposals lead to.
   std::vector<RankedPose> rank(const DenseScan& scan, const std::vector<PoseProposal>& proposals,
-                               std::size_t max_ranked, std::uint64_t& poses_scored) const;
+                               std::size_t max_ranked, std::uint64_t& poses_scored,
+                               std::vector<RankedPose> before = {}) const;
 
   /// Returns the pose moved to fit the returns, within 0.5 m and 10 degrees of the start, by
   /// `steps` of iterated closest points on the first `beams` returns. \cite algorithm eq. (6.7)

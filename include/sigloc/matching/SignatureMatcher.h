@@ -79,6 +79,7 @@ class DenseVerifier;
 class FeatureVerifier;
 struct DenseScan;
 struct PoseProposal;
+struct RankedPose;
 
 /// Relocation by matching signatures: says where in a known map the observed scene was seen.
 ///
@@ -121,12 +122,11 @@ class SignatureMatcher
   /// What the dense field left of proposals, best first.
   struct Judged
   {
-    std::vector<Candidate> candidates;
-    std::vector<Candidate> outside;  ///< of the region
+    std::vector<RankedPose> inside, outside;  ///< of the region
   };
-  Judged judge(const ObservedScene& scene, const DenseScan& scan,
-               std::vector<PoseProposal> proposals, const std::optional<PoseRegion>& region,
-               MatchingCounters& counters) const;
+  Judged judge(const DenseScan& scan, std::vector<PoseProposal> proposals,
+               const std::optional<PoseRegion>& region, MatchingCounters& counters,
+               Judged before) const;
   Judged judgeBases(const ObservedScene& scene, const DenseScan& scan,
                     const std::optional<PoseRegion>& region, MatchingCounters& counters) const;
   /// `hypotheses` that the proposals came from; none where proposals are nearly complete.
