@@ -10,6 +10,7 @@
 #include <iostream>
 #include <stdexcept>
 
+#include "sigloc/bridge/map_sources.h"
 #include "sigloc/eval/method_names.h"
 
 namespace sigloc
@@ -100,6 +101,14 @@ mrpt::math::TPose2D poseOfFlag(const std::vector<double>& values)
     if (!(std::abs(value) < 1e7)) throw std::invalid_argument("a pose of x,y,deg is not finite");
   }
   return {values[0], values[1], values[2] * M_PI / 180};
+}
+
+std::vector<std::filesystem::path> inputFiles(const std::filesystem::path& map,
+                                              std::vector<std::filesystem::path> others)
+{
+  if (map.empty()) return others;
+  for (const std::filesystem::path& file : filesOfMapSource(map)) others.push_back(file);
+  return others;
 }
 
 int exitCode(bool complete, const std::filesystem::path& rawlog)

@@ -53,6 +53,11 @@ struct CommonOptions
 /// Returns the pose of a flag "x,y,deg"; the identity for an empty list.
 mrpt::math::TPose2D poseOfFlag(const std::vector<double>& values);
 
+/// Returns the files that a run reads: those of a map source, none for an empty path, and `others`.
+/// Throws as filesOfMapSource() does.
+std::vector<std::filesystem::path> inputFiles(const std::filesystem::path& map,
+                                              std::vector<std::filesystem::path> others);
+
 /// Returns 0, or 2 after a line on stderr when the rawlog was truncated: what it held was used.
 int exitCode(bool complete, const std::filesystem::path& rawlog);
 

@@ -41,7 +41,7 @@ struct LandmarksFlags
 
   int run(const std::string& command_line)
   {
-    checkWritableFolder(common.out);
+    checkReportFolder(common.out, {});
     if (!common.methods.empty()) options.methods = common.methods;
     options.first_half_map = map_part == "first-half";
     options.max_queries = common.max_queries;

@@ -19,15 +19,7 @@ struct MergeFlags
 
   int run(const std::string& command_line) const
   {
-    for (const std::filesystem::path& folder : runs)
-    {
-      std::error_code error;
-      if (std::filesystem::equivalent(folder, out, error))
-      {
-        throw std::invalid_argument(out + ": is one of the runs, which would be overwritten");
-      }
-    }
-    checkWritableFolder(out);
+    checkReportFolder(out, filesOfRuns(runs));
     const MergedRuns merged = mergeRuns(runs, command_line);
     writeRunReport(merged.report, out);
     if (!quiet) std::cout << merged.report.text;

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "commands.h"
+#include "sigloc/bridge/output_guard.h"
 #include "sigloc/eval/reference_path.h"
 #include "sigloc/eval/report_files.h"
 
@@ -25,6 +26,7 @@ struct ReferenceFlags
       throw std::invalid_argument(out.string() + ": is a folder");
     }
     checkWritableFolder(out.has_parent_path() ? out.parent_path() : ".");
+    refuseToReplaceInputs(out, inputFiles(map, {rawlog}));
     const ReferencePath reference = referencePath(map, rawlog, poseOfFlag(last));
     writeReferencePath(reference, out);
     std::cout << reference.poses.size() << " poses; the worst scan has "

@@ -18,7 +18,7 @@ struct ReliabilityFlags
 
   int run(const std::string& command_line)
   {
-    checkWritableFolder(common.out);
+    checkReportFolder(common.out, {});
     options.seed = common.seed;
     options.threads = common.threads;
     options.command = command_line;

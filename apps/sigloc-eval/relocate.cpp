@@ -21,7 +21,8 @@ struct RelocateFlags
 
   int run(const std::string& command_line) const
   {
-    checkWritableFolder(common.out);
+    checkReportFolder(common.out, inputFiles(sources.map, {sources.queries, sources.rawlog,
+                                                           sources.ground_truth}));
     RelocateOptions options;
     options.sources = sources;
     options.sources.map_from_queries = poseOfFlag(map_from_queries);

@@ -23,7 +23,7 @@ struct ScaleFlags
   {
     common.refusePrior("scale");
     common.checkDense({}, false);
-    checkWritableFolder(common.out);
+    checkReportFolder(common.out, {});
     if (common.max_queries > 0)
     {
       options.poses = std::min<std::size_t>(options.poses, common.max_queries);

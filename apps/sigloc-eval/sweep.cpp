@@ -22,7 +22,7 @@ struct SweepFlags
   int run(const std::string& command_line)
   {
     common.refusePrior("sweep");
-    checkWritableFolder(common.out);
+    checkReportFolder(common.out, {});
     if (!common.methods.empty()) options.methods = common.methods;
     for (const std::string& world : worlds) options.worlds.push_back(worldKindFrom(world));
     common.checkDense(options.methods, true);

@@ -27,7 +27,8 @@ struct TrackFlags
 
   int run(const std::string& command_line)
   {
-    checkWritableFolder(common.out);
+    checkReportFolder(common.out, inputFiles(options.map, {options.rawlog, options.ground_truth,
+                                                           options.start_from}));
     const TrackReport report =
         simulated.drives > 0 ? runSimulated(command_line) : runLog(command_line);
     writeTrackReport(report, common.out);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "console.h"
+#include "sigloc/bridge/output_guard.h"
 #include "sigloc/bridge/pf_localization_files.h"
 #include "StepPictures.h"
 
@@ -40,7 +41,7 @@ int localize(const sigloc::LocalizationSetup& setup, bool quiet,
              std::vector<sigloc::ExperimentOutcome>& outcomes)
 {
   std::optional<sigloc::RunWriter> writer;
-  if (!setup.output_folder.empty()) writer.emplace(setup.output_folder);
+  if (!setup.output_folder.empty()) writer.emplace(setup.output_folder, setup.inputFiles());
   sigloc::LocalizationRun run(setup, writer ? writer->mapCache(setup.map_file) : fs::path());
   std::optional<sigloc::StepPictures> pictures;
   if (writer) pictures.emplace(run);
@@ -72,30 +73,57 @@ fs::path runFolder(const sigloc::LocalizationSetup& setup, bool several, std::ui
   return name;
 }
 
+using Experiment = std::vector<sigloc::LocalizationSetup>;  // its repetitions
+
 /// Every number of particles is an experiment; its repetitions share nothing but the map's cache.
+std::vector<Experiment> experimentsOf(const sigloc::LocalizationSetup& setup)
+{
+  std::vector<std::uint32_t> counts = setup.particle_counts;
+  if (counts.empty()) counts.push_back(setup.particles.particles);
+  const bool several = setup.repetitions > 1 || counts.size() > 1;
+  std::vector<Experiment> experiments;
+  for (const std::uint32_t count : counts)
+  {
+    experiments.emplace_back(setup.repetitions, setup);
+    for (std::uint32_t i = 0; i < setup.repetitions; ++i)
+    {
+      sigloc::LocalizationSetup& run = experiments.back()[i];
+      run.particles.particles = count;
+      run.matcher.seed = setup.matcher.seed + i;
+      run.output_folder = runFolder(run, several, i);
+    }
+  }
+  return experiments;
+}
+
+/// Throws where a run would replace an input or what is not its own: before any has begun.
+void checkOutputs(const sigloc::LocalizationSetup& setup,
+                  const std::vector<Experiment>& experiments)
+{
+  if (setup.output_folder.empty()) return;
+  const auto inputs = setup.inputFiles();
+  sigloc::refuseToReplaceInputs(sigloc::experimentSummaryFile(setup.output_folder), inputs);
+  for (const Experiment& experiment : experiments)
+  {
+    for (const auto& run : experiment) sigloc::checkRunFolder(run.output_folder, inputs);
+  }
+}
+
 int runAll(const Arguments& arguments)
 {
   sigloc::LocalizationSetup setup =
       sigloc::readLocalizationSetup(arguments.config, arguments.rawlog);
   if (arguments.output) setup.output_folder = *arguments.output;
   if (arguments.seed) setup.matcher.seed = *arguments.seed;
-  if (!setup.output_folder.empty()) sigloc::experimentSummaryFile(setup.output_folder);
-  const std::uint32_t first_seed = setup.matcher.seed;
-  std::vector<std::uint32_t> counts = setup.particle_counts;
-  if (counts.empty()) counts.push_back(setup.particles.particles);
-  const bool several = setup.repetitions > 1 || counts.size() > 1;
-
+  const std::vector<Experiment> experiments = experimentsOf(setup);
+  checkOutputs(setup, experiments);
   int exit_code = 0;
   std::string summary;
-  for (const std::uint32_t count : counts)
+  for (const Experiment& experiment : experiments)
   {
-    setup.particles.particles = count;
     std::vector<sigloc::ExperimentOutcome> outcomes;
-    for (std::uint32_t i = 0; i < setup.repetitions; ++i)
+    for (const auto& run : experiment)
     {
-      sigloc::LocalizationSetup run = setup;
-      run.matcher.seed = first_seed + i;
-      run.output_folder = runFolder(setup, several, i);
       exit_code = std::max(exit_code, localize(run, arguments.quiet, outcomes));
     }
     summary += sigloc::experimentSummary(outcomes, setup.confidence_share);

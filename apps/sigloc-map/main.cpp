@@ -12,6 +12,7 @@
 #include "sigloc/bridge/counted.h"
 #include "sigloc/bridge/LocalizationSetup.h"
 #include "sigloc/bridge/map_sources.h"
+#include "sigloc/bridge/output_guard.h"
 #include "sigloc/bridge/sigmap_file.h"
 
 namespace
@@ -49,9 +50,25 @@ ordered_json describe(const sigloc::FeatureMap& map, const std::filesystem::path
   return info;
 }
 
+/// Throws std::runtime_error where the map would replace what it is made from, or a file that its
+/// name tells to be something else.
+void checkBuildOutput(const std::filesystem::path& input, const std::filesystem::path& output,
+                      const std::filesystem::path& config)
+{
+  std::vector<std::filesystem::path> inputs = sigloc::filesOfMapSource(input);
+  inputs.push_back(config);
+  sigloc::refuseToReplaceInputs(output, inputs);
+  if (std::filesystem::exists(output) && output.extension() != ".sigmap")
+  {
+    throw std::runtime_error(output.string() +
+                             ": exists, and is no .sigmap by its name; not overwritten");
+  }
+}
+
 void build(const std::filesystem::path& input, const std::filesystem::path& output,
            const std::filesystem::path& config)
 {
+  checkBuildOutput(input, output, config);
   sigloc::LocalizationSetup setup;
   if (!config.empty()) setup = sigloc::readOptionSections(config);
   const sigloc::FeatureMap map = sigloc::buildMapFromFile(input, setup.map, setup.features);
@@ -75,6 +92,23 @@ void info(const std::filesystem::path& path, bool as_json)
   }
 }
 
+/// The map, and what it was made from where that is still there.
+std::vector<std::filesystem::path> filesBehind(const std::filesystem::path& path,
+                                               const sigloc::FeatureMap& map)
+{
+  std::vector<std::filesystem::path> files;
+  try
+  {
+    files = sigloc::filesOfMapSource(map.provenance().source_path);
+  }
+  catch (const std::runtime_error&)
+  {
+    // The source is gone or has changed: the map is all there is.
+  }
+  files.push_back(path);
+  return files;
+}
+
 void draw(const std::filesystem::path& path, const std::filesystem::path& output)
 {
   if (output.extension() != ".png")
@@ -82,6 +116,7 @@ void draw(const std::filesystem::path& path, const std::filesystem::path& output
     throw std::runtime_error(output.string() + ": the name of a picture ends in .png");
   }
   const sigloc::FeatureMap map = sigloc::loadSigmap(path);
+  sigloc::refuseToReplaceInputs(output, filesBehind(path, map));
   sigloc::PictureMaker pictures(map);
   const std::string title = path.filename().string() + ": " +
                             sigloc::counted(map.features().size(), "feature") + ", " +

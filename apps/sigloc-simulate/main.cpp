@@ -12,9 +12,9 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
-#include <system_error>
 #include <vector>
 
+#include "sigloc/eval/FolderInProgress.h"
 #include "sigloc/eval/robot_simulation.h"
 #include "sigloc/eval/simulation_files.h"
 #include "sigloc/eval/world_generators.h"
@@ -141,21 +141,6 @@ void describeOptions(CLI::App& app, Settings& settings)
   addFlags(app, settings.odometry, "Odometry", "odometry-");
 }
 
-/// The note that goes with the files: how to make them again, and what they are.
-std::string readmeOf(const std::string& command, const std::string& files)
-{
-  return "# A simulated world\n\nMade by\n\n    " + command +
-         "\n\nwhich gives the same bytes each time. Lengths are in metres, angles in radians.\n\n" +
-         files;
-}
-
-void makeFolder(const std::filesystem::path& path)
-{
-  std::error_code error;
-  std::filesystem::create_directories(path, error);
-  if (error) throw std::runtime_error(path.string() + ": " + error.message());
-}
-
 void simulateLandmarks(const Settings& settings, const std::filesystem::path& out,
                        const sigloc::World& world, const std::string& command)
 {
@@ -166,15 +151,14 @@ void simulateLandmarks(const Settings& settings, const std::filesystem::path& ou
                                            settings.landmarks, settings.drive_seed);
   const auto kind =
       settings.log == "observations" ? RawlogKind::observations : RawlogKind::action_frame;
-  makeFolder(out);
   writeLandmarks(sensor.mappedLandmarks(random), out / "map.txt");
   writeRawlog(steps, settings.odometry, kind, out / "drive.rawlog");
   writeTruth(steps, out / "truth.txt");
-  writeText(readmeOf(command,
-                     "* `map.txt`: the mapped landmarks, rows `x y radius sigma`\n"
-                     "* `drive.rawlog`: odometry and bearing-range observations\n"
-                     "* `truth.txt`: the true path, rows `time x y phi`\n"),
-            out / "README.md");
+  writeSimulationNote(command,
+                      "* `map.txt`: the mapped landmarks, rows `x y radius sigma`\n"
+                      "* `drive.rawlog`: odometry and bearing-range observations\n"
+                      "* `truth.txt`: the true path, rows `time x y phi`\n",
+                      out);
 }
 
 void simulateLaser(const Settings& settings, const std::filesystem::path& out,
@@ -188,18 +172,17 @@ void simulateLaser(const Settings& settings, const std::filesystem::path& out,
       simulateDrive(driven, settings.drive, settings.odometry, settings.laser, settings.drive_seed);
   const auto kind =
       settings.log == "observations" ? RawlogKind::observations : RawlogKind::action_frame;
-  makeFolder(out);
   writeSimpleMap(mapping, out / "map.simplemap");
   writeGridMap(world, settings.resolution, out / "map.gridmap.gz");
   writeRawlog(steps, settings.odometry, kind, out / "drive.rawlog");
   writeTruth(steps, out / "truth.txt");
-  writeText(readmeOf(command,
-                     "* `map.simplemap`: mapping scans with their exact poses\n"
-                     "* `map.gridmap.gz`: the same world as an occupancy grid\n"
-                     "* `drive.rawlog`: odometry and scans of a drive; the mapping scans are not "
-                     "in it\n"
-                     "* `truth.txt`: the true path, rows `time x y phi`\n"),
-            out / "README.md");
+  writeSimulationNote(command,
+                      "* `map.simplemap`: mapping scans with their exact poses\n"
+                      "* `map.gridmap.gz`: the same world as an occupancy grid\n"
+                      "* `drive.rawlog`: odometry and scans of a drive; the mapping scans are not "
+                      "in it\n"
+                      "* `truth.txt`: the true path, rows `time x y phi`\n",
+                      out);
 }
 }  // namespace
 
@@ -243,9 +226,12 @@ int main(int argc, char** argv)
   {
     const sigloc::WorldKind kind = sigloc::worldKindFrom(settings.world);
     settings.checkUse(kind);
+    sigloc::checkSimulationFolder(settings.out);
     const sigloc::World world = sigloc::makeWorld(kind, settings.layout, settings.seed);
     const auto simulate = kind == sigloc::WorldKind::points ? simulateLandmarks : simulateLaser;
-    simulate(settings, settings.out, world, command.str());
+    const sigloc::FolderInProgress files(settings.out);
+    simulate(settings, files.part(), world, command.str());
+    files.keep();
   }
   catch (const std::exception& error)
   {

@@ -14,6 +14,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "sigloc/bridge/map_sources.h"
+
 namespace sigloc
 {
 namespace
@@ -131,6 +133,18 @@ std::optional<PoseRegion> readPrior(const CConfigFileMemory& ini)
   return region;
 }
 
+std::uint32_t readRepetitions(const CConfigFileMemory& ini)
+{
+  constexpr std::uint32_t kMost = 100000;
+  const std::uint32_t count = readCount(ini, "experimentRepetitions", 1);
+  if (count > kMost)
+  {
+    throw std::runtime_error(std::string("[") + kExperiment +
+                             "]: 'experimentRepetitions' is more than " + std::to_string(kMost));
+  }
+  return std::max(1U, count);
+}
+
 /// Numbers of particles, one experiment each.
 std::vector<std::uint32_t> readParticleCounts(const CConfigFileMemory& ini)
 {
@@ -206,7 +220,7 @@ void readExperiment(const CConfigFileMemory& ini, const fs::path& path, const fs
   setup.output_folder = named("logOutput_dir");
   setup.rawlog_offset = readCount(ini, "rawlog_offset", 0);
   setup.scene_frequency = readCount(ini, "3DSceneFrequency", 0);
-  setup.repetitions = std::max(1U, readCount(ini, "experimentRepetitions", 1));
+  setup.repetitions = readRepetitions(ini);
   readJudgement(ini, setup);
   setup.prior = readPrior(ini);
   setup.use_particles = readTracker(ini);
@@ -222,6 +236,7 @@ LocalizationSetup parse(const fs::path& path, Read&& read)
     CConfigFileMemory ini;
     ini.setContent(readText(path));
     LocalizationSetup setup;
+    setup.config_file = path;
     readSections(ini, setup);
     read(ini, setup);
     return setup;
@@ -232,6 +247,13 @@ LocalizationSetup parse(const fs::path& path, Read&& read)
   }
 }
 }  // namespace
+
+std::vector<fs::path> LocalizationSetup::inputFiles() const
+{
+  std::vector<fs::path> files = filesOfMapSource(map_file);
+  files.insert(files.end(), {config_file, rawlog_file, ground_truth_file});
+  return files;
+}
 
 mrpt::math::TPose2D LocalizationSetup::mapFromTruth() const
 {

@@ -11,11 +11,11 @@
 #include <cstdio>
 #include <fstream>
 #include <iomanip>
-#include <map>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <stdexcept>
 
+#include "run_folder.h"
+#include "sigloc/bridge/output_guard.h"
 #include "sigloc/bridge/pf_localization_files.h"
 #include "sigloc/bridge/pose_pdf.h"
 
@@ -25,9 +25,6 @@ namespace
 {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
-
-constexpr const char* kSummaryFile = "summary.json";
-constexpr const char* kInnerWork = ".partial";  // work folder where none can be made beside
 
 [[noreturn]] void failToWrite(const fs::path& path)
 {
@@ -111,67 +108,38 @@ ordered_json orNull(const std::optional<T>& value)
   return value ? ordered_json(*value) : ordered_json(nullptr);
 }
 
-/// True when a folder, if it exists, holds nothing but what a run writes: only that may be
-/// replaced.
-// NOLINTNEXTLINE(misc-no-recursion): one level deep
-bool holdsOnlyARun(const fs::path& folder)
+/// The folder of a run's results as a whole path, without a slash at its end: "out/" is "out".
+fs::path resultsFolder(const fs::path& folder)
 {
-  static const std::map<std::string, std::set<std::string>> kParts = {
-      {"belief", {".CPosePDFSOG", ".txt"}},
-      {"3D", {".3Dscene"}},
-      {"pictures", {".png"}},
-      {"particles", {".txt"}}};
-  static const std::set<std::string> kFiles = []
-  {
-    std::set<std::string> names = {"path.tum", "steps.csv", "annotated.rawlog", kSummaryFile};
-    names.insert(pfLocalizationFiles().begin(), pfLocalizationFiles().end());
-    return names;
-  }();
-  std::error_code unnameable;
-  if (!fs::exists(folder, unnameable)) return true;
-  if (!fs::is_directory(folder)) return false;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-  {
-    if (entry.path().filename() == kInnerWork && holdsOnlyARun(entry.path())) continue;
-    const auto part = kParts.find(entry.path().filename().string());
-    if (part == kParts.end() || !entry.is_directory())
-    {
-      if (kFiles.count(entry.path().filename().string()) == 0) return false;
-      continue;
-    }
-    for (const fs::directory_entry& file : fs::directory_iterator(entry.path()))
-    {
-      if (part->second.count(file.path().extension().string()) == 0) return false;
-    }
-  }
-  return true;
+  fs::path whole = fs::absolute(folder).lexically_normal();
+  if (!whole.has_filename()) whole = whole.parent_path();
+  // Results belong where a link points.
+  return fs::is_symlink(whole) && fs::exists(whole) ? fs::canonical(whole) : whole;
+}
+
+fs::path workFolderBeside(const fs::path& results)
+{
+  return results.string() + ".partial";
 }
 }  // namespace
 
-RunWriter::RunWriter(const fs::path& folder) : folder_(fs::absolute(folder).lexically_normal())
+void checkRunFolder(const fs::path& folder, const std::vector<fs::path>& inputs)
 {
-  if (!folder_.has_filename()) folder_ = folder_.parent_path();  // "out/" is "out"
-  work_ = folder_.string() + ".partial";
-  const bool exists = fs::exists(folder_);
-  if (exists && !fs::is_directory(folder_))
-  {
-    throw std::runtime_error(folder.string() + ": is not a folder");
-  }
-  if (fs::is_symlink(folder_))  // results belong where the link points
-  {
-    folder_ = fs::canonical(folder_);
-    work_ = folder_.string() + ".partial";
-  }
-  for (const fs::path& replaced : {folder_, work_})
-  {
-    if (holdsOnlyARun(replaced)) continue;
-    throw std::runtime_error(replaced.string() +
-                             ": holds something else than an earlier run; not overwritten");
-  }
+  const fs::path results = resultsFolder(folder);
+  refuseToReplaceInputs(results, inputs);
+  refuseToReplaceInputs(workFolderBeside(results), inputs);
+  detail::requireFinishedRun(results);
+  detail::requireUnfinishedRun(workFolderBeside(results));
+}
+
+RunWriter::RunWriter(const fs::path& folder, const std::vector<fs::path>& inputs)
+    : folder_(resultsFolder(folder)), work_(workFolderBeside(folder_))
+{
+  checkRunFolder(folder, inputs);
   std::error_code error = makeWorkFolder();
-  if (error && exists)
+  if (error && fs::exists(folder_))
   {
-    work_ = folder_ / kInnerWork;
+    work_ = folder_ / detail::kInnerWork;
     error = makeWorkFolder();
   }
   if (error) throw std::runtime_error(folder.string() + ": " + error.message());
@@ -252,9 +220,9 @@ void RunWriter::finish(const LocalizationRun& run)
   writeSteps(run.steps(), work_ / "steps.csv");
   writeAnnotatedRawlog(run.setup().rawlog_file, run.steps(), work_ / "annotated.rawlog");
   writePfLocalizationFiles(run, work_);
-  std::ofstream file = openText(work_ / kSummaryFile);
+  std::ofstream file = openText(work_ / detail::kRunSummaryFile);
   file << toJson(run.summary()) << '\n';
-  closeText(file, work_ / kSummaryFile);
+  closeText(file, work_ / detail::kRunSummaryFile);
   replaceFolder();
   finished_ = true;
 }

@@ -69,8 +69,7 @@ void appendBytes(const std::filesystem::path& path, std::string& bytes)
 std::string checksumOf(const std::filesystem::path& path)
 {
   std::string bytes;
-  appendBytes(path, bytes);
-  if (formatOf(path) == Format::ros_map) appendBytes(detail::imageOfRosMap(path), bytes);
+  for (const std::filesystem::path& file : filesOfMapSource(path)) appendBytes(file, bytes);
   return mrpt::system::md5(bytes);
 }
 
@@ -170,6 +169,13 @@ MapSource readMapSource(const std::filesystem::path& path)
       break;
   }
   return loadSigmap(path);
+}
+
+std::vector<std::filesystem::path> filesOfMapSource(const std::filesystem::path& path)
+{
+  std::vector<std::filesystem::path> files = {path};
+  if (formatOf(path) == Format::ros_map) files.push_back(detail::imageOfRosMap(path));
+  return files;
 }
 
 FeatureMap buildMapFromFile(const std::filesystem::path& path, const MapBuildingOptions& building,

@@ -322,6 +322,17 @@ RunReport pool(const std::vector<Run>& runs)
 }
 }  // namespace
 
+std::vector<fs::path> filesOfRuns(const std::vector<fs::path>& runs)
+{
+  std::vector<fs::path> files;
+  for (const fs::path& folder : runs)
+  {
+    files.push_back(folder / "summary.json");
+    files.push_back(folder / "results.csv");
+  }
+  return files;
+}
+
 MergedRuns mergeRuns(const std::vector<fs::path>& folders, const std::string& command)
 {
   if (folders.size() < 2)

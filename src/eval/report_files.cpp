@@ -8,13 +8,19 @@
 #include <cmath>
 #include <fstream>
 #include <iomanip>
+#include <set>
 #include <sstream>
 #include <stdexcept>
+
+#include "sigloc/bridge/output_guard.h"
+#include "sigloc/eval/FolderInProgress.h"
 
 namespace sigloc
 {
 namespace
 {
+constexpr const char* kReportTool = "sigloc-eval";
+
 /// The provenance as a Markdown list.
 std::string provenanceSection(const nlohmann::ordered_json& provenance)
 {
@@ -58,47 +64,23 @@ void writeFiles(const RunReport& report, const std::filesystem::path& folder)
   writeTextFile(folder / "report.md", text);
 }
 
-/// A folder, made if need be, and one within it for files that are not yet complete. What was made
-/// is gone with the object unless it was kept.
-class FolderInProgress
+bool isReportFile(const std::string& name)
 {
- public:
-  explicit FolderInProgress(const std::filesystem::path& folder)
-      : folder_(folder), part_(folder / ".part")
-  {
-    for (auto parent = std::filesystem::absolute(folder).lexically_normal();
-         !parent.empty() && !std::filesystem::exists(parent); parent = parent.parent_path())
-    {
-      made_.push_back(parent);
-    }
-    std::filesystem::create_directories(part_);
-  }
-  ~FolderInProgress()
-  {
-    std::error_code ignored;
-    std::filesystem::remove_all(part_, ignored);
-    // Deepest first; a folder that holds something stays.
-    for (const auto& folder : made_) std::filesystem::remove(folder, ignored);
-  }
-  FolderInProgress(const FolderInProgress&) = delete;
-  FolderInProgress& operator=(const FolderInProgress&) = delete;
+  static const std::set<std::string> kNames = {"summary.json", "results.csv", "runs.csv",
+                                               "report.md", "failures"};
+  return kNames.count(name) > 0 || std::filesystem::path(name).extension() == ".png";
+}
 
-  const std::filesystem::path& part() const { return part_; }
-
-  /// Moves the complete files to their place.
-  void keep() const
-  {
-    for (const auto& entry : std::filesystem::directory_iterator(part_))
-    {
-      std::filesystem::rename(entry.path(), folder_ / entry.path().filename());
-    }
-  }
-
- private:
-  std::filesystem::path folder_;
-  std::filesystem::path part_;
-  std::vector<std::filesystem::path> made_;
-};
+/// Whether sigloc-eval wrote the folder's summary.
+bool isReportFolder(const std::filesystem::path& folder)
+{
+  std::ifstream file(folder / "summary.json");
+  const auto summary = nlohmann::json::parse(file, nullptr, false);
+  const nlohmann::json::json_pointer command("/provenance/command");
+  if (!summary.is_object() || !summary.contains(command)) return false;
+  const auto& line = summary.at(command);
+  return line.is_string() && line.get<std::string>().rfind(kReportTool, 0) == 0;
+}
 }  // namespace
 
 void checkWritableFolder(const std::filesystem::path& folder)
@@ -118,6 +100,13 @@ void checkWritableFolder(const std::filesystem::path& folder)
   {
     throw std::runtime_error(folder.string() + ": no right to write into " + existing.string());
   }
+}
+
+void checkReportFolder(const std::filesystem::path& folder,
+                       const std::vector<std::filesystem::path>& inputs)
+{
+  checkWritableFolder(folder);
+  checkOutputFolder(folder, {isReportFile, isReportFolder, kReportTool}, inputs);
 }
 
 std::string fixedNumber(double value, int decimals)
@@ -181,15 +170,8 @@ std::string markdownTable(const std::vector<std::vector<std::string>>& rows)
 
 void writeRunReport(const RunReport& report, const std::filesystem::path& folder)
 {
-  try
-  {
-    const FolderInProgress files(folder);
-    writeFiles(report, files.part());
-    files.keep();
-  }
-  catch (const std::filesystem::filesystem_error& error)
-  {
-    throw std::runtime_error(folder.string() + ": " + error.code().message());
-  }
+  const FolderInProgress files(folder);
+  writeFiles(report, files.part());
+  files.keep();
 }
 }  // namespace sigloc

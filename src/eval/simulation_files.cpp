@@ -17,9 +17,12 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <iterator>
+#include <set>
 #include <stdexcept>
 #include <string>
 
+#include "sigloc/bridge/output_guard.h"
 #include "sigloc/eval/motion_model.h"
 
 namespace sigloc
@@ -28,6 +31,8 @@ namespace
 {
 namespace fs = std::filesystem;
 constexpr int kCompression = 9;
+constexpr const char* kNote = "README.md";
+constexpr const char* kNoteHead = "# A simulated world\n\nMade by\n\n    ";
 
 /// Calls `write(temporary path)` and renames the result; removes it when anything fails.
 template <class Write>
@@ -234,6 +239,30 @@ void writeRawlog(const std::vector<DriveStep>& steps, const OdometryOptions& odo
     }
   };
   writeArchive(path, write);
+}
+
+void checkSimulationFolder(const fs::path& folder)
+{
+  static const std::set<std::string> kNames = {"map.simplemap", "map.gridmap.gz", "map.txt",
+                                               "drive.rawlog",  "truth.txt",      kNote};
+  const auto writes = [](const std::string& name) { return kNames.count(name) > 0; };
+  const auto is_own = [](const fs::path& path)
+  {
+    std::ifstream note(path / kNote);
+    const std::string text{std::istreambuf_iterator<char>(note), {}};
+    return text.rfind(kNoteHead, 0) == 0;
+  };
+  checkOutputFolder(folder, {writes, is_own, "sigloc-simulate"}, {});
+}
+
+void writeSimulationNote(const std::string& command, const std::string& files,
+                         const fs::path& folder)
+{
+  writeText(kNoteHead + command +
+                "\n\nwhich gives the same bytes each time. Lengths are in metres, angles in "
+                "radians.\n\n" +
+                files,
+            folder / kNote);
 }
 
 void writeText(const std::string& text, const fs::path& path)

@@ -63,6 +63,7 @@ TEST(FailurePictures, OfAnEarlierRunAreRemoved)
 {
   const TemporaryFolder folder;
   const auto failures = folder / "out" / "failures";
+  ASSERT_EQ(run(folder, "sigloc-eval", relocateInOffice({})).exit_code, 0);
   std::filesystem::create_directories(failures / "noise-0.1");
   writeText(failures / "signature-99.png", "old");
   writeText(failures / "noise-0.1" / "lattice-office-1-2.png", "old");

@@ -72,6 +72,28 @@ TEST(SimulateApp, BadArgumentsGiveOneLineAndNothingElse)
   }
 }
 
+TEST(SimulateApp, ReplacesOnlySimulations)
+{
+  const test::TemporaryFolder folder;
+  const fs::path mine = folder / "mine";
+  fs::create_directory(mine);
+  const std::string arguments = "--world points --metres 5 --out " + mine.string();
+  for (const char* name : {"README.md", "drive.rawlog", "truth.txt"})
+  {
+    test::writeText(mine / name, "mine");
+    EXPECT_EQ(simulate(folder, arguments), 1) << name;
+    const std::string errors = test::readBytes(folder / "err");
+    EXPECT_EQ(std::count(errors.begin(), errors.end(), '\n'), 1) << errors;
+    EXPECT_NE(errors.find(mine.string() + ": holds " + name), std::string::npos) << errors;
+    EXPECT_EQ(test::readBytes(mine / name), "mine");
+    EXPECT_EQ(std::distance(fs::directory_iterator(mine), {}), 1) << name;
+    fs::remove(mine / name);
+  }
+  test::writeText(mine / "notes.txt", "mine");
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(simulate(folder, arguments), 0) << "an earlier one is";
+  EXPECT_EQ(test::readBytes(mine / "notes.txt"), "mine");
+}
+
 TEST(SimulateApp, HelpEndsWell)
 {
   const test::TemporaryFolder folder;

@@ -54,6 +54,7 @@ struct ReportOptions
 /// Everything a localization run is told, from an ini file in the manner of pf-localization.
 struct LocalizationSetup
 {
+  std::filesystem::path config_file;  ///< the ini
   std::filesystem::path map_file;
   std::filesystem::path rawlog_file;
   std::filesystem::path ground_truth_file;  ///< empty: none
@@ -76,6 +77,8 @@ struct LocalizationSetup
   MapBuildingOptions map;
   ReportOptions report;
 
+  /// Every file that a run reads. Throws as filesOfMapSource() does.
+  std::vector<std::filesystem::path> inputFiles() const;
   mrpt::math::TPose2D mapFromTruth() const;
   std::optional<mrpt::math::TPose2D> finalTruth() const;
 };

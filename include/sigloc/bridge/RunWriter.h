@@ -12,6 +12,12 @@
 
 namespace sigloc
 {
+/// Throws std::runtime_error ("folder: reason") when a run that writes into `folder` would replace
+/// anything but an earlier run of sigloc-localize, which its summary.json tells, or one of
+/// `inputs`.
+void checkRunFolder(const std::filesystem::path& folder,
+                    const std::vector<std::filesystem::path>& inputs);
+
 /// Writes the output folder of a run, all or nothing: into `<folder>.partial` first, which takes
 /// the folder's name in finish(). Where nothing can be made beside an existing folder, it is
 /// `<folder>/.partial`, and there is no map cache.
@@ -27,9 +33,8 @@ namespace sigloc
 class RunWriter
 {
  public:
-  /// Throws std::runtime_error when `folder` exists and holds anything but an earlier run, or when
-  /// it cannot be written.
-  explicit RunWriter(const std::filesystem::path& folder);
+  /// Throws as checkRunFolder() does, and when `folder` cannot be written.
+  RunWriter(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& inputs);
   /// Removes what an unfinished run has written.
   ~RunWriter();
   RunWriter(const RunWriter&) = delete;

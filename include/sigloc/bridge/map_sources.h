@@ -24,6 +24,10 @@ using MapSource = std::variant<std::vector<PosedScans>, OccupancyRaster, Feature
 /// foreign or unusable file.
 MapSource readMapSource(const std::filesystem::path& path);
 
+/// Returns the files that a map source is read from: `path`, and the image that a ROS map names.
+/// Throws std::runtime_error ("path: reason") for a ROS map that cannot be read.
+std::vector<std::filesystem::path> filesOfMapSource(const std::filesystem::path& path);
+
 /// Reads a map source and builds the feature map; a `.sigmap` is returned as it is.
 FeatureMap buildMapFromFile(const std::filesystem::path& path, const MapBuildingOptions& building,
                             const FeatureExtractorOptions& extraction);

@@ -17,6 +17,9 @@ struct MergedRuns
   bool complete = true;  ///< false when a run was on incomplete input
 };
 
+/// The files of such runs' folders that are pooled.
+std::vector<std::filesystem::path> filesOfRuns(const std::vector<std::filesystem::path>& runs);
+
 /// Pools what runs of one sub-command of sigloc-eval wrote into their folders, as if all their
 /// queries had been asked in one run. Counts add up, shares and their Wilson intervals come from
 /// the summed counts, so that every query weighs the same.

@@ -47,6 +47,13 @@ struct RunReport
 /// Leaves nothing behind: to be asked before hours of work.
 void checkWritableFolder(const std::filesystem::path& folder);
 
+/// Throws std::runtime_error ("path: reason") unless a report can be written into a folder, or
+/// where it could replace one of `inputs` or a file that no earlier run wrote: one of the names of
+/// a report's files, or any PNG, in a folder without the summary.json of one. Other files may lie
+/// there. To be asked before hours of work, too.
+void checkReportFolder(const std::filesystem::path& folder,
+                       const std::vector<std::filesystem::path>& inputs);
+
 /// Writes summary.json, results.csv, further tables, the plots that gnuplot can draw, and report.md
 /// into a folder, making it if need be: all of it or, throwing std::runtime_error ("path: reason"),
 /// nothing.

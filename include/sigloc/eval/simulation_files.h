@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "sigloc/eval/FreeSpace.h"
@@ -44,6 +45,15 @@ void writeTruth(const std::vector<DriveStep>& steps, const std::filesystem::path
 
 /// Writes a landmark file: rows `x y radius sigma`.
 void writeLandmarks(const std::vector<Feature>& landmarks, const std::filesystem::path& path);
+
+/// Throws std::runtime_error ("folder: reason") where a simulation could replace a file that none
+/// wrote: a folder that holds one of its names, but not the note of an earlier one.
+void checkSimulationFolder(const std::filesystem::path& folder);
+
+/// Writes the note that goes with a simulation's files, `README.md` in their folder: `command`
+/// makes them again, `files` tells what they are, a Markdown list.
+void writeSimulationNote(const std::string& command, const std::string& files,
+                         const std::filesystem::path& folder);
 
 /// Writes a text file.
 void writeText(const std::string& text, const std::filesystem::path& path);
