@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <iomanip>
 #include <iostream>
+#include <sstream>
 #include <stdexcept>
 
 #include "sigloc/bridge/map_sources.h"
@@ -15,12 +17,17 @@
 
 namespace sigloc
 {
+namespace
+{
+constexpr double kFar = 1e7;  // [m], [deg]
+}
+
 void CommonOptions::declareRunning(CLI::App& command)
 {
   command.add_option("--seed", seed, "of everything random")->capture_default_str();
   command.add_option("--threads", threads, "queries asked at a time; each is timed on its own")
       ->capture_default_str()
-      ->check(CLI::Range(1, 256));
+      ->check(numberFrom(1, 256));
   command.add_flag("--quiet", quiet, "no progress bar, no table");
   command.add_option("--out", out, "folder for summary.json, results.csv, report.md and plots")
       ->required();
@@ -34,9 +41,11 @@ void CommonOptions::declare(CLI::App& command, const std::vector<std::string>& k
       ->delimiter(',');
   command.add_option("--max-queries", max_queries, "ask this many, evenly spaced (default: all)");
   command.add_option("--region", region, "x0,x1,y0,y1 [m]: the robot is known to be inside")
+      ->check(numberFrom(-kFar, kFar))
       ->delimiter(',')
       ->expected(4);
   command.add_option("--heading", heading, "heading and tolerance [deg]: known roughly")
+      ->check(numberFrom(-360, 360))
       ->delimiter(',')
       ->expected(2);
   command.add_option("--draw-failures", draw_failures,
@@ -66,7 +75,6 @@ void CommonOptions::checkDense(const std::vector<std::string>& methods_run, bool
 std::optional<PoseRegion> CommonOptions::poseRegion() const
 {
   if (region.empty() && heading.empty()) return std::nullopt;
-  constexpr double kFar = 1e9;  // [m]
   PoseRegion prior{-kFar, kFar, -kFar, kFar};
   if (!region.empty())
   {
@@ -74,32 +82,46 @@ std::optional<PoseRegion> CommonOptions::poseRegion() const
     prior.x_max = region[1];
     prior.y_min = region[2];
     prior.y_max = region[3];
-    // Not what is not a number, either.
-    if (!(prior.x_min <= prior.x_max && prior.y_min <= prior.y_max))
+    if (prior.x_min > prior.x_max || prior.y_min > prior.y_max)
     {
       throw std::invalid_argument("--region: the lower bound exceeds the upper one");
     }
   }
   if (!heading.empty())
   {
-    if (!(std::isfinite(heading[0]) && heading[1] >= 0))
-    {
-      throw std::invalid_argument(
-          "--heading: needs a heading and a tolerance that is not negative");
-    }
+    if (heading[1] < 0) throw std::invalid_argument("--heading: the tolerance is negative");
     prior.heading = heading[0] * M_PI / 180;
     prior.heading_tolerance = heading[1] * M_PI / 180;
   }
   return prior;
 }
 
+CLI::Validator numberFrom(double low, double high)
+{
+  std::ostringstream range;
+  range << "from " << low << " to " << high;
+  const auto check = [low, high, text = range.str()](const std::string& input) -> std::string
+  {
+    char* end = nullptr;
+    const double value = std::strtod(input.c_str(), &end);
+    const bool whole = end != input.c_str() && *end == '\0';
+    return whole && value >= low && value <= high ? "" : input + ": not a number " + text;
+  };
+  return {check, range.str()};
+}
+
+CLI::Option* addPoseOption(CLI::App& command, const std::string& name, std::vector<double>& values,
+                           const std::string& description)
+{
+  return command.add_option(name, values, "x,y,deg: " + description)
+      ->delimiter(',')
+      ->expected(3)
+      ->check(numberFrom(-kFar, kFar));
+}
+
 mrpt::math::TPose2D poseOfFlag(const std::vector<double>& values)
 {
   if (values.empty()) return {};
-  for (const double value : values)
-  {
-    if (!(std::abs(value) < 1e7)) throw std::invalid_argument("a pose of x,y,deg is not finite");
-  }
   return {values[0], values[1], values[2] * M_PI / 180};
 }
 

@@ -50,7 +50,15 @@ struct CommonOptions
   std::optional<PoseRegion> poseRegion() const;
 };
 
-/// Returns the pose of a flag "x,y,deg"; the identity for an empty list.
+/// Returns the check of an option that must be a number from `low` to `high`. Unlike CLI11's own it
+/// lets no "nan" through, nor a negative count that wraps around.
+CLI::Validator numberFrom(double low, double high);
+
+/// Adds an option "x,y,deg", a pose whose numbers are bounded.
+CLI::Option* addPoseOption(CLI::App& command, const std::string& name, std::vector<double>& values,
+                           const std::string& description);
+
+/// Returns the pose of such an option; the identity for an empty list.
 mrpt::math::TPose2D poseOfFlag(const std::vector<double>& values);
 
 /// Returns the files that a run reads: those of a map source, none for an empty path, and `others`.

@@ -72,21 +72,22 @@ std::function<int()> setUpLandmarks(CLI::App& command, const std::string& comman
   command
       .add_option("--local-map-steps", options.local_map_steps,
                   "dlr: steps a local map holds, one row each")
+      ->check(numberFrom(1, 1e6))
       ->delimiter(',');
   command.add_option("--map-part", flags->map_part, "dlr: map of the first half, or as given")
       ->check(CLI::IsMember({"first-half", "given"}));
   command
       .add_option("--visited-share", options.visited_share,
                   "dlr: a query is a later visit when more than this share of its discs is mapped")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(numberFrom(0, 1));
   command
       .add_option("--visited-distance", options.visited_distance,
                   "dlr: and when a pose of the first half is so near, m")
-      ->check(CLI::PositiveNumber);
+      ->check(numberFrom(1e-3, 1e3));
   command.add_option("--max-travel", options.max_travel, "victoria-park: m, longest local map")
-      ->check(CLI::PositiveNumber);
+      ->check(numberFrom(1e-3, 1e6));
   command.add_option("--stride", options.query_stride, "every so many steps is a query")
-      ->check(CLI::PositiveNumber);
+      ->check(numberFrom(1, 1e6));
   flags->common.declare(command, featureMethodNames());
   return [flags, command_line, &command]
   {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "commands.h"
+#include "sigloc/bridge/LocalizationSetup.h"
 
 namespace
 {
@@ -67,7 +68,7 @@ int main(int argc, char** argv)
   }
   catch (const std::exception& error)
   {
-    std::cerr << "sigloc-eval: " << error.what() << "\n";
+    std::cerr << "sigloc-eval: " << sigloc::firstLine(error.what()) << "\n";
     return 1;
   }
   return 1;

@@ -41,10 +41,7 @@ std::function<int()> setUpReference(CLI::App& command, const std::string& /*comm
   const auto flags = std::make_shared<ReferenceFlags>();
   command.add_option("--map", flags->map, "a map of scans, as sigloc-map build takes")->required();
   command.add_option("--rawlog", flags->rawlog, "with odometry")->required();
-  command.add_option("--last", flags->last, "x,y,deg: the known pose at the end of the log")
-      ->delimiter(',')
-      ->expected(3)
-      ->required();
+  addPoseOption(command, "--last", flags->last, "the known pose at the end of the log")->required();
   command.add_option("--out", flags->out, "file for the rows `time x y phi`")->required();
   return [flags] { return flags->run(); };
 }

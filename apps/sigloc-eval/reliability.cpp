@@ -35,11 +35,15 @@ std::function<int()> setUpReliability(CLI::App& command, const std::string& comm
 {
   const auto flags = std::make_shared<ReliabilityFlags>();
   ReliabilityOptions& options = flags->options;
-  command.add_option("--worlds", options.worlds, "simulated buildings")->capture_default_str();
-  command.add_option("--poses", options.poses, "scans a building")->capture_default_str();
+  command.add_option("--worlds", options.worlds, "simulated buildings")
+      ->check(numberFrom(1, 1e6))
+      ->capture_default_str();
+  command.add_option("--poses", options.poses, "scans a building")
+      ->check(numberFrom(1, 1e6))
+      ->capture_default_str();
   command.add_option("--clutter", options.clutter, "shares of beams that end too early")
       ->delimiter(',')
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(numberFrom(0, 1));
   flags->common.declareRunning(command);
   return [flags, command_line] { return flags->run(command_line); };
 }

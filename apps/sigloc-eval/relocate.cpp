@@ -63,11 +63,8 @@ std::function<int()> setUpRelocate(CLI::App& command, const std::string& command
                      "truth of the rawlog: rows `time x y phi`, or 3 or 7 columns");
   command.add_option("--interleave", sources.interleave,
                      "every k-th scan of the map is a query, the rest map");
-  command
-      .add_option("--map-from-queries", flags->map_from_queries,
-                  "x,y,deg: frame of the queries' truth in the map")
-      ->delimiter(',')
-      ->expected(3);
+  addPoseOption(command, "--map-from-queries", flags->map_from_queries,
+                "frame of the queries' truth in the map");
   command.add_flag("--foreign", sources.foreign, "the queries are of another place");
   command.add_flag("--simulated", flags->simulated,
                    "the truth is exact: every confident answer that is not right is wrong");

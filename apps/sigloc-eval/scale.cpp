@@ -14,6 +14,9 @@ namespace sigloc
 {
 namespace
 {
+constexpr double kMostFeatures = 1e7;
+constexpr double kMostPoses = 1e6;
+
 struct ScaleFlags
 {
   CommonOptions common;
@@ -61,28 +64,31 @@ std::function<int()> setUpScale(CLI::App& command, const std::string& command_li
   command
       .add_option("--map-features", options.map_features,
                   "map sizes (default: 1000,4000,16000, on the DLR log 50,100,200 and all)")
+      ->check(numberFrom(1, kMostFeatures))
       ->delimiter(',');
   command
       .add_option("--observed", options.observed,
                   "counts that the observed features are thinned to, in the first map")
+      ->check(numberFrom(1, kMostFeatures))
       ->delimiter(',');
   command.add_option("--density", options.world.density, "features per m^2")
-      ->check(CLI::PositiveNumber);
+      ->check(numberFrom(1e-3, 100));
   command.add_option("--range", options.world.range, "m, within which features are seen")
-      ->check(CLI::PositiveNumber);
+      ->check(numberFrom(0.1, 1000));
   command.add_option("--noise", options.world.observation_sigma, "m, of the observations")
-      ->check(CLI::NonNegativeNumber);
+      ->check(numberFrom(0, 10));
   command.add_option("--spurious", options.world.spurious, "share of the observed features")
-      ->check(CLI::Range(0.0, 0.95));
-  command.add_option("--poses", options.poses, "poses a row")->check(CLI::PositiveNumber);
+      ->check(numberFrom(0, 0.95));
+  command.add_option("--poses", options.poses, "poses a row")->check(numberFrom(1, kMostPoses));
   command
       .add_option("--slow-poses", options.slow_poses, "poses a row of methods linear in the map")
-      ->check(CLI::PositiveNumber);
-  command.add_option("--slow-limit", options.slow_limit, "largest map for those");
+      ->check(numberFrom(1, kMostPoses));
+  command.add_option("--slow-limit", options.slow_limit, "largest map for those")
+      ->check(numberFrom(0, kMostFeatures));
   CLI::Option* const dlr = command.add_option(
       "--dlr", options.dlr, "folder of the DLR log: growth on it, not in simulated worlds");
   command.add_option("--local-map-steps", options.local_map_steps, "on the log: of a local map")
-      ->check(CLI::PositiveNumber)
+      ->check(numberFrom(1, kMostPoses))
       ->needs(dlr);
   for (const char* of_worlds :
        {"--density", "--range", "--noise", "--spurious", "--slow-poses", "--slow-limit"})

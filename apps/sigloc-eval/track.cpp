@@ -16,6 +16,8 @@ namespace sigloc
 {
 namespace
 {
+constexpr double kMostParticles = 1e7;
+
 struct TrackFlags
 {
   CommonOptions common;
@@ -121,7 +123,7 @@ void declareSimulation(CLI::App& command, TrackFlags& flags)
       command
           .add_option("--simulate", options.drives,
                       "drives in simulated worlds, instead of --map, --rawlog, --ground-truth")
-          ->check(CLI::PositiveNumber);
+          ->check(numberFrom(1, 1e7));
   for (const char* of_logs : {"--map", "--rawlog", "--ground-truth", "--start-from",
                               "--map-from-truth", "--starts", "--landmarks", "--landmark-folder"})
   {
@@ -141,16 +143,18 @@ void declareSimulation(CLI::App& command, TrackFlags& flags)
   command.add_option("--worlds", flags.worlds, "office,corridor,hall,park,points: kinds, in turn")
       ->delimiter(',');
   command.add_option("--clutter", options.clutter_share, "share of beams that end too early")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(numberFrom(0, 1))
       ->capture_default_str();
   command.add_option("--moved-share", options.moved_share, "share of furniture moved since mapped")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(numberFrom(0, 1))
       ->capture_default_str();
   command.add_option("--unmapped", options.extra_items, "pieces of furniture added since mapped")
       ->capture_default_str();
   command.add_option("--mapped-share", options.mapped_share, "share of the world that is mapped")
+      ->check(numberFrom(1e-3, 1))
       ->capture_default_str();
   command.add_option("--map-sigma", options.map_sigma, "[m] error common to all of a map")
+      ->check(numberFrom(0, 100))
       ->capture_default_str();
   command.add_flag("!--no-odometry", options.odometry, "scans alone");
   simulate->group(group);
@@ -174,22 +178,24 @@ std::function<int()> setUpTrack(CLI::App& command, const std::string& command_li
   command.add_option("--landmarks", options.landmarks,
                      "dlr or victoria-park: a landmark log in place of these");
   command.add_option("--landmark-folder", options.landmark_folder, "where it is");
-  command.add_option("--starts", options.starts, "places to wake up at")->capture_default_str();
-  command.add_option("--travel", options.travel, "[m] driven after each")->capture_default_str();
+  command
+      .add_option("--starts", options.starts,
+                  "places to wake up at, spaced along the drive; more than it has are refused")
+      ->capture_default_str();
+  command.add_option("--travel", options.travel, "[m] driven after each")
+      ->check(numberFrom(0, 1e6))
+      ->capture_default_str();
   command.add_option("--start-from", options.start_from,
                      "simplemap: wake up only where its key frames were taken");
   command
       .add_option("--particles", options.method.particles,
                   "of the particle filters, instead of their own number")
-      ->check(CLI::PositiveNumber);
+      ->check(numberFrom(1, kMostParticles));
   command.add_flag("--foreign", options.foreign,
                    "the map is of another place: every claim is wrong, and no truth is read");
   command.add_flag("--kidnap", options.kidnap, "half-way, carry the robot to another start");
-  command
-      .add_option("--map-from-truth", flags->map_from_truth,
-                  "x,y,deg: frame of the truth in the map")
-      ->delimiter(',')
-      ->expected(3);
+  addPoseOption(command, "--map-from-truth", flags->map_from_truth,
+                "frame of the truth in the map");
   declareSimulation(command, *flags);
   flags->common.declare(command, trackingMethodNames());
   return [flags, command_line] { return flags->run(command_line); };

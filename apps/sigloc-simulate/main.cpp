@@ -33,6 +33,22 @@ bool isScanned(sigloc::WorldKind kind)
   return kind != sigloc::WorldKind::points;
 }
 
+/// How the maps are made.
+struct MapOptions
+{
+  double map_spacing = 1.5;
+  double resolution = 0.05;
+
+  template <class V>
+  static void visitFields(V&& visit)
+  {
+    using O = MapOptions;
+    visit(sigloc::OptionField{"map_spacing", &O::map_spacing, 0.2, 100.0,
+                              "[m] between the mapping scans"});
+    visit(sigloc::OptionField{"resolution", &O::resolution, 0.005, 1.0, "[m] of the grid map"});
+  }
+};
+
 /// All that the command line sets.
 struct Settings
 {
@@ -41,8 +57,7 @@ struct Settings
   std::uint64_t drive_seed = 0;
   std::string log = "action-frame";
   std::string out;
-  double map_spacing = 1.5;
-  double resolution = 0.05;
+  MapOptions maps;
   sigloc::WorldOptions layout;
   sigloc::WorldChangeOptions changes;
   sigloc::LaserOptions laser;
@@ -114,16 +129,8 @@ void describeOptions(CLI::App& app, Settings& settings)
   app.add_option("--log", settings.log, "kind of rawlog: action-frame or observations")
       ->check(CLI::IsMember({"action-frame", "observations"}))
       ->capture_default_str();
-  const CLI::Option* const spacing =
-      app.add_option("--map-spacing", settings.map_spacing, "[m] between the mapping scans")
-          ->check(CLI::Range(0.2, 100.0))
-          ->capture_default_str();
-  const CLI::Option* const resolution =
-      app.add_option("--resolution", settings.resolution, "[m] of the grid map")
-          ->check(CLI::Range(0.005, 1.0))
-          ->capture_default_str();
-  limit({{"map_spacing", spacing}, {"resolution", resolution}}, scanned);
   app.add_option("--out", settings.out, "folder for the files; made when missing")->required();
+  limit(addFlags(app, settings.maps, "Maps", ""), scanned);
   limit(addFlags(app, settings.layout, "World", "", {{"furniture_per_room", "--furniture"}}),
         by_key);
   limit(addFlags(app, settings.changes, "What the drive finds changed since the map was made",
@@ -165,7 +172,8 @@ void simulateLaser(const Settings& settings, const std::filesystem::path& out,
                    const sigloc::World& world, const std::string& command)
 {
   using namespace sigloc;
-  const auto mapping = simulateMapping(world, settings.map_spacing, settings.drive.clearance,
+  checkOptions(settings.maps);
+  const auto mapping = simulateMapping(world, settings.maps.map_spacing, settings.drive.clearance,
                                        settings.laser, settings.seed);
   const World driven = changedWorld(world, settings.changes, settings.seed);
   const auto steps =
@@ -173,7 +181,7 @@ void simulateLaser(const Settings& settings, const std::filesystem::path& out,
   const auto kind =
       settings.log == "observations" ? RawlogKind::observations : RawlogKind::action_frame;
   writeSimpleMap(mapping, out / "map.simplemap");
-  writeGridMap(world, settings.resolution, out / "map.gridmap.gz");
+  writeGridMap(world, settings.maps.resolution, out / "map.gridmap.gz");
   writeRawlog(steps, settings.odometry, kind, out / "drive.rawlog");
   writeTruth(steps, out / "truth.txt");
   writeSimulationNote(command,

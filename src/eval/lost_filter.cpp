@@ -6,6 +6,8 @@
 #include <mrpt/maps/COccupancyGridMap2D.h>
 #include <mrpt/random/RandomGenerators.h>
 
+#include <stdexcept>
+
 namespace sigloc::detail
 {
 LostFilter::LostFilter(const mrpt::maps::CMultiMetricMap::Ptr& map,
@@ -19,10 +21,17 @@ LostFilter::LostFilter(const mrpt::maps::CMultiMetricMap::Ptr& map,
   executor_.m_options.loadFromConfigFile(config, "PF_options");
   const PoseRegion region = startRegionOf(settings);
   const auto grid = map->mapByClass<mrpt::maps::COccupancyGridMap2D>();
-  filter_.resetUniformFreeSpace(grid.get(), 0.7, static_cast<int>(settings.particles), region.x_min,
-                                region.x_max, region.y_min, region.y_max,
-                                region.heading - region.heading_tolerance,
-                                region.heading + region.heading_tolerance);
+  try
+  {
+    filter_.resetUniformFreeSpace(grid.get(), 0.7, static_cast<int>(settings.particles),
+                                  region.x_min, region.x_max, region.y_min, region.y_max,
+                                  region.heading - region.heading_tolerance,
+                                  region.heading + region.heading_tolerance);
+  }
+  catch (const std::logic_error&)  // MRPT asserts that there is a free cell
+  {
+    throw std::invalid_argument("the map has no free place inside the region");
+  }
 }
 
 void LostFilter::update(const mrpt::obs::CActionCollection* actions,

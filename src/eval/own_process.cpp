@@ -7,7 +7,11 @@
 
 #include <array>
 #include <stdexcept>
+#include <string>
 #include <type_traits>
+#include <utility>
+
+#include "sigloc/bridge/LocalizationSetup.h"
 
 namespace sigloc::detail
 {
@@ -20,6 +24,7 @@ struct Header
   std::size_t start;
   std::size_t kidnapped_at;
   std::size_t steps;
+  std::size_t reason;  // characters that say why there is no run, 0: there is one
 };
 
 bool writeAll(int file, const void* data, std::size_t bytes)
@@ -48,21 +53,57 @@ bool readAll(int file, void* data, std::size_t bytes)
   return true;
 }
 
+bool sendRun(int out, const TrackRun& run)
+{
+  const Header header{run.start, run.kidnapped_at, run.steps.size(), 0};
+  return writeAll(out, &header, sizeof(header)) &&
+         writeAll(out, run.steps.data(), run.steps.size() * sizeof(TrackStepRecord));
+}
+
+void sendFailure(int out, const std::string& reason)
+{
+  const Header header{0, 0, 0, reason.size()};
+  if (writeAll(out, &header, sizeof(header))) writeAll(out, reason.data(), reason.size());
+}
+
 // The worker: never returns, so that nothing of the parent is run or flushed twice.
 [[noreturn]] void work(int out, const std::function<TrackRun()>& job)
 {
   try
   {
-    const TrackRun run = job();
-    const Header header{run.start, run.kidnapped_at, run.steps.size()};
-    const bool sent = writeAll(out, &header, sizeof(header)) &&
-                      writeAll(out, run.steps.data(), run.steps.size() * sizeof(TrackStepRecord));
-    _exit(sent ? 0 : 1);
+    _exit(sendRun(out, job()) ? 0 : 1);
+  }
+  catch (const std::exception& error)
+  {
+    sendFailure(out, firstLine(error.what()));
   }
   catch (...)
   {
-    _exit(1);
+    // The parent says that it failed.
   }
+  _exit(1);
+}
+
+struct Received
+{
+  TrackRun run;
+  std::string failure = "a worker process failed";  // empty: there is a run
+};
+
+Received receive(int in)
+{
+  Received received;
+  Header header{};
+  if (!readAll(in, &header, sizeof(header))) return received;
+  std::string reason(header.reason, ' ');
+  TrackRun& run = received.run;
+  run.start = header.start;
+  run.kidnapped_at = header.kidnapped_at;
+  run.steps.resize(header.steps);
+  const bool whole = readAll(in, reason.data(), reason.size()) &&
+                     readAll(in, run.steps.data(), header.steps * sizeof(TrackStepRecord));
+  if (whole) received.failure = reason;
+  return received;
 }
 }  // namespace
 
@@ -77,20 +118,10 @@ TrackRun runInOwnProcess(const std::function<TrackRun()>& job)
     work(ends[1], job);
   }
   close(ends[1]);
-  Header header{};
-  TrackRun run;
-  bool received = child > 0 && readAll(ends[0], &header, sizeof(header));
-  if (received)
-  {
-    run.start = header.start;
-    run.kidnapped_at = header.kidnapped_at;
-    run.steps.resize(header.steps);
-    received = readAll(ends[0], run.steps.data(), header.steps * sizeof(TrackStepRecord));
-  }
+  Received received = receive(ends[0]);
   close(ends[0]);
-  int status = 0;
-  if (child > 0) waitpid(child, &status, 0);
-  if (!received || status != 0) throw std::runtime_error("a worker process failed");
-  return run;
+  if (child > 0) waitpid(child, nullptr, 0);
+  if (!received.failure.empty()) throw std::runtime_error(received.failure);
+  return std::move(received.run);
 }
 }  // namespace sigloc::detail

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <stdexcept>
 
+#include "sigloc/bridge/counted.h"
 #include "sigloc/bridge/GroundTruth.h"
 #include "sigloc/bridge/map_sources.h"
 #include "sigloc/eval/cpu_time.h"
@@ -108,42 +109,70 @@ constexpr double kRounding = 1e-6;  // [m]
 
 constexpr double kLongestStep = 1.0;  // [m] that the way between two allowed starts counts at most
 
-// Places equally spaced in the distance travelled, so that no luck is chosen. Where the log leaves
-// the places that are allowed, the way counts no more: else the last place before would be asked
-// again and again.
-std::vector<std::size_t> startsOf(const TrackDrive& drive, const TrackOptions& options)
+/// A step that the robot may wake up at, and how far along the allowed steps it is.
+struct Place
 {
-  std::vector<std::size_t> allowed;
-  const double last = drive.steps.empty() ? 0 : drive.steps.back().travelled - options.travel;
+  std::size_t step;
+  double way;  // [m]
+};
+
+// Where the log leaves the places that are allowed, the way counts no more: else the last place
+// before would be asked again and again. A robot that stands still is at one place only.
+std::vector<Place> placesOf(const TrackDrive& drive, double travel)
+{
+  std::vector<Place> places;
+  const double last = drive.steps.empty() ? 0 : drive.steps.back().travelled - travel;
+  double way = 0;
+  double before = 0;
   for (std::size_t i = 0; i < drive.steps.size(); ++i)
   {
-    if (drive.steps[i].may_start && drive.steps[i].travelled <= last + kRounding)
-    {
-      allowed.push_back(i);
-    }
+    const TrackDriveStep& step = drive.steps[i];
+    if (!step.may_start || step.travelled > last + kRounding) continue;
+    if (!places.empty()) way += std::min(step.travelled - before, kLongestStep);
+    before = step.travelled;
+    if (places.empty() || way > places.back().way) places.push_back({i, way});
   }
-  if (allowed.empty())
-  {
-    const auto& path = options.landmarks.empty() ? options.rawlog : options.landmark_folder;
-    throw std::runtime_error(path.string() + ": no step" + (options.foreign ? "" : " with truth") +
-                             " has " + fixedNumber(options.travel, 1) + " m of drive after it");
-  }
-  std::vector<double> way = {0};
-  for (std::size_t k = 1; k < allowed.size(); ++k)
-  {
-    const double step = drive.steps[allowed[k]].travelled - drive.steps[allowed[k - 1]].travelled;
-    way.push_back(way.back() + std::min(step, kLongestStep));
-  }
+  return places;
+}
+
+// Equally spaced in the distance travelled, so that no luck is chosen; none twice, for what is
+// asked again tells nothing new.
+std::vector<std::size_t> spacedStarts(const std::vector<Place>& places, std::size_t count)
+{
   std::vector<std::size_t> starts;
-  for (std::uint32_t k = 0; k < options.starts; ++k)
+  std::size_t next = 0;
+  for (std::size_t k = 0; k < count; ++k)
   {
-    const double wanted = way.back() * k / std::max(1U, options.starts - 1);
-    const auto nearest = std::min_element(way.begin(), way.end(),
-                                          [&](double a, double b)
-                                          { return std::abs(a - wanted) < std::abs(b - wanted); });
-    starts.push_back(allowed[static_cast<std::size_t>(nearest - way.begin())]);
+    const double wanted = places.back().way * static_cast<double>(k) /
+                          static_cast<double>(std::max<std::size_t>(1, count - 1));
+    const auto nearer = [&](const Place& a, const Place& b)
+    { return std::abs(a.way - wanted) < std::abs(b.way - wanted); };
+    // Enough are left over for those to come.
+    const auto first = places.begin() + static_cast<std::ptrdiff_t>(next);
+    const auto end = places.end() - static_cast<std::ptrdiff_t>(count - 1 - k);
+    const auto chosen = std::min_element(first, end, nearer);
+    starts.push_back(chosen->step);
+    next = static_cast<std::size_t>(chosen - places.begin()) + 1;
   }
   return starts;
+}
+
+std::vector<std::size_t> startsOf(const TrackDrive& drive, const TrackOptions& options)
+{
+  const std::vector<Place> places = placesOf(drive, options.travel);
+  const auto& path = options.landmarks.empty() ? options.rawlog : options.landmark_folder;
+  const std::string after = fixedNumber(options.travel, 1) + " m of drive after it";
+  if (places.empty())
+  {
+    throw std::runtime_error(path.string() + ": no step" + (options.foreign ? "" : " with truth") +
+                             " has " + after);
+  }
+  if (options.starts > places.size())
+  {
+    throw std::runtime_error("--starts " + std::to_string(options.starts) + ": " + path.string() +
+                             " has only " + counted(places.size(), "place") + " with " + after);
+  }
+  return spacedStarts(places, options.starts);
 }
 
 TrackLeg legFrom(const TrackDrive& drive, std::size_t start, double travel)

@@ -15,6 +15,13 @@ const std::string kOffice =
     (std::filesystem::path(SIGLOC_SHARE_FOLDER) / ".." / ".." / "maps" / "office.simplemap")
         .string();
 
+const std::string kOfficeLog =
+    (std::filesystem::path(SIGLOC_SHARE_FOLDER) / ".." / ".." / "rawlogs" / "office.rawlog")
+        .string();
+const std::string kOfficeTruth =
+    (std::filesystem::path(SIGLOC_SHARE_FOLDER) / ".." / ".." / "rawlogs" / "office-truth.txt")
+        .string();
+
 /// A call that must fail with one line on stderr that says `complaint`, and write nothing.
 struct Refusal
 {
@@ -75,13 +82,48 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"RegionForScale",
                 {"scale", "--region", "0,1,0,1", "--out", "out"},
                 "takes no --region"},
+        Refusal{"DensityThatIsNoNumber",
+                {"scale", "--density", "nan", "--out", "out"},
+                "--density: nan: not a number from"},
+        Refusal{"DensityOfAPile",
+                {"scale", "--density", "1e9", "--out", "out"},
+                "--density: 1e9: not a number from 0.001 to 100"},
+        Refusal{"SpuriousShareThatIsNoNumber",
+                {"scale", "--spurious", "nan", "--out", "out"},
+                "--spurious: nan"},
+        Refusal{"RangeThatIsNoNumber", {"scale", "--range", "nan", "--out", "out"}, "--range: nan"},
+        Refusal{"NegativeMapFeatures",
+                {"scale", "--map-features", "-1", "--out", "out"},
+                "--map-features: -1: not a number from 1"},
+        Refusal{"NoParticles",
+                {"track", "--simulate", "1", "--method", "mcl", "--particles", "0", "--out", "out"},
+                "--particles: 0: not a number from 1"},
+        Refusal{"EndlessTravel",
+                {"track", "--simulate", "1", "--travel", "1e30", "--out", "out"},
+                "--travel: 1e30"},
+        Refusal{"MapErrorWithoutEnd",
+                {"track", "--simulate", "1", "--map-sigma", "inf", "--out", "out"},
+                "--map-sigma: inf"},
+        Refusal{"FrameThatIsNoNumber",
+                {"relocate", "--map", kOffice, "--queries", kOffice, "--map-from-queries",
+                 "nan,0,0", "--out", "out"},
+                "--map-from-queries: nan"},
+        Refusal{"MoreStartsThanPlaces",
+                {"track", "--map", kOffice, "--rawlog", kOfficeLog, "--ground-truth", kOfficeTruth,
+                 "--starts", "100000", "--travel", "5", "--out", "out"},
+                "places with 5.0 m of drive after it"},
+        Refusal{"FilterInARegionOfWall",
+                {"track", "--map", kOffice, "--rawlog", kOfficeLog, "--ground-truth", kOfficeTruth,
+                 "--starts", "1", "--travel", "1", "--method", "mcl", "--region", "-1,-1,-1,-1",
+                 "--out", "out"},
+                "no free place inside the region"},
         Refusal{"StartsOfASimulation",
                 {"track", "--simulate", "2", "--starts", "3", "--out", "out"},
                 "--starts"},
         Refusal{"NegativeTravel",
                 {"track", "--landmarks", "dlr", "--landmark-folder", ".", "--travel", "-5", "--out",
                  "out"},
-                "--travel must be a length"},
+                "--travel: -5: not a number from 0"},
         Refusal{"LandmarksOfASimulation",
                 {"track", "--landmarks", "dlr", "--landmark-folder", ".", "--simulate", "2",
                  "--out", "out"},

@@ -101,6 +101,33 @@ TrackOptions officeOptions()
   return options;
 }
 
+TEST(Track, AsksNoPlaceTwice)
+{
+  TrackOptions options = officeOptions();
+  options.methods = {"signature"};
+  options.travel = 43;
+  options.starts = 1000000;
+  std::size_t places = 0;
+  try
+  {
+    runTrack(options);
+    FAIL() << "more starts than places";
+  }
+  catch (const std::runtime_error& error)
+  {
+    const std::string message = error.what();
+    const std::string before = "has only ";
+    const auto at = message.find(before);
+    ASSERT_NE(at, std::string::npos) << message;
+    places = std::stoul(message.substr(at + before.size()));
+  }
+  ASSERT_GE(places, 2U);
+  options.starts = static_cast<std::uint32_t>(places);
+  std::set<std::size_t> starts;
+  for (const TrackRun& run : runTrack(options).methods.front().runs) starts.insert(run.start);
+  EXPECT_EQ(starts.size(), places);
+}
+
 TEST(Track, GivesTheSameStepsOnOneAndTwoThreads)
 {
   TrackOptions options = officeOptions();

@@ -30,7 +30,7 @@ struct TrackOptions
   std::filesystem::path ground_truth;
   std::filesystem::path start_from;  ///< simplemap: starts only at its key frames' times, or empty
   mrpt::math::TPose2D map_from_truth;
-  std::uint32_t starts = 10;
+  std::uint32_t starts = 10;  ///< places to wake up at, none twice
   double travel = 20;  ///< [m] driven after a start, and again after a kidnapping
   bool kidnap = false;
   bool foreign = false;
