@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "map_reach.h"
 #include "sigloc/bridge/counted.h"
 #include "sigloc/bridge/scan_conversion.h"
 #include "sigloc/bridge/scene_building.h"
@@ -187,6 +188,10 @@ bool SignatureMap::internal_insertObservation(const CObservation& observation,
   }
   PosedScans look;
   if (robot_pose) look.map_from_robot = CPose2D(*robot_pose).asTPose();
+  if (const auto reason = detail::beyondReach(look.map_from_robot.x, look.map_from_robot.y))
+  {
+    throw std::invalid_argument("SignatureMap: a pose that " + *reason);
+  }
   look.scans.push_back(std::move(*scan));
   const std::lock_guard<std::mutex> lock(learnt_.mutex);
   // Only what takes in the scan is kept.

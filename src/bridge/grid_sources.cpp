@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <mrpt/containers/yaml.h>
 #include <mrpt/maps/COccupancyGridMap2D.h>
+#include <mrpt/math/TPose2D.h>
+#include <mrpt/math/wrap2pi.h>
 
 #include <algorithm>
 #include <array>
@@ -11,9 +13,11 @@
 #include <string>
 
 #include "gzip_input.h"
+#include "map_reach.h"
 #include "map_source_readers.h"
 #include "QuietOutput.h"
 #include "sigloc/bridge/map_sources.h"
+#include "sigloc/map/raster_limits.h"
 
 namespace sigloc
 {
@@ -43,6 +47,7 @@ CellState stateOf(float free_probability)
 OccupancyRaster usableRasterOf(const COccupancyGridMap2D& grid, const std::filesystem::path& path)
 {
   OccupancyRaster raster = rasterOf(grid);
+  if (const auto reason = unusableCells(raster.frame.resolution)) fail(path, *reason);
   bool has_wall = false;
   bool has_free = false;
   for (const CellState cell : raster.cells)
@@ -59,8 +64,28 @@ OccupancyRaster usableRasterOf(const COccupancyGridMap2D& grid, const std::files
 struct RosMapHeader
 {
   std::filesystem::path image;
-  double yaw = 0;  ///< [rad], of the origin
+  mrpt::math::TPose2D origin;  ///< of the image's lower left corner in the map
+  double resolution = 0;  ///< [m]
+  double free_threshold = 0;  ///< occupancy below is free ...
+  double occupied_threshold = 1;  ///< ... and above a wall
 };
+
+void check(const RosMapHeader& header, const std::filesystem::path& path)
+{
+  constexpr double kSameTurn = 1e-6;  // [rad]
+  if (const auto reason = unusableCells(header.resolution)) fail(path, *reason);
+  if (const auto reason = detail::beyondReach(header.origin.x, header.origin.y))
+  {
+    fail(path, *reason);
+  }
+  if (!(std::abs(mrpt::math::wrapToPi(header.origin.phi)) <= kSameTurn))
+  {
+    fail(path, "an origin with a yaw is not supported");
+  }
+  const bool ordered = header.free_threshold >= 0 && header.occupied_threshold <= 1 &&
+                       header.free_threshold <= header.occupied_threshold;
+  if (!ordered) fail(path, "needs 0 <= free_thresh <= occupied_thresh <= 1");
+}
 
 RosMapHeader readRosMapHeader(const std::filesystem::path& path)
 {
@@ -71,17 +96,19 @@ RosMapHeader readRosMapHeader(const std::filesystem::path& path)
     const detail::QuietOutput quiet;
     const auto yaml = mrpt::containers::yaml::FromFile(path.string());
     header.image = yaml["image"].as<std::string>();
-    const double resolution = yaml["resolution"].as<double>();
+    header.resolution = yaml["resolution"].as<double>();
     const auto origin = yaml["origin"];
-    header.yaw = origin(2).as<double>();
-    const bool finite = std::isfinite(origin(0).as<double>()) &&
-                        std::isfinite(origin(1).as<double>()) && std::isfinite(header.yaw);
-    if (!finite || !(resolution > 0)) throw std::invalid_argument("not a place");
+    header.origin = {origin(0).as<double>(), origin(1).as<double>(), origin(2).as<double>()};
+    header.free_threshold = yaml["free_thresh"].as<double>();
+    header.occupied_threshold = yaml["occupied_thresh"].as<double>();
   }
   catch (const std::exception&)
   {
-    fail(path, "not a ROS map: 'image', 'resolution' and 'origin: [x, y, yaw]' are needed");
+    fail(path,
+         "not a ROS map: 'image', 'resolution', 'origin: [x, y, yaw]', 'free_thresh' and "
+         "'occupied_thresh' are needed");
   }
+  check(header, path);
   if (header.image.is_relative()) header.image = path.parent_path() / header.image;
   return header;
 }
@@ -131,7 +158,6 @@ std::filesystem::path imageOfRosMap(const std::filesystem::path& path)
 OccupancyRaster readRosMap(const std::filesystem::path& path)
 {
   const RosMapHeader header = readRosMapHeader(path);
-  if (std::abs(header.yaw) > 1e-9) fail(path, "an origin with a yaw is not supported");
   requireFile(header.image);
   COccupancyGridMap2D grid;
   try
@@ -141,7 +167,7 @@ OccupancyRaster readRosMap(const std::filesystem::path& path)
   }
   catch (const std::exception&)
   {
-    fail(path, "its image '" + header.image.string() + "' or its thresholds cannot be read");
+    fail(path, "its image '" + header.image.string() + "' cannot be read");
   }
   return usableRasterOf(grid, path);
 }

@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "gzip_input.h"
+#include "map_reach.h"
 #include "map_source_readers.h"
 #include "sigloc/bridge/scan_conversion.h"
 #include "sigloc/bridge/sigmap_file.h"
@@ -71,6 +72,26 @@ std::string checksumOf(const std::filesystem::path& path)
   std::string bytes;
   for (const std::filesystem::path& file : filesOfMapSource(path)) appendBytes(file, bytes);
   return mrpt::system::md5(bytes);
+}
+
+MapSource read(const std::filesystem::path& path)
+{
+  switch (formatOf(path))
+  {
+    case Format::simplemap:
+      return detail::readSimplemap(path);
+    case Format::gridmap:
+      return detail::readGridmap(path);
+    case Format::ros_map:
+      return detail::readRosMap(path);
+    case Format::carmen_log:
+      return detail::readCarmenLog(path);
+    case Format::landmarks:
+      return detail::readLandmarks(path);
+    case Format::sigmap:
+      break;
+  }
+  return loadSigmap(path);
 }
 
 template <class Options>
@@ -153,22 +174,9 @@ std::vector<PosedScans> readSimplemap(const std::filesystem::path& path)
 MapSource readMapSource(const std::filesystem::path& path)
 {
   detail::requireFile(path);
-  switch (formatOf(path))
-  {
-    case Format::simplemap:
-      return detail::readSimplemap(path);
-    case Format::gridmap:
-      return detail::readGridmap(path);
-    case Format::ros_map:
-      return detail::readRosMap(path);
-    case Format::carmen_log:
-      return detail::readCarmenLog(path);
-    case Format::landmarks:
-      return detail::readLandmarks(path);
-    case Format::sigmap:
-      break;
-  }
-  return loadSigmap(path);
+  MapSource source = read(path);
+  detail::requireWithinReach(source, path);
+  return source;
 }
 
 std::vector<std::filesystem::path> filesOfMapSource(const std::filesystem::path& path)

@@ -11,6 +11,7 @@
 #include "feature_archive.h"
 #include "gzip_input.h"
 #include "gzip_output.h"
+#include "map_reach.h"
 
 namespace sigloc
 {
@@ -124,16 +125,9 @@ FeatureMap readFeatureMap(CArchive& in)
   return FeatureMap(std::move(features), std::move(field), error, std::move(provenance));
 }
 
-void saveSigmap(const FeatureMap& map, const std::filesystem::path& path)
+namespace
 {
-  detail::GzipOutput output(path);
-  auto archive = mrpt::serialization::archiveFrom(output);
-  archive.WriteBuffer(kMagic, kMagicSize);
-  writeFeatureMap(map, archive);
-  output.commit();
-}
-
-FeatureMap loadSigmap(const std::filesystem::path& path)
+FeatureMap readSigmap(const std::filesystem::path& path)
 {
   detail::GzipInput input(path);
   char magic[kMagicSize] = {};
@@ -152,5 +146,22 @@ FeatureMap loadSigmap(const std::filesystem::path& path)
     if (what.find("feature map of version") != std::string::npos) reason = what;
   }
   fail(path, reason);
+}
+}  // namespace
+
+void saveSigmap(const FeatureMap& map, const std::filesystem::path& path)
+{
+  detail::GzipOutput output(path);
+  auto archive = mrpt::serialization::archiveFrom(output);
+  archive.WriteBuffer(kMagic, kMagicSize);
+  writeFeatureMap(map, archive);
+  output.commit();
+}
+
+FeatureMap loadSigmap(const std::filesystem::path& path)
+{
+  FeatureMap map = readSigmap(path);
+  detail::requireWithinReach(map, path);
+  return map;
 }
 }  // namespace sigloc

@@ -157,19 +157,25 @@ EvaluationMap evaluationMapFromScans(const std::vector<PosedScans>& scans)
 
 EvaluationMap readEvaluationMap(const std::filesystem::path& path)
 {
-  EvaluationMap map = evaluationMapOf(readMapSource(path));
-  map.file = path;
-  return map;
+  try
+  {
+    EvaluationMap map = evaluationMapOf(readMapSource(path));
+    map.file = path;
+    return map;
+  }
+  catch (const std::invalid_argument& error)
+  {
+    throw std::runtime_error(path.string() + ": " + error.what());
+  }
 }
 
 EvaluationData readEvaluationData(const EvaluationSources& sources)
 {
   checkSources(sources);
   EvaluationData data;
-  MapSource source = readMapSource(sources.map);
   if (sources.interleave > 0)
   {
-    const std::vector<PosedScans> all = scansOf(std::move(source), sources.map);
+    const std::vector<PosedScans> all = scansOf(readMapSource(sources.map), sources.map);
     std::vector<PosedScans> mapped;
     std::vector<PosedScans> asked;
     for (std::size_t i = 0; i < all.size(); ++i)
@@ -181,8 +187,7 @@ EvaluationData readEvaluationData(const EvaluationSources& sources)
   }
   else
   {
-    data.map = evaluationMapOf(source);
-    data.map.file = sources.map;
+    data.map = readEvaluationMap(sources.map);
     if (sources.rawlog.empty())
     {
       data.queries = queriesOf(scansOf(readMapSource(sources.queries), sources.queries), sources);

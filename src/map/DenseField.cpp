@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 #include <stdexcept>
+
+#include "sigloc/map/raster_limits.h"
 
 namespace sigloc
 {
@@ -35,10 +38,7 @@ std::int32_t ridgeRadius(double resolution)
 void checkRaster(const OccupancyRaster& raster)
 {
   const RasterFrame& frame = raster.frame;
-  if (!(frame.resolution >= 0.005 && frame.resolution <= 1.0))
-  {
-    throw std::invalid_argument("buildDenseField: resolution outside [0.005, 1] m");
-  }
+  if (const auto reason = unusableCells(frame.resolution)) throw std::invalid_argument(*reason);
   const std::size_t count = static_cast<std::size_t>(frame.width) * frame.height;
   if (count == 0 || raster.cells.size() != count)
   {
@@ -183,6 +183,16 @@ class RowEnvelope
   std::vector<double> from_;
 };
 }  // namespace
+
+std::optional<std::string> unusableCells(double resolution)
+{
+  constexpr double kFinest = 0.005;  // [m]
+  constexpr double kCoarsest = 1.0;
+  if (resolution >= kFinest && resolution <= kCoarsest) return std::nullopt;
+  std::ostringstream reason;
+  reason << "cells of " << resolution << " m, not of " << kFinest << " to " << kCoarsest << " m";
+  return reason.str();
+}
 
 double truncationDistance(double resolution)
 {

@@ -35,6 +35,12 @@ void writeRosMap(const TemporaryFolder& folder, const std::string& yaw = "0.0")
                                    "]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n");
 }
 
+template <class Object>
+void writeObject(const std::filesystem::path& path, const Object& object)
+{
+  writeObjects(path, {std::make_shared<Object>(object)});
+}
+
 std::string flaser(int beams, double range, const std::string& tail = "1 2 0.5 1 2 0.5 10 host 10")
 {
   std::ostringstream line;
@@ -103,6 +109,100 @@ TEST(MapSources, ReadsARosMapUprightAndInItsPlace)
   EXPECT_EQ(raster.cells[8], CellState::solid_wall);
   EXPECT_EQ(raster.cells[9], CellState::free);
   EXPECT_EQ(raster.cells[10], CellState::unknown);
+}
+
+TEST(MapSources, TakesAWholeTurnForNone)
+{
+  const TemporaryFolder folder;
+  writeRosMap(folder);
+  const auto straight = std::get<OccupancyRaster>(readMapSource(folder / "m.yaml"));
+  for (const char* const yaw : {"6.283185307179586", "-6.2831853"})
+  {
+    writeRosMap(folder, yaw);
+    const auto turned = std::get<OccupancyRaster>(readMapSource(folder / "m.yaml"));
+    EXPECT_EQ(turned.cells, straight.cells) << yaw;
+    EXPECT_NEAR(turned.frame.origin.x, straight.frame.origin.x, 1e-6);
+  }
+}
+
+TEST(MapSources, RefusesRosMapsThatMakeNoSense)
+{
+  const TemporaryFolder folder;
+  writeRosMap(folder);
+  const std::string sound = readBytes(folder / "m.yaml");
+  const auto errorWith = [&](const std::string& text, const std::string& instead)
+  {
+    std::string yaml = sound;
+    yaml.replace(yaml.find(text), text.size(), instead);
+    writeText(folder / "m.yaml", yaml);
+    return errorOf(folder / "m.yaml");
+  };
+  const std::string thresholds = "free_thresh <= occupied_thresh";
+  EXPECT_NE(errorWith("0.65", "0.1").find(thresholds), std::string::npos);
+  EXPECT_NE(errorWith("0.65", "65").find(thresholds), std::string::npos);
+  EXPECT_NE(errorWith("0.196", "-0.1").find(thresholds), std::string::npos);
+  EXPECT_NE(errorWith("0.196", ".nan").find("m.yaml: "), std::string::npos);
+  for (const char* const resolution : {"1e-9", "1e9", "0", "-0.1"})
+  {
+    EXPECT_NE(errorWith("0.1", resolution).find("cells of "), std::string::npos) << resolution;
+  }
+  EXPECT_NE(errorWith("0.1", ".nan").find("m.yaml: "), std::string::npos);
+}
+
+TEST(MapSources, RefusesGridmapsOfAbsurdCells)
+{
+  const TemporaryFolder folder;
+  for (const float cell : {1e-4F, 20.0F})
+  {
+    mrpt::maps::COccupancyGridMap2D grid(0, 20 * cell, 0, 20 * cell, cell);
+    grid.fill(0.9F);
+    grid.setCell(3, 3, 0.01F);
+    writeObject(folder / "m.gridmap", grid);
+    EXPECT_NE(errorOf(folder / "m.gridmap").find("not of 0.005 to 1 m"), std::string::npos) << cell;
+  }
+}
+
+/// What reading a map says that lies at (x, y), in each kind of file that has places.
+std::vector<std::string> errorsOfMapsAt(const TemporaryFolder& folder, double x, double y)
+{
+  const std::string place = std::to_string(x) + " " + std::to_string(y);
+  writeText(folder / "m.log", flaser(180, 3, place + " 0.5 " + place + " 0.5 10 host 10"));
+  writeText(folder / "m.txt", place + "\n");
+  mrpt::maps::CSimpleMap simplemap;
+  simplemap.insert(mrpt::poses::CPose3DPDFGaussian(mrpt::poses::CPose3D(x, y, 0, 0.5, 0, 0)),
+                   *makeFrame(makeScan(1.0)));
+  writeObject(folder / "m.simplemap", simplemap);
+  mrpt::maps::COccupancyGridMap2D grid(static_cast<float>(x), static_cast<float>(x + 2),
+                                       static_cast<float>(y), static_cast<float>(y + 2), 0.1F);
+  grid.fill(0.9F);
+  grid.setCell(3, 3, 0.01F);
+  writeObject(folder / "m.gridmap", grid);
+  writeRosMap(folder);
+  std::string yaml = readBytes(folder / "m.yaml");
+  yaml.replace(yaml.find("1.0, -2.0"), 9, std::to_string(x) + ", " + std::to_string(y));
+  writeText(folder / "m.yaml", yaml);
+  Feature landmark;
+  landmark.position = {x, y};
+  landmark.position_covariance(0, 0) = landmark.position_covariance(1, 1) = 0.01;
+  saveSigmap(FeatureMap({landmark}), folder / "m.sigmap");
+  std::vector<std::string> errors;
+  for (const char* const name :
+       {"m.log", "m.txt", "m.simplemap", "m.gridmap", "m.yaml", "m.sigmap"})
+  {
+    errors.push_back(errorOf(folder / name));
+  }
+  return errors;
+}
+
+TEST(MapSources, RefusesMapsThatFloatsCannotHold)
+{
+  const TemporaryFolder folder;
+  for (const std::string& error : errorsOfMapsAt(folder, 9e4, -9e4)) EXPECT_EQ(error, "");
+  for (const std::string& error : errorsOfMapsAt(folder, 5e5, 5e6))
+  {
+    EXPECT_EQ(error.rfind((folder / "m.").string(), 0), 0U) << error;
+    EXPECT_NE(error.find("shift the map's origin"), std::string::npos) << error;
+  }
 }
 
 TEST(MapSources, RefusesRosMapsItCannotHonour)

@@ -123,6 +123,17 @@ TEST(SignatureMap, LikelihoodFollowsAnObservationThatChangesInPlace)
   EXPECT_LT(map.computeObservationLikelihood(*scan, pose), before);
 }
 
+TEST(SignatureMap, RefusesScansWhereFloatsCannotHoldThem)
+{
+  SignatureMap map;
+  const auto far_away = [&] {
+    map.insertObservation(*roomScan({0, 0, 0}), CPose3D(5e5, 5e6, 0, 0, 0, 0));
+  };
+  EXPECT_NE(messageOf<std::invalid_argument>(far_away).find("shift the map's origin"),
+            std::string::npos);
+  EXPECT_TRUE(map.isEmpty());
+}
+
 TEST(SignatureMap, SaysNothingOfObservationsItDoesNotHandle)
 {
   SignatureMap map = roomMap();

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "bridge/rawlog_files.h"
 
 namespace sigloc

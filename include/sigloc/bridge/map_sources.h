@@ -21,7 +21,7 @@ using MapSource = std::variant<std::vector<PosedScans>, OccupancyRaster, Feature
 /// corrected poses (`.log`, `.clf`, `.carmen`), a landmark file (`.csv`, `.txt`: rows
 /// `x y [radius] [sigma]`) or a ready `.sigmap`.
 /// Throws std::runtime_error naming the path and the reason for a missing, empty, truncated,
-/// foreign or unusable file.
+/// foreign or unusable file, and for a map that reaches farther than 100 km from its origin.
 MapSource readMapSource(const std::filesystem::path& path);
 
 /// Returns the files that a map source is read from: `path`, and the image that a ROS map names.

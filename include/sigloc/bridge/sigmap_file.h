@@ -15,7 +15,8 @@ namespace sigloc
 void saveSigmap(const FeatureMap& map, const std::filesystem::path& path);
 
 /// Reads a `.sigmap` of this or an earlier version. Throws std::runtime_error naming the path and
-/// the reason for a missing, truncated, corrupt or foreign file.
+/// the reason for a missing, truncated, corrupt or foreign file, and for a map that reaches beyond
+/// 100 km of its origin.
 FeatureMap loadSigmap(const std::filesystem::path& path);
 
 /// The body of a `.sigmap` and of a serialized `SignatureMap`.
