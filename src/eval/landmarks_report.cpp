@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <sstream>
 
+#include "look_plots.h"
+#include "sigloc/bridge/counted.h"
 #include "sigloc/eval/cpu_time.h"
 #include "sigloc/eval/landmarks.h"
 #include "sigloc/eval/relocation_rows.h"
@@ -45,6 +47,24 @@ RelocationSummary pooled(const LandmarksReport& report, const std::string& metho
   s.median_error_m = quantilesOf(distances).median;
   s.median_error_deg = quantilesOf(angles).median;
   return s;
+}
+/// One curve a method and length of the local maps.
+std::vector<detail::LookCurve> curvesOf(const LandmarksReport& report)
+{
+  std::vector<detail::LookCurve> curves;
+  for (const LandmarksRow& row : report.rows)
+  {
+    detail::LookCurve& curve = curves.emplace_back();
+    curve.title = row.method;
+    if (row.local_map_steps > 0) curve.title += ", " + counted(row.local_map_steps, "step");
+    for (const LandmarkRecord& record : report.records)
+    {
+      if (record.method != row.method || record.local_map_steps != row.local_map_steps) continue;
+      curve.errors_m.push_back(record.error.distance);
+      curve.times_ms.push_back(record.time_ms);
+    }
+  }
+  return curves;
 }
 }  // namespace
 
@@ -106,6 +126,7 @@ void writeLandmarksReport(const LandmarksReport& report, const std::filesystem::
   json["map"] = toJson(report.map);
   files.results = csv.str();
   files.text = "# Landmarks: " + report.dataset + "\n\n" + landmarksTable(report) + kExplanation;
+  files.plots = detail::lookPlots(curvesOf(report), "Time from landmarks to ranked candidates");
   files.notes = mapSection(report.map);
   files.provenance = report.provenance;
   writeRunReport(files, folder);

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
 #include <cmath>
 #include <sstream>
 
+#include "look_plots.h"
 #include "sigloc/eval/relocate.h"
 #include "sigloc/eval/relocation_rows.h"
 #include "sigloc/eval/report_files.h"
@@ -64,34 +64,20 @@ std::string remarks(const RelocateReport& report)
   return out.str();
 }
 
-std::vector<std::pair<std::string, Plot>> plotsOf(const RelocateReport& report)
+std::vector<detail::LookCurve> curvesOf(const RelocateReport& report)
 {
-  Plot errors{"Error of the first candidate",
-              "distance from the truth [m]",
-              "share of queries",
-              true,
-              false,
-              {}};
-  Plot times{"Time from raw scan to ranked candidates",
-             "CPU time [ms]",
-             "share of queries",
-             true,
-             false,
-             {}};
+  std::vector<detail::LookCurve> curves;
   for (const RelocateMethodReport& method : report.methods)
   {
-    std::vector<double> distances;
-    std::vector<double> milliseconds;
+    detail::LookCurve& curve = curves.emplace_back();
+    curve.title = method.name;
     for (const RelocationRecord& record : method.records)
     {
-      milliseconds.push_back(record.time_ms);
-      // A logarithmic axis has no zero: a millimetre stands for less.
-      if (record.error.distance >= 0) distances.push_back(std::max(0.001, record.error.distance));
+      curve.errors_m.push_back(record.error.distance);
+      curve.times_ms.push_back(record.time_ms);
     }
-    errors.series.push_back(cumulativeShare(method.name, distances, method.records.size()));
-    times.series.push_back(cumulativeShare(method.name, milliseconds, method.records.size()));
   }
-  return {{"errors.png", errors}, {"times.png", times}};
+  return curves;
 }
 }  // namespace
 
@@ -117,7 +103,7 @@ void writeRelocateReport(const RelocateReport& report, const std::filesystem::pa
   files.summary["without_truth"] = report.without_truth;
   files.results = resultsCsv(report);
   files.text = "# Relocation from one look\n\n" + relocateTable(report) + "\n" + remarks(report);
-  files.plots = plotsOf(report);
+  files.plots = detail::lookPlots(curvesOf(report), "Time from raw scan to ranked candidates");
   files.notes = relocationDefinitions() + mapSection(report.map);
   files.provenance = report.provenance;
   writeRunReport(files, folder);

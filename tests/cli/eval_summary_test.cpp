@@ -100,6 +100,19 @@ TEST(EvalSummaryOfTrack, HoldsWhatDrivesAreJudgedBy)
   EXPECT_NE(report.find("| after the kidnapping | noticed"), std::string::npos);
 }
 
+TEST(EvalSummaryOfLandmarks, DrawsErrorsAndTimes)
+{
+  const TemporaryFolder folder;
+  summaryOf(folder, {"landmarks", "--dataset", "dlr", "LANDMARKS", "--local-map-steps", "5,10",
+                     "--max-queries", "3"});
+  const std::string report = readBytes(folder / "out" / "report.md");
+  for (const char* const plot : {"errors.png", "times.png"})
+  {
+    EXPECT_EQ(readBytes(folder / "out" / plot).substr(1, 3), "PNG") << plot;
+    EXPECT_NE(report.find("](" + std::string(plot) + ")"), std::string::npos) << plot;
+  }
+}
+
 TEST(EvalSummaryOfScale, TellsTimesRelativeToAThousandFeatures)
 {
   const TemporaryFolder folder;

@@ -90,6 +90,6 @@ LandmarksReport runLandmarks(const LandmarksOptions& options);
 
 std::string landmarksTable(const LandmarksReport& report);
 
-/// Writes summary.json, results.csv and report.md.
+/// Writes summary.json, results.csv, report.md and the plots errors.png and times.png.
 void writeLandmarksReport(const LandmarksReport& report, const std::filesystem::path& folder);
 }  // namespace sigloc
