@@ -29,7 +29,10 @@ void CommonOptions::declareRunning(CLI::App& command)
       ->capture_default_str()
       ->check(numberFrom(1, 256));
   command.add_flag("--quiet", quiet, "no progress bar, no table");
-  command.add_option("--out", out, "folder for summary.json, results.csv, report.md and plots")
+  command
+      .add_option("--out", out,
+                  "folder for summary.json, results.csv, report.md and plots; an earlier run's are "
+                  "replaced, other files of these names are not")
       ->required();
 }
 

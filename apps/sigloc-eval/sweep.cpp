@@ -69,8 +69,10 @@ std::function<int()> setUpSweep(CLI::App& command, const std::string& command_li
       ->delimiter(',')
       ->check(CLI::IsMember({"office", "corridor", "hall", "park"}));
   command.add_option("--worlds-per-kind", options.worlds_per_kind, "worlds of each kind")
+      ->check(numberFrom(1, 1000))
       ->capture_default_str();
   command.add_option("--queries", options.queries_per_world, "robots asked in each world")
+      ->check(numberFrom(1, 1e6))
       ->capture_default_str();
   flags->common.declare(command, relocationMethodNames());
   return [flags, command_line] { return flags->run(command_line); };
