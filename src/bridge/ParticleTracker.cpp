@@ -27,7 +27,6 @@ ParticleTracker::ParticleTracker(std::shared_ptr<const SignatureMap> map,
   filter_.useMatcher(std::move(matcher));
   executor_.m_options.PF_algorithm = CParticleFilter::pfStandardProposal;
   executor_.m_options.resamplingMethod = CParticleFilter::prSystematic;
-  executor_.m_options.powFactor = options.power;
   // Its own randomize() would keep a Gaussian drawn before.
   mrpt::random::getRandomGenerator() = mrpt::random::CRandomGenerator(seed);
 }

@@ -20,8 +20,7 @@ struct ParticleOptions
 {
   std::uint32_t particles = 500;
   double motion_sigma = 0.05;
-  double motion_turn_sigma = 0.02;
-  double power = 0.25;
+  double motion_turn_sigma = 0.05;
 
   template <class V>
   static void visitFields(V&& visit)
