@@ -13,7 +13,7 @@ namespace
 // interest here (a few times a), where it converges within some hundred terms.
 double lowerGamma(double a, double x)
 {
-  double term = std::exp(a * std::log(x) - x - std::lgamma(a + 1));
+  double term = std::exp(a * std::log(x) - x - logGamma(a + 1));
   double sum = term;
   for (int k = 1; k < 10000 && term > 1e-17 * sum; ++k)
   {
@@ -23,6 +23,12 @@ double lowerGamma(double a, double x)
   return sum;
 }
 }  // namespace
+
+double logGamma(double x)
+{
+  int sign = 0;
+  return lgamma_r(x, &sign);
+}
 
 double chiSquareGate(double probability, int degrees)
 {

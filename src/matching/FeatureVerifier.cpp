@@ -384,9 +384,9 @@ double FeatureVerifier::expectedByChance(const PreparedScene& scene, std::uint32
   const double retrieved = static_cast<double>(std::max<std::uint64_t>(1, bases));
   if (needed <= 0 || trials <= 0) return retrieved;
   const double odds = p / (1 - p);
-  double term = std::exp(std::lgamma(trials + 1) - std::lgamma(needed + 1) -
-                         std::lgamma(trials - needed + 1) + needed * std::log(p) +
-                         (trials - needed) * std::log1p(-p));
+  double term =
+      std::exp(logGamma(trials + 1) - logGamma(needed + 1) - logGamma(trials - needed + 1) +
+               needed * std::log(p) + (trials - needed) * std::log1p(-p));
   double tail = 0;
   for (double hits = needed; hits <= trials; ++hits)
   {
