@@ -18,8 +18,8 @@ namespace
 {
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 constexpr int kTabulatedDegrees = 200;
-constexpr double kGiveUp = -3.0;  // log of Wald's lower bound: gives up 5 % of good bases at most
-constexpr double kWorthKeeping = 0.5;  // share of the best support a rival must reach
+constexpr double kGiveUp = -2.3;  // log of Wald's lower bound: gives up 10 % of good bases at most
+constexpr double kWorthKeeping = 0.6;  // share of the best support a rival must reach
 
 bool contains(const std::vector<FeaturePairing>& pairings, std::uint32_t mapped)
 {

@@ -226,14 +226,12 @@ void PatternIndex::appendPattern(const PreparedMap& map, const PatternMembers& s
   const PatternShape shape = shapeOf(ordered.data(), size_);
   if (shape.values[0] > kLongest) return;
 
-  CellKey cell{};
   for (std::size_t v = 0; v < valueCount(); ++v)
   {
-    if (v < hashedCount()) cell = extended(cell, v, cellOf(shape.values[v]));
     draft.values.push_back(static_cast<std::int16_t>(std::lround(shape.values[v] / unit_)));
   }
   for (std::size_t k = 0; k < size_; ++k) draft.members.push_back(set[order[k]]);
-  draft.cells.push_back(cell);
+  draft.cells.push_back(keyOf(shape));
 }
 
 void PatternIndex::sortIntoSlots(const Draft& draft)
@@ -248,8 +246,8 @@ void PatternIndex::sortIntoSlots(const Draft& draft)
   starts_.assign(slots + 1, 0);
   for (const CellKey& cell : draft.cells)
   {
-    occupied_[(cell.group >> 20) & occupied_mask_] |= 1ULL << cell.member;
-    ++starts_[slotOf(cell) + 1];
+    occupied_[wordOf(cell.group)] |= 1ULL << cell.member;
+    ++starts_[slotOf(cell.group, cell.member) + 1];
   }
   for (std::size_t s = 1; s < starts_.size(); ++s) starts_[s] += starts_[s - 1];
   std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);
@@ -258,7 +256,8 @@ void PatternIndex::sortIntoSlots(const Draft& draft)
   const std::size_t width = valueCount();
   for (std::size_t e = 0; e < draft.cells.size(); ++e)
   {
-    const std::size_t to = next[slotOf(draft.cells[e])]++;
+    const CellKey& cell = draft.cells[e];
+    const std::size_t to = next[slotOf(cell.group, cell.member)]++;
     std::copy_n(&draft.values[e * width], width, &values_[to * width]);
     std::copy_n(&draft.members[e * size_], size_, &members_[to * size_]);
   }
@@ -286,33 +285,80 @@ PatternIndex::Alignment PatternIndex::alignmentOf(const PatternShape& shape) con
   return alignment;
 }
 
+PatternIndex::CellKey PatternIndex::keyOf(const PatternShape& shape) const
+{
+  CellKey key;
+  for (std::size_t v = 0; v < hashedCount(); ++v)
+  {
+    const std::int64_t cell = cellOf(shape.values[v]);
+    const bool grouped = v >= firstGrouped();
+    key.group = mix(key.group, grouped ? cell >> kGroupBits : cell);
+    if (grouped) key.member |= laneOf(cell) << laneShift(v);
+  }
+  return key;
+}
+
+std::uint64_t PatternIndex::membersAlong(std::size_t v, std::uint64_t stem, std::int64_t first,
+                                         std::int64_t last) const
+{
+  std::uint64_t members = 0;
+  for (std::int64_t cell = first; cell <= last; ++cell)
+  {
+    members |= stem << (laneOf(cell) << laneShift(v));
+  }
+  return members;
+}
+
 std::size_t PatternIndex::slotsNear(const PatternShape& shape, double tolerance,
                                     std::array<std::size_t, kMostCells>& slots) const
 {
-  // All combinations of the cells that the tolerance reaches in each value.
-  std::array<CellKey, kMostCells> keys;
+  // 1. All groups that the tolerance reaches in each value, and which of their cells it reaches.
+  struct Reached
+  {
+    std::uint64_t group;  // no initial values: there is room for thousands
+    std::uint64_t members;  ///< a bit each
+  };
+  std::array<Reached, kMostCells> reached;
+  std::size_t cells = 1;
   std::size_t count = 1;
-  keys[0] = {};
+  reached[0] = {0, 1};
   for (std::size_t v = 0; v < hashedCount(); ++v)
   {
     const std::int64_t first = cellOf(shape.values[v] - tolerance);
     const std::int64_t last = cellOf(shape.values[v] + tolerance);
-    const auto width = static_cast<std::size_t>(last - first + 1);
-    if (count * width > kMostCells) return 0;
+    cells *= static_cast<std::size_t>(last - first + 1);
+    if (cells > kMostCells) return 0;
+    const bool grouped = v >= firstGrouped();
+    const std::size_t bits = grouped ? kGroupBits : 0;
+    const std::int64_t first_block = first >> bits;
+    const auto blocks = static_cast<std::size_t>((last >> bits) - first_block + 1);
     for (std::size_t k = count; k-- > 0;)
     {
-      const CellKey stem = keys[k];
-      for (std::size_t w = 0; w < width; ++w)
+      const Reached stem = reached[k];
+      for (std::size_t b = 0; b < blocks; ++b)
       {
-        keys[k * width + w] = extended(stem, v, first + static_cast<std::int64_t>(w));
+        const std::int64_t block = first_block + static_cast<std::int64_t>(b);
+        const std::int64_t start = block << bits;
+        const std::int64_t end = start + (1 << bits) - 1;
+        reached[k * blocks + b] = {
+            mix(stem.group, block),
+            grouped ? membersAlong(v, stem.members, std::max(first, start), std::min(last, end))
+                    : stem.members};
       }
     }
-    count *= width;
+    count *= blocks;
   }
+  for (std::size_t k = 0; k < count; ++k) __builtin_prefetch(&occupied_[wordOf(reached[k].group)]);
+
+  // 2. Of their cells, those that may hold patterns: most don't.
   std::size_t kept = 0;
   for (std::size_t k = 0; k < count; ++k)
   {
-    if (mayHold(keys[k])) slots[kept++] = slotOf(keys[k]);
+    std::uint64_t held = occupied_[wordOf(reached[k].group)] & reached[k].members;
+    for (; held != 0; held &= held - 1)
+    {
+      slots[kept++] = slotOf(reached[k].group, static_cast<std::uint32_t>(__builtin_ctzll(held)));
+    }
   }
   return kept;
 }

@@ -84,25 +84,31 @@ class PatternIndex
   /// so lie side by side in memory: a look-up asks for many of them.
   struct CellKey
   {
-    std::uint64_t group;  // no initial values: a look-up makes room for thousands
-    std::uint32_t member;
+    std::uint64_t group = 0;
+    std::uint32_t member = 0;
   };
-  /// The key of a cell from that of its first `v` values and its place along the next one.
-  CellKey extended(const CellKey& key, std::size_t v, std::int64_t cell) const
+  /// Of the hashed values, those before this one tell groups apart; the others cells of a group,
+  /// too.
+  std::size_t firstGrouped() const { return hashedCount() - kGroupedValues; }
+  /// Where a cell along a grouped value lies among those of its group.
+  static std::uint32_t laneOf(std::int64_t cell)
   {
-    if (v + kGroupedValues < hashedCount()) return {mix(key.group, cell), 0};
-    return {mix(key.group, cell >> kGroupBits),
-            key.member << kGroupBits | static_cast<std::uint32_t>(cell & ((1 << kGroupBits) - 1))};
+    return static_cast<std::uint32_t>(cell & ((1 << kGroupBits) - 1));
   }
-  std::size_t slotOf(const CellKey& key) const
+  /// How far the lanes of a grouped value lie apart in its group.
+  std::uint32_t laneShift(std::size_t v) const
   {
-    return (key.group >> 7 << kGroupedValues * kGroupBits | key.member) & slot_mask_;
+    return static_cast<std::uint32_t>((v - firstGrouped()) * kGroupBits);
   }
-  /// False for most cells that hold no pattern.
-  bool mayHold(const CellKey& key) const
+  CellKey keyOf(const PatternShape& shape) const;
+  /// The members, a bit each, that the stem's become along the cells first..last of value v.
+  std::uint64_t membersAlong(std::size_t v, std::uint64_t stem, std::int64_t first,
+                             std::int64_t last) const;
+  std::size_t slotOf(std::uint64_t group, std::uint32_t member) const
   {
-    return (occupied_[(key.group >> 20) & occupied_mask_] >> key.member & 1) != 0;
+    return (group >> 7 << kGroupedValues * kGroupBits | member) & slot_mask_;
   }
+  std::size_t wordOf(std::uint64_t group) const { return (group >> 20) & occupied_mask_; }
   /// Lays observed shapes onto stored ones; \cite algorithm eq. (4.7).
   struct Alignment
   {
