@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sigloc/eval/provenance.h"
 
+#include <commit.h>  // generated: kCommit
 #include <mrpt/system/md5.h>
 #include <mrpt/system/os.h>
 
@@ -41,6 +42,7 @@ nlohmann::ordered_json toJson(const Provenance& provenance)
 {
   nlohmann::ordered_json json;
   json["version"] = SIGLOC_VERSION;
+  json["commit"] = kCommit;
   json["mrpt"] = mrpt::system::MRPT_getVersion();
   json["command"] = provenance.command;
   if (provenance.seed) json["seed"] = *provenance.seed;

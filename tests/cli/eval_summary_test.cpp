@@ -75,7 +75,7 @@ TEST_P(EvalSummary, HoldsWhatOtherProgramsRelyOn)
   EXPECT_GT(map.at("bytes"), 0);
   EXPECT_GE(map.at("build_s"), 0.0);
   EXPECT_GE(map.at("maps"), 1);
-  expectKeys(summary.at("provenance"), {"version", "command", "seed", "data"});
+  expectKeys(summary.at("provenance"), {"version", "commit", "command", "seed", "data"});
 }
 
 TEST(EvalSummaryOfTrack, HoldsWhatDrivesAreJudgedBy)

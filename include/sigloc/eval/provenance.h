@@ -19,7 +19,7 @@ struct Provenance
   std::vector<std::filesystem::path> data_files;
 };
 
-/// Version, command line, seed, machine, compiler and the MD5 of every data file.
+/// Version and commit, command line, seed, machine, compiler and the MD5 of every data file.
 /// Throws std::runtime_error ("path: reason") for a file that cannot be read.
 nlohmann::ordered_json toJson(const Provenance& provenance);
 
