@@ -98,7 +98,8 @@ std::string summaryTable(const LocalizationRun& run)
       scored ? reached(summary.steps_to_first_right, summary.metres_to_first_right)
              : "truth unknown");
   row("localized", reached(summary.steps_to_localized, summary.metres_to_localized));
-  row("confidently wrong", counted(summary.confidently_wrong_steps, "step"));
+  row("confidently wrong",
+      scored ? counted(summary.confidently_wrong_steps, "step") : "truth unknown");
   row("at the end", endLine(summary, run.steps().back().belief));
   row("final error", errorLine(summary));
   row("relocation",

@@ -118,8 +118,8 @@ std::optional<Feature> makeCircle(const ScanPoints& scan, PointRange range, doub
 {
   if (range.last < range.first + 2) return std::nullopt;
   const double width = (scan.points[range.last] - scan.points[range.first]).norm();
-  if (width >= options.max_circle_diameter || !jumpsFarther(scan, range.first, -1, options) ||
-      !jumpsFarther(scan, range.last, +1, options))
+  if (width >= options.max_circle_diameter || !standsFree(scan, range.first, -1, options) ||
+      !standsFree(scan, range.last, +1, options))
   {
     return std::nullopt;
   }

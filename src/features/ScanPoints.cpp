@@ -38,7 +38,9 @@ ScanPoints validPoints(const LaserScan& scan, const FeatureExtractorOptions& opt
 {
   const std::size_t n = scan.ranges.size();
   ScanPoints out;
+  out.beam_count = n;
   out.beam_spacing = scan.angle_step;
+  out.max_range = scan.max_range;
   out.closed = coversFullCircle(scan);
   out.points.reserve(n);
   out.ranges.reserve(n);
@@ -142,5 +144,22 @@ bool jumpsFarther(const ScanPoints& scan, std::size_t edge, int step,
   const std::size_t to = step > 0 ? other : edge;
   return beamsBetween(scan, from, to) <= 2 &&
          scan.ranges[other] > scan.ranges[edge] + options.wall_end_jump;
+}
+
+bool standsFree(const ScanPoints& scan, std::size_t edge, int step,
+                const FeatureExtractorOptions& options)
+{
+  if (jumpsFarther(scan, edge, step, options)) return true;
+  constexpr std::size_t kSky = 6;  // beams lost in a row
+  constexpr double kWellWithin = 0.9;  // of the range: what ends near its limit goes on unseen
+  if (scan.ranges[edge] > kWellWithin * scan.max_range) return false;
+  const std::size_t n = scan.points.size();
+  const bool at_seam = step > 0 ? edge + 1 == n : edge == 0;
+  if (at_seam && !scan.closed)
+  {
+    return (step > 0 ? scan.beam_count - 1 - scan.beams[edge] : scan.beams[edge]) >= kSky;
+  }
+  const std::size_t other = step > 0 ? (edge + 1) % n : (edge + n - 1) % n;
+  return beamsBetween(scan, step > 0 ? edge : other, step > 0 ? other : edge) > kSky;
 }
 }  // namespace sigloc

@@ -17,7 +17,9 @@ struct ScanPoints
   std::vector<mrpt::math::TPoint2D> points;
   std::vector<double> ranges;
   std::vector<std::size_t> beams;  // beam index of each return
+  std::size_t beam_count = 0;  // lost ones included
   double beam_spacing = 0;  // [rad]
+  double max_range = 0;  // [m]
   bool closed = false;  // the scan covers the full circle: the last beam meets the first
 };
 
@@ -47,6 +49,11 @@ std::vector<PointRange> clustersOf(const ScanPoints& scan, const FeatureExtracto
 /// In a full-circle scan the first and the last return are neighbours.
 bool jumpsFarther(const ScanPoints& scan, std::size_t edge, int step,
                   const FeatureExtractorOptions& options);
+
+/// True when nothing stands beside `edge` (towards `step`): the neighbouring return jumps farther,
+/// or several beams are lost in a row well within the laser's range, to the sky behind a post.
+bool standsFree(const ScanPoints& scan, std::size_t edge, int step,
+                const FeatureExtractorOptions& options);
 
 /// Appends the features and returns of a scan to a scene in the robot frame.
 void appendScan(ScanPoints scan, const mrpt::math::TPose2D& robot_from_sensor, double range_sigma,

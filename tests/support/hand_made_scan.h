@@ -72,6 +72,7 @@ struct Scanner
   double field_of_view = 2 * M_PI;  ///< [rad]; a full circle doesn't repeat its first beam
   double first_angle = -M_PI;  ///< [rad]
   double sigma = 0;  ///< [m]
+  double max_range = LaserScan{}.max_range;  ///< [m]
   mrpt::math::TPose2D robot_from_sensor;
 };
 
@@ -86,6 +87,7 @@ inline LaserScan scanByHand(const Surfaces& surfaces, const mrpt::math::TPose2D&
       scanner.field_of_view / static_cast<double>(full ? scanner.beams : scanner.beams - 1);
   scan.robot_from_sensor = scanner.robot_from_sensor;
   scan.range_sigma = scanner.sigma;
+  scan.max_range = scanner.max_range;
   const mrpt::math::TPose2D world_from_sensor = world_from_robot + scanner.robot_from_sensor;
   std::normal_distribution<double> noise(0.0, 1.0);
   for (std::size_t i = 0; i < scanner.beams; ++i)
