@@ -113,13 +113,26 @@ std::vector<PointRange> rejoined(const ScanPoints& scan, const std::vector<Point
   return joined;
 }
 
+/// Whether something ends for real, or at least nothing is seen beside it.
+enum class Surroundings
+{
+  farther,
+  farther_or_sky
+};
+
+bool standsAlone(const ScanPoints& scan, PointRange range, Surroundings surroundings,
+                 const FeatureExtractorOptions& options)
+{
+  const auto free = surroundings == Surroundings::farther ? jumpsFarther : standsFree;
+  return free(scan, range.first, -1, options) && free(scan, range.last, +1, options);
+}
+
 std::optional<Feature> makeCircle(const ScanPoints& scan, PointRange range, double range_sigma,
-                                  const FeatureExtractorOptions& options)
+                                  Surroundings surroundings, const FeatureExtractorOptions& options)
 {
   if (range.last < range.first + 2) return std::nullopt;
   const double width = (scan.points[range.last] - scan.points[range.first]).norm();
-  if (width >= options.max_circle_diameter || !standsFree(scan, range.first, -1, options) ||
-      !standsFree(scan, range.last, +1, options))
+  if (width >= options.max_circle_diameter || !standsAlone(scan, range, surroundings, options))
   {
     return std::nullopt;
   }
@@ -248,21 +261,44 @@ void addSegmentsOfCluster(const ScanPoints& scan, PointRange cluster, double ran
   }
 }
 
+/// Clusters are circles or made of segments.
+struct FittedClusters
+{
+  std::vector<Feature> circles;
+  FittedSegments segments;
+  bool has_sky = false;  ///< a circle has the sky beside it
+};
+
+FittedClusters fitClusters(const ScanPoints& scan, double range_sigma, Surroundings surroundings,
+                           const FeatureExtractorOptions& options)
+{
+  FittedClusters fitted;
+  for (const PointRange& cluster : clustersOf(scan, options))
+  {
+    if (auto circle = makeCircle(scan, cluster, range_sigma, surroundings, options))
+    {
+      fitted.circles.push_back(*circle);
+      fitted.has_sky |= !standsAlone(scan, cluster, Surroundings::farther, options);
+      continue;  // never split into segments: its returns count once
+    }
+    addSegmentsOfCluster(scan, cluster, range_sigma, options, fitted.segments);
+  }
+  return fitted;
+}
+
 /// All features of one scan in the sensor frame; derived ones point at their parent segments.
 std::vector<Feature> featuresOfScan(const ScanPoints& scan, double range_sigma,
                                     const FeatureExtractorOptions& options)
 {
-  std::vector<Feature> circles;
-  FittedSegments segments;
-  for (const PointRange& cluster : clustersOf(scan, options))
+  // In the open there is nothing but posts, with the sky between them. Beside buildings what stands
+  // before the sky is as well a bush or the end of what the laser reaches.
+  FittedClusters fitted = fitClusters(scan, range_sigma, Surroundings::farther_or_sky, options);
+  if (fitted.has_sky && !fitted.segments.features.empty())
   {
-    if (auto circle = makeCircle(scan, cluster, range_sigma, options))
-    {
-      circles.push_back(*circle);
-      continue;  // never split into segments: its returns count once
-    }
-    addSegmentsOfCluster(scan, cluster, range_sigma, options, segments);
+    fitted = fitClusters(scan, range_sigma, Surroundings::farther, options);
   }
+  std::vector<Feature>& circles = fitted.circles;
+  FittedSegments& segments = fitted.segments;
 
   std::vector<Feature> derived;
   const std::size_t count = segments.features.size();

@@ -41,6 +41,16 @@ TEST(PostsInTheOpen, AreCirclesBeforeTheSky)
   EXPECT_EQ(countCircles(observeScene({scanByHand(surfaces, {0, 0, 0}, scanner)})), 1);
 }
 
+TEST(PostsInTheOpen, AreNoneBesideABuilding)
+{
+  Surfaces surfaces;
+  surfaces.pillars = {{{-3.0, 2.0}, 0.2}};
+  surfaces.walls = {{{2, -1}, {2, 1}}};
+  EXPECT_EQ(countCircles(observeScene({scanByHand(surfaces, {0, 0, 0})})), 0);
+  surfaces.walls.clear();
+  EXPECT_EQ(countCircles(observeScene({scanByHand(surfaces, {0, 0, 0})})), 1);
+}
+
 TEST(PostsInTheOpen, WhatEndsNearTheLimitOfTheRangeIsNoPost)
 {
   // Of the tip of a corner the laser sees what is just within its range.
