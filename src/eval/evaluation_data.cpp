@@ -39,6 +39,11 @@ EvaluationMap evaluationMapOf(const MapSource& source)
   return map;
 }
 
+void requireFeatures(const EvaluationMap& map, const std::filesystem::path& path)
+{
+  if (map.features->empty()) throw std::runtime_error(path.string() + ": no feature found in it");
+}
+
 std::vector<PosedScans> scansOf(MapSource source, const std::filesystem::path& path)
 {
   auto* scans = std::get_if<std::vector<PosedScans>>(&source);
@@ -160,6 +165,7 @@ EvaluationMap readEvaluationMap(const std::filesystem::path& path)
   try
   {
     EvaluationMap map = evaluationMapOf(readMapSource(path));
+    requireFeatures(map, path);
     map.file = path;
     return map;
   }
@@ -183,6 +189,7 @@ EvaluationData readEvaluationData(const EvaluationSources& sources)
       (i % sources.interleave == sources.interleave - 1 ? asked : mapped).push_back(all[i]);
     }
     data.map = evaluationMapFromScans(mapped);
+    requireFeatures(data.map, sources.map);
     data.queries = queriesOf(asked, sources);
   }
   else

@@ -113,26 +113,26 @@ std::vector<PointRange> rejoined(const ScanPoints& scan, const std::vector<Point
   return joined;
 }
 
-/// Whether something ends for real, or at least nothing is seen beside it.
-enum class Surroundings
+/// What a post may have behind it, to either side.
+enum class Background
 {
   farther,
   farther_or_sky
 };
 
-bool standsAlone(const ScanPoints& scan, PointRange range, Surroundings surroundings,
+bool standsAlone(const ScanPoints& scan, PointRange range, Background background,
                  const FeatureExtractorOptions& options)
 {
-  const auto free = surroundings == Surroundings::farther ? jumpsFarther : standsFree;
+  const auto free = background == Background::farther ? jumpsFarther : standsFree;
   return free(scan, range.first, -1, options) && free(scan, range.last, +1, options);
 }
 
 std::optional<Feature> makeCircle(const ScanPoints& scan, PointRange range, double range_sigma,
-                                  Surroundings surroundings, const FeatureExtractorOptions& options)
+                                  Background background, const FeatureExtractorOptions& options)
 {
   if (range.last < range.first + 2) return std::nullopt;
   const double width = (scan.points[range.last] - scan.points[range.first]).norm();
-  if (width >= options.max_circle_diameter || !standsAlone(scan, range, surroundings, options))
+  if (width >= options.max_circle_diameter || !standsAlone(scan, range, background, options))
   {
     return std::nullopt;
   }
@@ -269,16 +269,16 @@ struct FittedClusters
   bool has_sky = false;  ///< a circle has the sky beside it
 };
 
-FittedClusters fitClusters(const ScanPoints& scan, double range_sigma, Surroundings surroundings,
+FittedClusters fitClusters(const ScanPoints& scan, double range_sigma, Background background,
                            const FeatureExtractorOptions& options)
 {
   FittedClusters fitted;
   for (const PointRange& cluster : clustersOf(scan, options))
   {
-    if (auto circle = makeCircle(scan, cluster, range_sigma, surroundings, options))
+    if (auto circle = makeCircle(scan, cluster, range_sigma, background, options))
     {
       fitted.circles.push_back(*circle);
-      fitted.has_sky |= !standsAlone(scan, cluster, Surroundings::farther, options);
+      fitted.has_sky |= !standsAlone(scan, cluster, Background::farther, options);
       continue;  // never split into segments: its returns count once
     }
     addSegmentsOfCluster(scan, cluster, range_sigma, options, fitted.segments);
@@ -292,10 +292,10 @@ std::vector<Feature> featuresOfScan(const ScanPoints& scan, double range_sigma,
 {
   // In the open there is nothing but posts, with the sky between them. Beside buildings what stands
   // before the sky is as well a bush or the end of what the laser reaches.
-  FittedClusters fitted = fitClusters(scan, range_sigma, Surroundings::farther_or_sky, options);
+  FittedClusters fitted = fitClusters(scan, range_sigma, Background::farther_or_sky, options);
   if (fitted.has_sky && !fitted.segments.features.empty())
   {
-    fitted = fitClusters(scan, range_sigma, Surroundings::farther, options);
+    fitted = fitClusters(scan, range_sigma, Background::farther, options);
   }
   std::vector<Feature>& circles = fitted.circles;
   FittedSegments& segments = fitted.segments;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace sigloc
 {
@@ -31,6 +32,23 @@ std::size_t beamsBetween(const ScanPoints& scan, std::size_t from, std::size_t t
   const auto turn = static_cast<std::size_t>(std::lround(2 * M_PI / scan.beam_spacing));
   const std::size_t last = scan.beams[to] + turn;
   return last > scan.beams[from] ? last - scan.beams[from] : 0;
+}
+
+struct Neighbour
+{
+  std::size_t index;
+  std::size_t beams;  // from the one to the other
+};
+
+/// The return beyond `edge` (towards `step`); none at the end of the field of view.
+std::optional<Neighbour> neighbourOf(const ScanPoints& scan, std::size_t edge, int step)
+{
+  const std::size_t n = scan.points.size();
+  const bool at_seam = step > 0 ? edge + 1 == n : edge == 0;
+  if (at_seam && !scan.closed) return std::nullopt;
+  const std::size_t other = step > 0 ? (edge + 1) % n : (edge + n - 1) % n;
+  return Neighbour{other,
+                   step > 0 ? beamsBetween(scan, edge, other) : beamsBetween(scan, other, edge)};
 }
 }  // namespace
 
@@ -136,14 +154,9 @@ std::vector<PointRange> clustersOf(const ScanPoints& scan, const FeatureExtracto
 bool jumpsFarther(const ScanPoints& scan, std::size_t edge, int step,
                   const FeatureExtractorOptions& options)
 {
-  const std::size_t n = scan.points.size();
-  const bool at_seam = step > 0 ? edge + 1 == n : edge == 0;
-  if (at_seam && !scan.closed) return false;
-  const std::size_t other = step > 0 ? (edge + 1) % n : (edge + n - 1) % n;
-  const std::size_t from = step > 0 ? edge : other;
-  const std::size_t to = step > 0 ? other : edge;
-  return beamsBetween(scan, from, to) <= 2 &&
-         scan.ranges[other] > scan.ranges[edge] + options.wall_end_jump;
+  const auto next = neighbourOf(scan, edge, step);
+  return next && next->beams <= 2 &&
+         scan.ranges[next->index] > scan.ranges[edge] + options.wall_end_jump;
 }
 
 bool standsFree(const ScanPoints& scan, std::size_t edge, int step,
@@ -153,13 +166,9 @@ bool standsFree(const ScanPoints& scan, std::size_t edge, int step,
   constexpr std::size_t kSky = 6;  // beams lost in a row
   constexpr double kWellWithin = 0.9;  // of the range: what ends near its limit goes on unseen
   if (scan.ranges[edge] > kWellWithin * scan.max_range) return false;
-  const std::size_t n = scan.points.size();
-  const bool at_seam = step > 0 ? edge + 1 == n : edge == 0;
-  if (at_seam && !scan.closed)
-  {
-    return (step > 0 ? scan.beam_count - 1 - scan.beams[edge] : scan.beams[edge]) >= kSky;
-  }
-  const std::size_t other = step > 0 ? (edge + 1) % n : (edge + n - 1) % n;
-  return beamsBetween(scan, step > 0 ? edge : other, step > 0 ? other : edge) > kSky;
+  const auto next = neighbourOf(scan, edge, step);
+  const std::size_t to_the_end =
+      step > 0 ? scan.beam_count - scan.beams[edge] : scan.beams[edge] + 1;
+  return (next ? next->beams : to_the_end) > kSky;
 }
 }  // namespace sigloc

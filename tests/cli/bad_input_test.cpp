@@ -115,6 +115,11 @@ TEST(BadInput, mapWithoutFeaturesIsRefused)
   expectRefused(folder, before,
                 run(folder, "sigloc-map", {"build", "-i", "bad.simplemap", "-o", "m.sigmap"}),
                 "bad.simplemap");
+  expectRefused(folder, before,
+                run(folder, "sigloc-eval",
+                    {"relocate", "--map", "bad.simplemap", "--queries", kLabMap.string(),
+                     "--foreign", "--quiet", "--out", "o"}),
+                "bad.simplemap");
 }
 
 TEST(BadInput, unknownKeyIsNamed)
