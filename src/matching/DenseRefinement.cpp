@@ -82,6 +82,9 @@ struct PullSums
     gt += sumOf(sgt);
   }
 
+  /// The sum of the returns' weights (6.6).
+  float explained() const { return xx + yy; }
+
   /// The move that (6.7) asks for, by Cholesky; kHold keeps the system positive definite.
   std::array<double, 3> step() const
   {
@@ -175,10 +178,33 @@ bool isLast(const std::array<double, 3>& move)
   return std::abs(move[0]) + std::abs(move[1]) < kConverged && std::abs(move[2]) < kConverged;
 }
 
-bool isNear(const TPose2D& pose, const TPose2D& start)
+/// A pose on its way.
+struct Refined
 {
-  return std::hypot(pose.x - start.x, pose.y - start.y) <= kMaxShift &&
-         std::abs(wrapToPi(pose.phi - start.phi)) <= kMaxTurn;
+  explicit Refined(const TPose2D& at) : start(at), pose(at) {}
+
+  /// Where it has come to, or its start if that is too far away.
+  TPose2D result() const
+  {
+    const TPose2D end(pose.x, pose.y, wrapToPi(pose.phi));
+    const bool near = std::hypot(end.x - start.x, end.y - start.y) <= kMaxShift &&
+                      std::abs(wrapToPi(end.phi - start.phi)) <= kMaxTurn;
+    return near ? end : start;
+  }
+
+  TPose2D start;
+  TPose2D pose;
+  float explained = 0;  // by the pose before its last step
+  bool settled = false;
+};
+
+/// Takes out those that explain less than `least` of what the best one explains.
+void dropHopeless(std::vector<Refined>& refined, float least)
+{
+  float most = 0;
+  for (const Refined& one : refined) most = std::max(most, one.explained);
+  const auto hopeless = [&](const Refined& one) { return one.explained < least * most; };
+  refined.erase(std::remove_if(refined.begin(), refined.end(), hopeless), refined.end());
 }
 }  // namespace
 
@@ -186,38 +212,36 @@ TPose2D DenseVerifier::refine(const DenseScan& scan, const TPose2D& start, int s
                               std::size_t beams) const
 {
   std::vector<TPose2D> poses{start};
-  refineAll(scan, poses, steps, beams);
+  refineAll(scan, poses, steps, beams, 0);
   return poses.front();
 }
 
 /// The poses take their steps in turns: each waits for its own sums, not for those of the others.
+/// The second tells how much of the returns each explains; those below `least` of the best are left
+/// out.
 void DenseVerifier::refineAll(const DenseScan& scan, std::vector<TPose2D>& poses, int steps,
-                              std::size_t beams) const
+                              std::size_t beams, float least) const
 {
   const CellView cells(field_);
   const std::size_t count = std::min(beams, scan.size());
-  const std::vector<TPose2D> starts = poses;
-  std::vector<TPose2D*> moving;
-  moving.reserve(poses.size());
-  for (TPose2D& pose : poses) moving.push_back(&pose);
+  std::vector<Refined> refined(poses.begin(), poses.end());
   for (int step = 0; step < steps; ++step)
   {
     const float robust_sigma = step == 0 ? kFirstRobustSigma : kRobustSigma;
-    std::size_t kept = 0;
-    for (TPose2D* pose : moving)
+    for (Refined& one : refined)
     {
-      const Placement place(*pose);
-      const std::array<double, 3> move = pullsAt(cells, scan, count, place, robust_sigma).step();
-      *pose = movedBy(*pose, place, move);
-      if (!isLast(move)) moving[kept++] = pose;
+      if (one.settled) continue;
+      const Placement place(one.pose);
+      const PullSums sums = pullsAt(cells, scan, count, place, robust_sigma);
+      const std::array<double, 3> move = sums.step();
+      one.pose = movedBy(one.pose, place, move);
+      one.settled = isLast(move);
+      one.explained = sums.explained();
     }
-    moving.resize(kept);
+    if (step == 1) dropHopeless(refined, least);
   }
-  for (std::size_t k = 0; k < poses.size(); ++k)
-  {
-    poses[k].phi = wrapToPi(poses[k].phi);
-    if (!isNear(poses[k], starts[k])) poses[k] = starts[k];
-  }
+  poses.clear();
+  for (const Refined& one : refined) poses.push_back(one.result());
 }
 
 mrpt::math::CMatrixDouble33 DenseVerifier::covarianceAt(const DenseScan& scan, const TPose2D& pose,

@@ -26,6 +26,7 @@ namespace
 {
 constexpr std::size_t kQuickSorted = 1024;  // best first looks that are sorted at all
 constexpr std::size_t kQuickKept = 40;  // places that are refined: the cascade's knob
+constexpr float kMiddleShare = 0.65F;  // of what the best explains: with less a place is dropped
 constexpr std::size_t kMiddleBeams = 32;
 constexpr std::size_t kMiddleScored = 48;
 constexpr int kMiddleSteps = 3;
@@ -198,7 +199,7 @@ std::vector<RankedPose> DenseVerifier::rank(const DenseScan& scan,
     if (pose.evidence.score < promising) break;
     refined.push_back(pose.pose);
   }
-  refineAll(scan, refined, kFinalSteps, kFinalBeams);
+  refineAll(scan, refined, kFinalSteps, kFinalBeams, 0);
   for (std::size_t k = 0; k < poses.size(); ++k)
   {
     if (k < refined.size()) poses[k].pose = refined[k];
@@ -260,7 +261,7 @@ std::vector<RankedPose> DenseVerifier::refineBest(const DenseScan& scan,
     taken.add(p);
     places.emplace_back(p.x, p.y, p.phi);
   }
-  refineAll(scan, places, kMiddleSteps, kMiddleBeams);
+  refineAll(scan, places, kMiddleSteps, kMiddleBeams, kMiddleShare);
   std::vector<RankedPose> poses(places.size());
   for (std::size_t k = 0; k < places.size(); ++k)
   {

@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "likelihood_table.h"
+#include "wide_vectors.h"
 
 namespace sigloc
 {
@@ -223,7 +224,7 @@ class QuickField::TurnedReturns
     return table_[row];
   }
 
-  void turn(float phi, Turned& turned) const
+  SIGLOC_WIDE_VECTORS void turn(float phi, Turned& turned) const
   {
     constexpr std::int32_t kShift =
         1 << 14;  // truncation rounds to the nearest where all is positive

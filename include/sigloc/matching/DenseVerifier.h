@@ -104,7 +104,7 @@ class DenseVerifier
                                      const std::vector<PoseProposal>& proposals,
                                      std::vector<QuickLook> looks) const;
   void refineAll(const DenseScan& scan, std::vector<mrpt::math::TPose2D>& poses, int steps,
-                 std::size_t beams) const;
+                 std::size_t beams, float least) const;
   void settle(const DenseScan& scan, const DenseScan& balanced, RankedPose& pose) const;
   DenseEvidence evaluate(const DenseScan& scan, const mrpt::math::TPose2D& pose,
                          std::size_t rays) const;
