@@ -46,6 +46,13 @@ double rivalScore(const RelocationResult& result, std::size_t k)
   return rival < result.candidates.size() ? result.candidates[rival].score : kChanceScore;
 }
 
+/// What is left to judge by when returns in free space are taken for occlusions.
+double unhiddenShare(const DenseEvidence& evidence)
+{
+  constexpr double kLeastSeen = 0.25;
+  return std::max(kLeastSeen, 1.0 - evidence.in_free);
+}
+
 /// The verdict that the weights allow.
 void decide(RelocationResult& result)
 {
@@ -83,9 +90,14 @@ double logLikelihoodOfScore(double score)
 
 double reliabilityOf(const DenseEvidence& evidence)
 {
-  constexpr double kLeastSeen = 0.25;  // share of the returns that must be left to judge by
-  const double seen = std::max(kLeastSeen, 1.0 - evidence.in_free);
-  return std::clamp((evidence.fine - 0.5 * evidence.through_wall) / seen, 0.0, 1.0);
+  return std::clamp((evidence.fine - 0.5 * evidence.through_wall) / unhiddenShare(evidence), 0.0,
+                    1.0);
+}
+
+double scoreOfUnhidden(const DenseEvidence& evidence)
+{
+  const double explained = 0.5 * (evidence.fine + evidence.coarse);
+  return (explained - 0.5 * evidence.through_wall) / unhiddenShare(evidence);
 }
 
 double unexplainedShare(const DenseEvidence& evidence)

@@ -146,7 +146,7 @@ void HypothesisTracker::State::followDensely(const std::optional<MotionIncrement
   travel_since_relocation += travel;
   travelled += travel;
   set.follow(scan, travelled, travel);
-  set.weigh(travel);
+  set.weigh(travel, scan);
   if (wantsRelocation()) relocate(scene, scan);
   set.mergeAndPrune();
   judgeFirst(scan);

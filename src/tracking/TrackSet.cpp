@@ -42,6 +42,14 @@ bool coincide(const TPose2D& a, const TPose2D& b, double distance, double angle)
   return std::hypot(a.x - b.x, a.y - b.y) <= distance && std::abs(wrapToPi(a.phi - b.phi)) <= angle;
 }
 
+/// Few returns tell little: half of a score may hang on three specks.
+double shareTold(const DenseScan& scan)
+{
+  constexpr double kTelling = 60;  // returns
+  const auto seen = std::count(scan.isolated.begin(), scan.isolated.end(), 0);
+  return std::min(1.0, static_cast<double>(seen) / kTelling);
+}
+
 bool heavier(const Track& a, const Track& b)
 {
   if (a.hypothesis.weight != b.hypothesis.weight) return a.hypothesis.weight > b.hypothesis.weight;
@@ -185,8 +193,9 @@ void TrackSet::follow(const DenseScan& scan, double travelled, double travel)
 
 /// Rivals are weighed against each other by how well each explains the scan, per distance driven:
 /// the errors of map and scan stay the same for a stretch. Against "somewhere else" the best of
-/// them is weighed by its score alone, and sooner.
-void TrackSet::weigh(double travel)
+/// them is weighed by its score alone, and sooner; a track that is held is not given up for what
+/// ends before mapped walls, because something may hide them.
+void TrackSet::weigh(double travel, const DenseScan& scan)
 {
   if (tracks.empty()) return;
   const double best_score =
@@ -194,15 +203,20 @@ void TrackSet::weigh(double travel)
                        [](const Track& a, const Track& b) { return a.score < b.score; })
           ->score;
   const double best = logLikelihoodOfScore(best_score);
-  const double between = std::min(1.0, travel / options_.evidence_distance);
+  const double between = shareTold(scan) * std::min(1.0, travel / options_.evidence_distance);
   for (Track& track : tracks)
   {
     const double behind = std::max(logLikelihoodOfScore(track.score) - best, -kMaxRelative);
     track.hypothesis.weight *= std::exp(between * behind);
   }
   const double lost = std::min(1.0, travel / options_.lost_distance);
-  const double for_lost =
-      std::clamp(logLikelihoodOfScore(options_.lost_score) - best, -kMaxLost, kMaxLost);
+  double most = -1;
+  for (const Track& track : tracks)
+  {
+    most = std::max(most, track.held() ? scoreOfUnhidden(track.evidence) : track.score);
+  }
+  const double for_lost = std::clamp(
+      logLikelihoodOfScore(options_.lost_score) - logLikelihoodOfScore(most), -kMaxLost, kMaxLost);
   elsewhere *= std::exp(lost * for_lost);
   normalise();
 }

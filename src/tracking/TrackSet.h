@@ -80,7 +80,7 @@ class TrackSet
   void update(const DenseScan& scan, const DenseVerifier& verifier);
 
   /// Weighs rivals against each other, the best against "somewhere else". Eq. (8.5), (8.6)
-  void weigh(double travel);
+  void weigh(double travel, const DenseScan& scan);
 
   /// Adds to every track what the parts of the scan tell that came into view with the last `travel`
   /// [m] of `travelled`. Eq. (8.21)

@@ -18,6 +18,10 @@ double logLikelihoodOfScore(double score);
 /// cut short, the share on walls, less what came through walls. \cite algorithm eq. (8.11)
 double reliabilityOf(const DenseEvidence& evidence);
 
+/// Returns the score of the returns that nothing unmapped cut short, in [-0.5, 1]: what (6.8) would
+/// be if nothing stood in the way. \cite algorithm eq. (8.23)
+double scoreOfUnhidden(const DenseEvidence& evidence);
+
 /// Returns the share, in [0, 1], of what ends where the map knows something that it does not
 /// explain. What ends in its free space counts as explained: people and moved furniture hide walls.
 /// \cite algorithm eq. (8.21)
