@@ -181,7 +181,7 @@ bool isLast(const std::array<double, 3>& move)
 /// A pose on its way.
 struct Refined
 {
-  explicit Refined(const TPose2D& at) : start(at), pose(at) {}
+  explicit Refined(const TPose2D& at) : start(at.x, at.y, wrapToPi(at.phi)), pose(start) {}
 
   /// Where it has come to, or its start if that is too far away.
   TPose2D result() const

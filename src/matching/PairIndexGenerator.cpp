@@ -123,8 +123,13 @@ std::vector<PairIndexGenerator::Lookup> PairIndexGenerator::lookupsOfAll(
 
 std::uint64_t PairIndexGenerator::basesFor(const PreparedScene& scene) const
 {
+  return basesOf(lookupsOfAll(scene));
+}
+
+std::uint64_t PairIndexGenerator::basesOf(const std::vector<Lookup>& lookups)
+{
   std::uint64_t bases = 0;
-  for (const Lookup& lookup : lookupsOfAll(scene)) bases += lookup.runs.pairs();
+  for (const Lookup& lookup : lookups) bases += lookup.runs.pairs();
   return bases;
 }
 
@@ -154,10 +159,28 @@ void PairIndexGenerator::search(const PreparedScene& scene, HypothesisSet& found
   if (!significant()) return;
 
   // 2. Pairs of what the answer explains: places that look alike share most of it.
+  for (const Lookup& lookup : lookupsOfExplained(scene, found))
+  {
+    tryLookup(scene, lookup, found, workspace, counters, limit);
+  }
+}
+
+std::vector<PairIndexGenerator::Lookup> PairIndexGenerator::lookupsOfExplained(
+    const PreparedScene& scene, const HypothesisSet& found) const
+{
   const std::vector<std::uint32_t> explained = observedOf(*found.best());
-  const std::uint32_t rivals =
-      drawsNeeded(options.failure_probability, rivalShare(explained.size(), 2));
-  for (const Lookup& lookup : rankedLookups(scene, explained, rivals))
+  const double failure = verifier_->options().failure_probability;
+  return rankedLookups(scene, explained, drawsNeeded(failure, rivalShare(explained.size(), 2)));
+}
+
+void PairIndexGenerator::lookAgain(const PreparedScene& scene, HypothesisSet& found,
+                                   FeatureVerifier::Workspace& workspace,
+                                   MatchingCounters& counters, std::uint64_t budget) const
+{
+  const std::vector<Lookup> lookups = lookupsOfExplained(scene, found);
+  if (basesOf(lookups) > budget) return;
+  const std::uint64_t limit = counters.hypotheses + budget;
+  for (const Lookup& lookup : lookups)
   {
     tryLookup(scene, lookup, found, workspace, counters, limit);
   }

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/matching/PatternGenerator.h"
+#include "PatternQuery.h"
 
-#include "sigloc/matching/pattern_order.h"
 #include "sigloc/matching/sampling.h"
 #include "sigloc/signature/unary_constraint.h"
 
@@ -24,54 +23,17 @@ constexpr double kIndexedShare = 0.5;
 constexpr double kSparselyIndexedShare = 0.05;
 constexpr double kUnlikely = 0.5;  // hypotheses as good by chance: an answer that explains enough
 constexpr double kBetterThanChance = 1;  // hypotheses as good expected by chance
-// The second look may fail this much less: how much of a place is indexed varies from place to
-// place.
-constexpr double kLookAgain = 0.1;
+constexpr std::uint64_t kFewPairBases = 2000;  // that may be tried where patterns are too few
 // More draws cost little beside answering nothing sure, or trying smaller bases next: before that
 // they may fail this much less. Where a map is sparse few of the patterns seen are indexed.
 constexpr double kDrawsAreCheap = 1e-6;
-// Share of the gate within which an order is taken to be undecided: every further order is a
-// further look-up, and an order missed costs one draw of many.
-constexpr double kOrderShare = 0.5;
-}  // namespace
 
-namespace
-{
 bool seesWalls(const PreparedScene& scene)
 {
   return std::any_of(scene.views.begin(), scene.views.end(),
                      [](const DirectedFeature& view) { return isSegment(view.type()); });
 }
-
-/// Two patterns that share a key by accident cost one draw of many.
-std::uint64_t keyOf(const PatternMembers& members)
-{
-  std::uint64_t key = 0;
-  for (const std::uint32_t member : members)
-  {
-    key = (key ^ member) * 0x9E3779B97F4A7C15ULL;
-    key ^= key >> 32;
-  }
-  return key;
-}
 }  // namespace
-
-/// What one query carries along: random numbers, the pattern drawn last, buffers.
-struct PatternGenerator::Query
-{
-  explicit Query(std::uint64_t seed) : random(seed) {}
-
-  SplitMix random;
-  PatternMembers members{};
-  double map_variance = 0;  ///< [m^2], of a mapped place, each coordinate
-  double variance = 0;  ///< [m^2], of a member against its mapped place, each coordinate
-  PatternIndex::Gate gate;
-  std::vector<std::uint32_t> near;
-  std::vector<PatternOrder> orders;
-  std::vector<std::uint64_t> tried;  ///< keys of the patterns drawn so far
-  std::vector<const std::uint32_t*> hits;
-  std::vector<PoseEstimate> poses;
-};
 
 PatternGenerator::PatternGenerator(std::shared_ptr<const FeatureVerifier> verifier,
                                    std::shared_ptr<const PairLists> lists)
@@ -82,57 +44,6 @@ PatternGenerator::PatternGenerator(std::shared_ptr<const FeatureVerifier> verifi
       pairs_(verifier, lists),
       anchors_(verifier, lists)
 {
-}
-
-/// Every pattern is gated by its own members' variance: one vague feature must not make the others'
-/// patterns match anything.
-void PatternGenerator::gatePattern(const PreparedScene& scene, Query& query) const
-{
-  const std::size_t size = index_.patternSize();
-  double trace = 0;
-  for (std::size_t k = 0; k < size; ++k)
-  {
-    const auto& p = scene.views[query.members[k]].feature->position_covariance;
-    trace = std::max(trace, p(0, 0) + p(1, 1));
-  }
-  query.variance = 0.5 * trace + query.map_variance;
-  query.gate.residual = query.variance * residual_gate_;
-  query.gate.tolerance = std::sqrt(2 * verifier_->gates().scalar * query.variance);
-}
-
-bool PatternGenerator::drawPattern(const PreparedScene& scene, const std::vector<bool>& among,
-                                   std::uint32_t root, std::size_t most_orders, Query& query) const
-{
-  const std::size_t size = index_.patternSize();
-  // The neighbours that the map's patterns are made of, and a few more: spurious ones push the
-  // real ones back.
-  const std::size_t reach = index_.neighbours() + (index_.neighbours() + 2) / 3;
-  query.near.clear();
-  const std::uint32_t* order = scene.orderFrom(root);
-  for (std::size_t step = 0; step < scene.size() && query.near.size() < reach; ++step)
-  {
-    if (order[step] != root && among[order[step]]) query.near.push_back(order[step]);
-  }
-  if (query.near.size() + 1 < size) return false;
-
-  query.members = {root};
-  for (std::size_t k = 1; k < size; ++k)
-  {
-    const auto left = static_cast<std::uint32_t>(query.near.size() - (k - 1));
-    std::swap(query.near[k - 1], query.near[k - 1 + query.random.index(left)]);
-    query.members[k] = query.near[k - 1];
-  }
-  std::sort(query.members.begin(), query.members.begin() + static_cast<std::ptrdiff_t>(size));
-  const std::uint64_t key = keyOf(query.members);
-  if (std::find(query.tried.begin(), query.tried.end(), key) != query.tried.end()) return false;
-  gatePattern(scene, query);
-  std::array<TPoint2D, kLargestPattern> places;
-  for (std::size_t k = 0; k < size; ++k) places[k] = scene.views[query.members[k]].position();
-  query.orders.clear();
-  possibleOrders(places.data(), size, kOrderShare * query.gate.tolerance, query.orders);
-  if (query.orders.size() > most_orders) return false;
-  query.tried.push_back(key);
-  return true;
 }
 
 bool PatternGenerator::fitPattern(const PreparedScene& scene, const Query& query,
@@ -187,6 +98,7 @@ void PatternGenerator::tryPattern(const PreparedScene& scene, Query& query, Hypo
     for (const std::uint32_t* mapped : query.hits)
     {
       PoseEstimate pose;
+      if (leadsToPartners(query, observed, mapped)) continue;
       if (!fitPattern(scene, query, observed, mapped, pose)) continue;
       map.grid().prefetch(pose.place(next));
       query.poses.push_back(pose);
@@ -228,6 +140,36 @@ bool PatternGenerator::settles(const PreparedScene& scene, const HypothesisSet& 
   return chance < options.significance || (explains_enough && chance < kUnlikely);
 }
 
+/// Draws patterns of `roots` until `wanted` fresh ones are tried or `done` says so. Every draw
+/// starts at another feature. Patterns that could be written in many orders wait until others are
+/// used up. Draws that find no fresh pattern are made up for, up to a point: few features hold few
+/// patterns.
+template <class Done>
+std::uint32_t PatternGenerator::draw(const PreparedScene& scene,
+                                     const std::vector<std::uint32_t>& roots, std::uint32_t wanted,
+                                     Query& query, HypothesisSet& found,
+                                     FeatureVerifier::Workspace& workspace,
+                                     MatchingCounters& counters, const Done& done) const
+{
+  constexpr std::uint32_t kPatience = 3;
+  constexpr std::size_t kFewOrders = 2;
+  std::vector<bool> among(scene.size(), false);
+  for (const std::uint32_t root : roots) among[root] = true;
+  std::uint32_t fresh = 0;
+  for (const std::size_t most_orders : {kFewOrders, std::numeric_limits<std::size_t>::max()})
+  {
+    for (std::uint32_t d = 0; d < kPatience * wanted && fresh < wanted; ++d)
+    {
+      if (!drawPattern(scene, among, roots[d % roots.size()], most_orders, query)) continue;
+      ++fresh;
+      const std::uint64_t hypotheses = counters.hypotheses;
+      tryPattern(scene, query, found, workspace, counters);
+      if (counters.hypotheses > hypotheses && done()) return fresh;
+    }
+  }
+  return fresh;
+}
+
 bool PatternGenerator::search(const PreparedScene& scene, Query& query, HypothesisSet& found,
                               FeatureVerifier::Workspace& workspace,
                               MatchingCounters& counters) const
@@ -242,52 +184,54 @@ bool PatternGenerator::search(const PreparedScene& scene, Query& query, Hypothes
   if (size == 0 || places.size() < size) return false;
   query.random.shuffle(places);
 
+  // 1. Patterns of all features, until an answer is significant.
   const std::uint64_t before = counters.hypotheses;
   const auto significant = [&]
   { return refutesChance(scene, found, size, counters.hypotheses - before); };
-  // Every draw starts at another feature. Patterns that could be written in many orders wait until
-  // others are used up. Draws that find no fresh pattern are made up for, up to a point: few
-  // features hold few patterns.
-  const auto draw =
-      [&](const std::vector<std::uint32_t>& roots, std::uint32_t wanted, bool until_significant)
-  {
-    std::vector<bool> among(scene.size(), false);
-    for (const std::uint32_t root : roots) among[root] = true;
-    constexpr std::uint32_t kPatience = 3;
-    constexpr std::size_t kFewOrders = 2;
-    std::uint32_t fresh = 0;
-    for (const std::size_t most_orders : {kFewOrders, std::numeric_limits<std::size_t>::max()})
-    {
-      for (std::uint32_t d = 0; d < kPatience * wanted && fresh < wanted; ++d)
-      {
-        if (!drawPattern(scene, among, roots[d % roots.size()], most_orders, query)) continue;
-        ++fresh;
-        const std::uint64_t hypotheses = counters.hypotheses;
-        tryPattern(scene, query, found, workspace, counters);
-        if (until_significant && counters.hypotheses > hypotheses && significant()) return;
-      }
-    }
-  };
-
-  // 1. Patterns of all features, until an answer is significant.
-  const double good = kIndexedShare * std::pow(options.good_share, size);
-  const double failure = options.failure_probability;
-  draw(places, drawsNeeded(failure, good), true);
   const auto settled = [&] { return settles(scene, found, size, counters.hypotheses - before); };
-  if (!settled()) draw(places, drawsNeeded(kDrawsAreCheap, good), true);
+  const double good = kIndexedShare * std::pow(options.good_share, size);
+  for (const double failure : {options.failure_probability, kDrawsAreCheap})
+  {
+    draw(scene, places, drawsNeeded(failure, good), query, found, workspace, counters, significant);
+    if (settled()) break;
+  }
   if (!settled()) return false;
 
-  // 2. Patterns of what the answer explains: places that look alike share most of it.
+  // 2. Patterns of what the answer explains.
+  lookAgain(scene, query, found, workspace, counters);
+  return true;
+}
+
+/// Places that look alike share most of what the best one explains. Only patterns that the index
+/// holds at the best place are drawn: most likely it holds them at a place like it. Where there are
+/// too few of them, pairs are looked up.
+void PatternGenerator::lookAgain(const PreparedScene& scene, Query& query, HypothesisSet& found,
+                                 FeatureVerifier::Workspace& workspace,
+                                 MatchingCounters& counters) const
+{
+  query.partners.assign(scene.size(), 0);
+  for (const FeaturePairing& pairing : found.best()->pairings)
+  {
+    query.partners[pairing.observed] = pairing.mapped;
+  }
   std::vector<std::uint32_t> explained;
   for (const std::uint32_t i : observedOf(*found.best()))
   {
     if (isPointLike(scene.views[i].type())) explained.push_back(i);
   }
-  if (explained.empty()) return true;
-  const double shared = kIndexedShare * rivalShare(explained.size(), size);
-  const auto patterns = static_cast<std::uint32_t>(combinations(explained.size(), size));
-  draw(explained, std::min(patterns, drawsNeeded(kLookAgain * failure, shared)), false);
-  return true;
+  const double failure = verifier_->options().failure_probability;
+  const double shared = rivalShare(explained.size(), index_.patternSize());
+  const std::uint32_t wanted = drawsNeeded(failure, shared);
+  std::uint32_t drawn = 0;
+  if (!explained.empty())
+  {
+    const auto patterns =
+        static_cast<std::uint32_t>(combinations(explained.size(), index_.patternSize()));
+    drawn = draw(scene, explained, std::min(patterns, wanted), query, found, workspace, counters,
+                 [] { return false; });
+  }
+  if (drawn >= wanted) return;
+  pairs_.lookAgain(scene, found, workspace, counters, kFewPairBases);
 }
 
 /// Smaller bases find what shares too few features with the map for patterns. They are worth their

@@ -29,6 +29,7 @@ struct NearestPlaces
   std::vector<std::uint32_t> roots;
   std::size_t width = 0;
   std::vector<std::uint32_t> table;  ///< by map feature
+  std::vector<float> reach;  ///< [m], to the last of them, by map feature
 
   const std::uint32_t* of(std::uint32_t k) const { return &table[k * width]; }
   bool holds(std::uint32_t k, std::uint32_t neighbour) const
@@ -64,6 +65,7 @@ NearestPlaces nearestPlaces(const PreparedMap& map, std::vector<std::uint32_t> r
   nearest.table.assign(map.size() * width, std::numeric_limits<std::uint32_t>::max());
   const double first_reach = std::sqrt(2 * static_cast<double>(width) * map.area() /
                                        (M_PI * static_cast<double>(nearest.roots.size())));
+  nearest.reach.assign(map.size(), 0);
   std::vector<std::uint32_t> places;
   for (const std::uint32_t root : nearest.roots)
   {
@@ -85,6 +87,9 @@ NearestPlaces nearestPlaces(const PreparedMap& map, std::vector<std::uint32_t> r
                       { return distance(a) != distance(b) ? distance(a) < distance(b) : a < b; });
     std::copy_n(places.begin(), kept,
                 nearest.table.begin() + static_cast<std::ptrdiff_t>(root * width));
+    constexpr double kRounding = 1e-4;  // [m]
+    if (kept == 0) continue;
+    nearest.reach[root] = static_cast<float>(std::sqrt(distance(places[kept - 1])) + kRounding);
   }
   return nearest;
 }
@@ -202,7 +207,7 @@ PatternIndex::PatternIndex(const PreparedMap& map, const GeneratorOptions& optio
     ++neighbours_;
   }
 
-  const NearestPlaces nearest = nearestPlaces(map, std::move(roots), neighbours_);
+  NearestPlaces nearest = nearestPlaces(map, std::move(roots), neighbours_);
   Draft draft;
   for (const std::uint32_t root : nearest.roots)
   {
@@ -213,6 +218,7 @@ PatternIndex::PatternIndex(const PreparedMap& map, const GeneratorOptions& optio
               });
   }
   sortIntoSlots(draft);
+  reach_ = std::move(nearest.reach);
 }
 
 void PatternIndex::appendPattern(const PreparedMap& map, const PatternMembers& set,
@@ -366,6 +372,7 @@ std::size_t PatternIndex::slotsNear(const PatternShape& shape, double tolerance,
 std::size_t PatternIndex::bytes() const
 {
   return occupied_.capacity() * sizeof(occupied_[0]) + starts_.capacity() * sizeof(starts_[0]) +
-         values_.capacity() * sizeof(values_[0]) + members_.capacity() * sizeof(members_[0]);
+         values_.capacity() * sizeof(values_[0]) + members_.capacity() * sizeof(members_[0]) +
+         reach_.capacity() * sizeof(reach_[0]);
 }
 }  // namespace sigloc

@@ -4,7 +4,10 @@
 #include <mrpt/math/wrap2pi.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <map>
 
 #include "sigloc/eval/FeatureWorld.h"
 #include "sigloc/matching/generators.h"
@@ -43,54 +46,60 @@ bool holds(const std::vector<FeatureHypothesis>& found, const TPose2D& pose)
                      });
 }
 
-class AllPoses : public testing::TestWithParam<GenerationMode>
-{
-};
-INSTANTIATE_TEST_SUITE_P(Modes, AllPoses,
-                         testing::Values(GenerationMode::anchors, GenerationMode::pairs,
-                                         GenerationMode::patterns),
-                         [](const auto& mode)
-                         {
-                           return mode.param == GenerationMode::anchors ? "Anchors"
-                                  : mode.param == GenerationMode::pairs ? "Pairs"
-                                                                        : "Patterns";
-                         });
+constexpr std::array<std::uint64_t, 4> kRoomSeeds = {61, 62, 63, 64};
 
-// Every pose that the plain mode finds and that isn't chance, not just the winner: where a building
-// repeats itself, the one that is left out may be the robot's.
-TEST_P(AllPoses, OfOneToEightCopiesOfARoomAreFound)
+/// What the modes miss of the poses that the plain one finds and that aren't chance.
+struct Missed
 {
-  GeneratorOptions options;
   std::size_t plausible = 0;
-  std::size_t missed = 0;
-  Random random(61);
-  for (std::size_t copies = 1; copies <= 8; ++copies)
+  std::map<GenerationMode, std::size_t> by_mode;
+
+  void ask(const FeatureMap& map, const std::vector<Feature>& observed)
   {
-    for (int round = 0; round < 6; ++round)
+    const GeneratorOptions options;
+    MatchingCounters counters;
+    const auto reference =
+        makeGenerator(GenerationMode::plain, map, options)->generate(observed, counters);
+    for (const GenerationMode mode :
+         {GenerationMode::anchors, GenerationMode::pairs, GenerationMode::patterns})
     {
-      FeatureWorldOptions world;
-      world.range = 6;
-      if (round % 2 == 1) world.type_weights = {2, 1, 1, 1, 1};
-      const FeatureWorld room = makeFeatureWorld(40, world, random);
-      const FeatureMap map(copiesOf(room, copies, random));
-      const auto observed =
-          observeFeatures(room, randomPose(room, world, random), world, random, 14);
-      MatchingCounters counters;
-      const auto reference =
-          makeGenerator(GenerationMode::plain, map, options)->generate(observed, counters);
-      const auto found = makeGenerator(GetParam(), map, options)->generate(observed, counters);
+      const auto found = makeGenerator(mode, map, options)->generate(observed, counters);
       for (const FeatureHypothesis& hypothesis : reference)
       {
         if (hypothesis.chance >= options.significance) continue;
-        ++plausible;
-        missed += !holds(found, hypothesis.pose.mean);
+        plausible += mode == GenerationMode::anchors;
+        by_mode[mode] += !holds(found, hypothesis.pose.mean);
       }
     }
   }
-  EXPECT_GE(plausible, 180U);
-  EXPECT_LE(static_cast<double>(missed),
-            options.failure_probability * static_cast<double>(plausible))
-      << "of " << plausible;
+};
+
+// Not just the winner: where a building repeats itself, the one that is left out may be the
+// robot's.
+TEST(AllPoses, OfOneToEightCopiesOfARoomAreFound)
+{
+  Missed missed;
+  for (const std::uint64_t seed : kRoomSeeds)
+  {
+    Random random(seed);
+    for (std::size_t copies = 1; copies <= 8; ++copies)
+    {
+      for (int round = 0; round < 6; ++round)
+      {
+        FeatureWorldOptions world;
+        world.range = 6;
+        if (round % 2 == 1) world.type_weights = {2, 1, 1, 1, 1};
+        const FeatureWorld room = makeFeatureWorld(40, world, random);
+        const FeatureMap map(copiesOf(room, copies, random));
+        missed.ask(map, observeFeatures(room, randomPose(room, world, random), world, random, 14));
+      }
+    }
+  }
+  EXPECT_GE(missed.plausible, 720U);
+  const double bar = GeneratorOptions{}.failure_probability * static_cast<double>(missed.plausible);
+  EXPECT_LE(static_cast<double>(missed.by_mode[GenerationMode::anchors]), bar);
+  EXPECT_LE(static_cast<double>(missed.by_mode[GenerationMode::pairs]), bar);
+  EXPECT_LE(static_cast<double>(missed.by_mode[GenerationMode::patterns]), bar);
 }
 }  // namespace
 }  // namespace sigloc

@@ -23,12 +23,21 @@ class PairIndexGenerator : public FeatureHypothesisGenerator
               FeatureVerifier::Workspace& workspace, MatchingCounters& counters,
               std::uint64_t budget) const;
 
+  /// Searches with pairs of what the best hypothesis explains for places that explain nearly as
+  /// much, eq. (4.4). Not at all where that could take more than `budget` bases.
+  void lookAgain(const PreparedScene& scene, HypothesisSet& found,
+                 FeatureVerifier::Workspace& workspace, MatchingCounters& counters,
+                 std::uint64_t budget) const;
+
   /// How many bases a search would retrieve at most, without retrieving them.
   std::uint64_t basesFor(const PreparedScene& scene) const;
 
  private:
   struct Lookup;
   std::vector<Lookup> lookupsOfAll(const PreparedScene& scene) const;
+  std::vector<Lookup> lookupsOfExplained(const PreparedScene& scene,
+                                         const HypothesisSet& found) const;
+  static std::uint64_t basesOf(const std::vector<Lookup>& lookups);
   std::vector<Lookup> rankedLookups(const PreparedScene& scene,
                                     const std::vector<std::uint32_t>& among,
                                     std::uint32_t count) const;

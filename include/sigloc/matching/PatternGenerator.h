@@ -32,6 +32,16 @@ class PatternGenerator : public FeatureHypothesisGenerator
                   FeatureVerifier::Workspace& workspace, MatchingCounters& counters) const;
   bool fitPattern(const PreparedScene& scene, const Query& query, const PatternMembers& observed,
                   const std::uint32_t* mapped, PoseEstimate& pose) const;
+  bool mayJoin(const Query& query, std::uint32_t root, std::uint32_t member) const;
+  bool leadsToPartners(const Query& query, const PatternMembers& observed,
+                       const std::uint32_t* mapped) const;
+  template <class Done>
+  std::uint32_t draw(const PreparedScene& scene, const std::vector<std::uint32_t>& roots,
+                     std::uint32_t wanted, Query& query, HypothesisSet& found,
+                     FeatureVerifier::Workspace& workspace, MatchingCounters& counters,
+                     const Done& done) const;
+  void lookAgain(const PreparedScene& scene, Query& query, HypothesisSet& found,
+                 FeatureVerifier::Workspace& workspace, MatchingCounters& counters) const;
   bool search(const PreparedScene& scene, Query& query, HypothesisSet& found,
               FeatureVerifier::Workspace& workspace, MatchingCounters& counters) const;
   bool refutesChance(const PreparedScene& scene, const HypothesisSet& found,

@@ -42,6 +42,12 @@ class PatternIndex
   std::size_t count() const { return size_ > 0 ? members_.size() / size_ : 0; }
   std::size_t bytes() const;
 
+  /// True when a mapped feature is one of the `neighbours()` that form patterns with another one.
+  bool isNeighbour(const PreparedMap& map, std::uint32_t root, std::uint32_t other) const
+  {
+    return (map.view(other).position() - map.view(root).position()).norm() <= reach_[root];
+  }
+
   /// How much a mapped pattern may differ from an observed one.
   struct Gate
   {
@@ -136,6 +142,7 @@ class PatternIndex
   LargeVector<std::uint32_t> starts_;
   LargeVector<std::int16_t> values_;  ///< valueCount() a pattern
   LargeVector<std::uint32_t> members_;  ///< size_ a pattern
+  std::vector<float> reach_;  ///< [m], of each mapped feature to the last of its neighbours
 };
 
 inline double PatternIndex::residualOf(const PatternShape& shape, const Alignment& alignment,
