@@ -71,7 +71,8 @@ Run readRun(const fs::path& folder)
   return run;
 }
 
-/// What a run asked: its seed, the checksums of its data, and the columns that tell a question.
+/// What a run asked: the checksums of its data or, in simulation, its seed, and the columns that
+/// tell a question. Another seed asks a log nothing new.
 std::set<std::string> questionsOf(const Run& run)
 {
   const ordered_json& provenance = run.summary.at("provenance");
@@ -79,11 +80,9 @@ std::set<std::string> questionsOf(const Run& run)
   // The world of a sweep has the seed in its name, and keeps it when merged.
   if (!run.results.has("world"))
   {
-    asked = provenance.value("seed", ordered_json()).dump();
-    for (const auto& file : provenance.value("data", ordered_json::array()))
-    {
-      asked += " " + file.value("md5", "");
-    }
+    const auto data = provenance.value("data", ordered_json::array());
+    for (const auto& file : data) asked += " " + file.value("md5", "");
+    if (data.empty()) asked = provenance.value("seed", ordered_json()).dump();
   }
   std::set<std::string> questions;
   for (std::size_t i = 0; i < run.results.rows(); ++i)
@@ -118,8 +117,8 @@ void checkAlike(const std::vector<Run>& runs)
     {
       if (asked.insert(question).second) continue;
       throw std::runtime_error(run.folder.string() +
-                               ": an earlier run asked the same with the same seed: give each run "
-                               "data or a --seed of its own");
+                               ": an earlier run asked the same: give each run data of its own or, "
+                               "in simulation, a --seed");
     }
   }
 }

@@ -164,6 +164,24 @@ TEST(Merge, RefusesToCountTheSameQuestionsTwice)
             std::string::npos);
 }
 
+// What is asked of a log is in the log: another seed asks nothing new.
+TEST(Merge, RefusesTheSameLogUnderAnotherSeed)
+{
+  const TemporaryFolder folder;
+  writeText(folder / "log", "a log");
+  for (const std::uint64_t seed : {1U, 2U})
+  {
+    RunReport report;
+    report.summary["methods"]["signature"] = {{"queries", 1U}};
+    report.results = "method,query\nsignature,7\n";
+    report.provenance.seed = seed;
+    report.provenance.data_files = {folder / "log"};
+    writeRunReport(report, folder / std::to_string(seed));
+  }
+  EXPECT_NE(complaint({folder / "1", folder / "2"}).find("2: an earlier run asked the same"),
+            std::string::npos);
+}
+
 TEST(Merge, RefusesWhatCannotBePooled)
 {
   const TemporaryFolder folder;
