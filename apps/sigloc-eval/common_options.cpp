@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <iomanip>
 #include <iostream>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 
@@ -42,7 +43,8 @@ void CommonOptions::declare(CLI::App& command, const std::vector<std::string>& k
       .add_option("--method", methods,
                   "methods to run, separated by commas, of: " + joined(known_methods))
       ->delimiter(',');
-  command.add_option("--max-queries", max_queries, "ask this many, evenly spaced (default: all)");
+  command.add_option("--max-queries", max_queries, "ask this many, evenly spaced (default: all)")
+      ->check(numberFrom(1, std::numeric_limits<std::uint32_t>::max()));
   command.add_option("--region", region, "x0,x1,y0,y1 [m]: the robot is known to be inside")
       ->check(numberFrom(-kFar, kFar))
       ->delimiter(',')

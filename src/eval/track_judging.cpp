@@ -48,6 +48,7 @@ void countWrong(TrackRun& run)
   {
     if (run.steps[i].judged != Claim::wrong) continue;
     ++run.wrong_steps;
+    run.wrong_mapped_steps += run.steps[i].mapped;
     if (i == 0 || run.steps[i - 1].judged != Claim::wrong) ++run.wrong_episodes;
   }
 }

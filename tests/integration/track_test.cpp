@@ -41,6 +41,27 @@ TEST(TrackScoring, SettlesWhereItStaysConfidentToTheEnd)
   EXPECT_EQ(run.wrong_episodes, 2U);
 }
 
+// A claim off the mapped land is wrong wherever it is, but it is another fault than one on it.
+TEST(TrackScoring, CountsWrongClaimsOffTheMappedLandApart)
+{
+  TrackRun run;
+  run.steps = {stepOf(0, Claim::right), stepOf(1, Claim::wrong), stepOf(2, Claim::wrong)};
+  run.steps.back().mapped = false;
+  judgeRun(run);
+  EXPECT_EQ(run.wrong_steps, 2U);
+  EXPECT_EQ(run.wrong_mapped_steps, 1U);
+
+  TrackReport report;
+  report.methods.emplace_back();
+  report.methods.back().name = "signature";
+  TrackRun& outside = report.methods.back().runs.emplace_back();
+  outside.steps = run.steps;
+  outside.steps[1].mapped = false;
+  judgeRun(outside);
+  EXPECT_NE(trackTable(report).find("| 1          | 0              | 2 "), std::string::npos)
+      << trackTable(report);
+}
+
 TEST(TrackScoring, ARunThatNeverSettlesCostsItsWholeTime)
 {
   TrackRun run;

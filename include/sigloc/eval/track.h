@@ -77,6 +77,7 @@ struct TrackRun
   std::optional<TrackEvent> settled_after;
   double cpu_to_settled = 0;  ///< [s]; all that was spent when it never settles
   std::size_t wrong_steps = 0;  ///< off the mapped area too
+  std::size_t wrong_mapped_steps = 0;  ///< of them, those on it
   std::size_t wrong_episodes = 0;
   /// After a kidnapping the first step that is not sure of a wrong place; none: never.
   std::optional<TrackEvent> noticed_after;
