@@ -231,7 +231,9 @@ void PatternGenerator::lookAgain(const PreparedScene& scene, Query& query, Hypot
                  [] { return false; });
   }
   if (drawn >= wanted) return;
+  const std::uint64_t before = counters.hypotheses;
   pairs_.lookAgain(scene, found, workspace, counters, kFewPairBases);
+  query.pair_bases = counters.hypotheses - before;
 }
 
 /// Smaller bases find what shares too few features with the map for patterns. They are worth their
@@ -303,7 +305,8 @@ std::vector<FeatureHypothesis> PatternGenerator::generate(const std::vector<Feat
   const auto base_size = static_cast<std::uint32_t>(index_.patternSize());
   if (settled || !smallerBasesMayTell(scene, query, found))
   {
-    return rankedHypotheses(scene, *verifier_, found, base_size, counters.hypotheses - before);
+    return rankedHypotheses(scene, *verifier_, found, base_size,
+                            counters.hypotheses - before - query.pair_bases);
   }
   // Nothing sure: smaller bases find what shares few features with the map.
   pairs_.search(scene, found, workspace, counters, options.fall_back_hypotheses);

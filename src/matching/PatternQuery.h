@@ -23,6 +23,7 @@ struct PatternGenerator::Query
   std::vector<std::uint32_t> near;
   std::vector<PatternOrder> orders;
   std::vector<std::uint64_t> tried;  ///< keys of the patterns drawn so far
+  std::uint64_t pair_bases = 0;  ///< tried for look-alikes only
   std::vector<std::uint32_t> partners;  ///< of each feature at a place whose look-alikes are sought
   std::vector<const std::uint32_t*> hits;
   std::vector<PoseEstimate> poses;
