@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <Eigen/Dense>
+#include <optional>
 #include <vector>
 
 #include "CellView.h"
@@ -194,7 +195,7 @@ struct Refined
 
   TPose2D start;
   TPose2D pose;
-  float explained = 0;  // by the pose before its last step
+  std::optional<float> explained;  // by the pose after one step, if that was not the last
   bool settled = false;
 };
 
@@ -202,8 +203,9 @@ struct Refined
 void dropHopeless(std::vector<Refined>& refined, float least)
 {
   float most = 0;
-  for (const Refined& one : refined) most = std::max(most, one.explained);
-  const auto hopeless = [&](const Refined& one) { return one.explained < least * most; };
+  for (const Refined& one : refined) most = std::max(most, one.explained.value_or(0));
+  const auto hopeless = [&](const Refined& one)
+  { return one.explained && *one.explained < least * most; };
   refined.erase(std::remove_if(refined.begin(), refined.end(), hopeless), refined.end());
 }
 }  // namespace
@@ -236,7 +238,7 @@ void DenseVerifier::refineAll(const DenseScan& scan, std::vector<TPose2D>& poses
       const std::array<double, 3> move = sums.step();
       one.pose = movedBy(one.pose, place, move);
       one.settled = isLast(move);
-      one.explained = sums.explained();
+      if (step == 1) one.explained = sums.explained();
     }
     if (step == 1) dropHopeless(refined, least);
   }

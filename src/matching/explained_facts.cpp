@@ -85,6 +85,7 @@ bool sameWall(const Feature& a, const Feature& b)
   return std::abs(mrpt::math::wrapToPi(a.direction - b.direction)) < kSameDirection &&
          std::abs(normal.x * d.x + normal.y * d.y) < kSameOffset;
 }
+
 /// True for a piece that goes on where another ends, and bends less than a corner does.
 bool bendsOn(const Feature& a, const Feature& b)
 {
@@ -98,8 +99,8 @@ bool bendsOn(const Feature& a, const Feature& b)
 class WallCount
 {
  public:
-  /// Whether a wall tells something that those before it did not.
-  bool isNews(const Feature& wall)
+  /// Adds a wall; returns whether it tells something that those before it did not.
+  bool add(const Feature& wall)
   {
     const auto known = [&](const Counted& other) { return sameWall(wall, *other.wall); };
     if (std::any_of(walls_.begin(), walls_.end(), known)) return false;
@@ -133,7 +134,7 @@ std::uint32_t explainedFacts(const std::vector<Feature>& observed, const DenseFi
   {
     if (feature.type == FeatureType::segment && wallExplained(feature, placed))
     {
-      facts += walls.isNews(feature);
+      facts += walls.add(feature);
     }
     if (feature.type == FeatureType::wall_end && endExplained(feature, placed)) ++facts;
     if (feature.type == FeatureType::circle && circleExplained(feature, placed)) facts += 2;

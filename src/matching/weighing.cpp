@@ -97,7 +97,7 @@ double reliabilityOf(const DenseEvidence& evidence)
 double scoreOfUnhidden(const DenseEvidence& evidence)
 {
   const double explained = 0.5 * (evidence.fine + evidence.coarse);
-  return (explained - 0.5 * evidence.through_wall) / unhiddenShare(evidence);
+  return std::min(1.0, (explained - 0.5 * evidence.through_wall) / unhiddenShare(evidence));
 }
 
 double unexplainedShare(const DenseEvidence& evidence)

@@ -4,35 +4,46 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "sigloc/features/FeatureExtractor.h"
 #include "sigloc/matching/judging.h"
+#include "support/hand_made_scan.h"
 
 namespace sigloc
 {
 namespace
 {
-constexpr double kInradius = 3;  // [m]
-constexpr int kRound = 1000;  // sides
+using testing::castByHand;
+using testing::outline;
+using testing::scanByHand;
+using testing::Surfaces;
 
-/// Distance [m] from the middle of a room with equal sides to its wall.
-double reachOf(int sides, double angle)
+constexpr int kRound = 100;  // sides
+
+/// A room with equal sides around the origin.
+Surfaces wallsOf(int sides)
 {
-  const double sector = 2 * M_PI / sides;
-  return kInradius / std::cos(std::remainder(angle, sector));
+  std::vector<mrpt::math::TPoint2D> vertices;
+  for (int k = 0; k < sides; ++k)
+  {
+    const double angle = 2 * M_PI * k / sides;
+    vertices.emplace_back(3 * std::cos(angle), 3 * std::sin(angle));
+  }
+  return outline(vertices);
 }
 
-DenseField roomOf(int sides)
+DenseField fieldOf(const Surfaces& walls)
 {
   OccupancyRaster raster;
-  raster.frame = {{-6, -6}, 0.05, 240, 240};
-  for (int j = 0; j < 240; ++j)
+  raster.frame = {{-4, -4}, 0.05, 160, 160};
+  for (int j = 0; j < 160; ++j)
   {
-    for (int i = 0; i < 240; ++i)
+    for (int i = 0; i < 160; ++i)
     {
-      const double x = -6 + 0.05 * (i + 0.5);
-      const double y = -6 + 0.05 * (j + 0.5);
-      const double beyond = std::hypot(x, y) - reachOf(sides, std::atan2(y, x));
+      const double x = -4 + 0.05 * (i + 0.5);
+      const double y = -4 + 0.05 * (j + 0.5);
+      const double beyond = std::hypot(x, y) - castByHand(walls, {0, 0}, std::atan2(y, x));
       raster.cells.push_back(beyond < 0      ? CellState::free
                              : beyond < 0.12 ? CellState::solid_wall
                                              : CellState::unknown);
@@ -41,26 +52,14 @@ DenseField roomOf(int sides)
   return buildDenseField(raster);
 }
 
-/// What a laser of 1 degree in the middle of such a room sees.
 ObservedScene sceneOf(int sides)
 {
-  LaserScan scan;
-  scan.first_angle = -M_PI;
-  scan.angle_step = M_PI / 180;
-  scan.max_range = 30;
-  scan.range_sigma = 0.01;
-  for (int i = 0; i < 360; ++i)
-  {
-    const double angle = scan.first_angle + i * scan.angle_step;
-    scan.ranges.push_back(static_cast<float>(reachOf(sides, angle) + 0.02));
-    scan.valid.push_back(1);
-  }
-  return observeScene({scan}, {});
+  return observeScene({scanByHand(wallsOf(sides), {0, 0, 0})});
 }
 
 std::uint32_t factsOf(int sides)
 {
-  const DenseField field = roomOf(sides);
+  const DenseField field = fieldOf(wallsOf(sides));
   const DenseVerifier verifier(field);
   const ObservedScene scene = sceneOf(sides);
   RankedPose here;

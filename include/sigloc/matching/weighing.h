@@ -18,7 +18,7 @@ double logLikelihoodOfScore(double score);
 /// cut short, the share on walls, less what came through walls. \cite algorithm eq. (8.11)
 double reliabilityOf(const DenseEvidence& evidence);
 
-/// Returns the score of the returns that nothing unmapped cut short, in [-0.5, 1]: what (6.8) would
+/// Returns the score of the returns that nothing unmapped cut short, in [-2, 1]: what (6.8) would
 /// be if nothing stood in the way. \cite algorithm eq. (8.23)
 double scoreOfUnhidden(const DenseEvidence& evidence);
 
