@@ -110,7 +110,7 @@ std::vector<PoseProposal> BaseProposer::proposeFurther(const std::vector<Feature
   proposeCirclePairs(observed, options_.max_pairs, options_.thorough_pairs, proposals);
   const std::vector<const Feature*> walls = wallsToSlide(observed);
   for (std::size_t i = options_.slid_walls; i < walls.size(); ++i) slide(*walls[i], proposals);
-  if (proposals.size() > options_.budget) proposals.resize(options_.budget);
+  if (proposals.size() > options_.thorough_budget) proposals.resize(options_.thorough_budget);
   return proposals;
 }
 

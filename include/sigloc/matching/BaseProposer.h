@@ -19,6 +19,7 @@ struct BaseProposerOptions
   std::uint32_t budget = 20000;
   std::uint32_t slid_walls = 1;
   std::uint32_t enough = 2000;
+  std::uint32_t thorough_budget = 12000;
   std::uint32_t thorough_slid_walls = 3;
   double slide_step = 0.4;
   double overhang = 0.3;
@@ -37,8 +38,10 @@ struct BaseProposerOptions
                       "[-] observed walls that are slid along the mapped ones at least"});
     visit(OptionField{"enough", &O::enough, 0U, 100000000U,
                       "[-] with fewer proposals another observed wall is slid"});
+    visit(OptionField{"thorough_budget", &O::thorough_budget, 1U, 100000000U,
+                      "[-] most further proposals where the first explain the scene poorly"});
     visit(OptionField{"thorough_slid_walls", &O::thorough_slid_walls, 0U, 100U,
-                      "[-] the same where the first proposals explain the scene poorly"});
+                      "[-] observed walls that are slid in all where further poses are proposed"});
     visit(OptionField{"slide_step", &O::slide_step, 0.05, 5.0, "[m] step of a slid wall"});
     visit(OptionField{"overhang", &O::overhang, 0.0, 1.0,
                       "[-] share of an observed wall that may lie beyond the mapped one"});
@@ -51,7 +54,7 @@ struct BaseProposerOptions
     visit(OptionField{"max_pairs", &O::max_pairs, 0U, 1000U,
                       "[-] observed pairs of circles tried, rarest distance first"});
     visit(OptionField{"thorough_pairs", &O::thorough_pairs, 0U, 1000U,
-                      "[-] the same where the first proposals explain the scene poorly"});
+                      "[-] observed pairs tried in all where further poses are proposed"});
   }
 };
 
@@ -67,7 +70,8 @@ class BaseProposer
   /// most telling ones first, at most `budget` of them.
   std::vector<PoseProposal> propose(const std::vector<Feature>& observed) const;
 
-  /// Returns those of further bases, for a scene that the first ones explain poorly.
+  /// Returns those of further bases, for a scene that the first ones explain poorly, at most
+  /// `thorough_budget` of them.
   std::vector<PoseProposal> proposeFurther(const std::vector<Feature>& observed) const;
 
  private:
