@@ -220,14 +220,12 @@ void SignatureMonteCarlo2D::publish(bool blind)
   belief_ = {};
   belief_.elsewhere = lost_ ? 1.0 : elsewhere_;
   const double here = 1 - belief_.elsewhere;
-  const double common = matcher_->map().error().common_sigma;
   for (const Mode& mode : modes_)
   {
     TrackedHypothesis hypothesis = mode.hypothesis;
     hypothesis.weight *= here;
     // The particles don't know of the error that moves a whole neighbourhood of the map.
-    hypothesis.pose.covariance(0, 0) += common * common;
-    hypothesis.pose.covariance(1, 1) += common * common;
+    hypothesis.pose = withCommonError(hypothesis.pose, matcher_->map().error());
     hypothesis.pose.covariance(2, 2) += kLeastTurnSigma * kLeastTurnSigma;
     belief_.hypotheses.push_back(hypothesis);
   }

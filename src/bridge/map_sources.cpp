@@ -26,7 +26,7 @@ namespace sigloc
 namespace
 {
 /// Raised whenever the same source and options give another map than before.
-constexpr int kBuildVersion = 6;
+constexpr int kBuildVersion = 7;
 
 enum class Format
 {

@@ -22,7 +22,8 @@ namespace
 // The whole file is one gzip member, whose own checksum covers every byte of it.
 constexpr char kMagic[] = "sigloc-map\n";
 constexpr std::size_t kMagicSize = sizeof(kMagic) - 1;
-constexpr std::uint8_t kBodyVersion = 2;
+constexpr std::uint8_t kBodyVersion = 3;
+constexpr std::uint8_t kOldestBodyVersion = 2;  // it says nothing of the map's turn
 constexpr std::size_t kBlockCells = 1U << 16U;
 constexpr std::size_t kFirstReserve = 1U << 14U;
 constexpr std::uint64_t kMostCells = 1ULL << 31U;
@@ -92,7 +93,8 @@ void writeFeatureMap(const FeatureMap& map, CArchive& out)
   const MapProvenance& provenance = map.provenance();
   out << provenance.source_path << provenance.source_checksum << provenance.options_digest;
   const MapErrorModel& error = map.error();
-  out << error.relative_constant << error.relative_slope << error.common_sigma;
+  out << error.relative_constant << error.relative_slope << error.common_sigma
+      << error.common_turn_sigma;
   out << static_cast<std::uint32_t>(map.features().size());
   for (const Feature& feature : map.features()) detail::writeFeature(feature, out);
   out << map.field().has_value();
@@ -103,16 +105,17 @@ FeatureMap readFeatureMap(CArchive& in)
 {
   std::uint8_t version = 0;
   in >> version;
-  if (version != kBodyVersion)
+  if (version < kOldestBodyVersion || version > kBodyVersion)
   {
     throw std::runtime_error("feature map of version " + std::to_string(version) +
-                             ", this sigloc reads version " + std::to_string(kBodyVersion) +
-                             ": build it again");
+                             ", this sigloc reads versions " + std::to_string(kOldestBodyVersion) +
+                             " to " + std::to_string(kBodyVersion) + ": build it again");
   }
   MapProvenance provenance;
   in >> provenance.source_path >> provenance.source_checksum >> provenance.options_digest;
   MapErrorModel error;
   in >> error.relative_constant >> error.relative_slope >> error.common_sigma;
+  if (version > kOldestBodyVersion) in >> error.common_turn_sigma;
   std::uint32_t count = 0;
   in >> count;
   std::vector<Feature> features;

@@ -108,7 +108,7 @@ ReliabilityCase MappedWorld::judge(const LaserScan& scan, const DenseScan& dense
   judged.error = poseError(pose, truth);
   judged.signature = reliabilityOf(verifier.evaluate(dense, pose));
   judged.mrpt = mrptsMeasure(
-      scan, {pose, verifier.covarianceAt(dense, pose, map_.features->error().common_sigma)});
+      scan, withCommonError({pose, verifier.covarianceAt(dense, pose)}, map_.features->error()));
   return judged;
 }
 

@@ -133,7 +133,7 @@ EvaluationMap mapLandmarks(const SimulatedPlace& place, const SimulatedTrackOpti
     mapped.push_back(landmark);
   }
   // The survey states its errors one by one, but for the common one.
-  const MapErrorModel error{0, 0, options.map_sigma};
+  const MapErrorModel error{0, 0, options.map_sigma, 0};
   EvaluationMap map;
   map.features = std::make_shared<const FeatureMap>(std::move(mapped), std::nullopt, error);
   return map;
@@ -162,6 +162,7 @@ EvaluationMap mapPlace(const SimulatedPlace& place, const SimulatedTrackOptions&
   EvaluationMap map = evaluationMapFromScans(scans);
   MapErrorModel error = map.features->error();
   error.common_sigma = options.map_sigma;
+  error.common_turn_sigma = 0;
   map.features =
       std::make_shared<const FeatureMap>(map.features->features(), map.features->field(), error);
   return map;

@@ -246,8 +246,8 @@ void DenseVerifier::refineAll(const DenseScan& scan, std::vector<TPose2D>& poses
   for (const Refined& one : refined) poses.push_back(one.result());
 }
 
-mrpt::math::CMatrixDouble33 DenseVerifier::covarianceAt(const DenseScan& scan, const TPose2D& pose,
-                                                        double common_sigma) const
+mrpt::math::CMatrixDouble33 DenseVerifier::covarianceAt(const DenseScan& scan,
+                                                        const TPose2D& pose) const
 {
   constexpr double kRangeSigma = 0.05;  // [m], of a return against the raster
   constexpr double kOpenSigma = 5.0;  // [m], of a direction that nothing fixes
@@ -263,9 +263,7 @@ mrpt::math::CMatrixDouble33 DenseVerifier::covarianceAt(const DenseScan& scan, c
   information(0, 0) += 1.0 / (kOpenSigma * kOpenSigma);
   information(1, 1) += 1.0 / (kOpenSigma * kOpenSigma);
   information(2, 2) += 1.0 / (0.2 * 0.2);
-  Eigen::Matrix3d covariance = information.inverse();
-  covariance(0, 0) += common_sigma * common_sigma;
-  covariance(1, 1) += common_sigma * common_sigma;
+  const Eigen::Matrix3d covariance = information.inverse();
   mrpt::math::CMatrixDouble33 out;
   for (int r = 0; r < 3; ++r)
   {

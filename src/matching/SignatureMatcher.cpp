@@ -204,8 +204,8 @@ void SignatureMatcher::concludeDensely(const ObservedScene& scene, const DenseSc
   result.candidates = candidatesOf(judged.inside, *verifier_, scene);
   for (Candidate& candidate : result.candidates)
   {
-    candidate.pose.covariance =
-        verifier_->covarianceAt(scan, candidate.pose.mean, map_->error().common_sigma);
+    candidate.pose.covariance = verifier_->covarianceAt(scan, candidate.pose.mean);
+    candidate.pose = withCommonError(candidate.pose, map_->error());
   }
   const double missed = hypotheses.empty() || result.candidates.empty()
                             ? 0

@@ -56,7 +56,6 @@ struct HypothesisTracker::State
   void confirm(const RelocationResult& result, const DenseScan& scan, double fresh_share);
   void weighElsewhere(const RelocationResult& result, double fresh_share);
   Track startAt(const RelocationResult& result, std::size_t k, const DenseScan& scan);
-  GaussianPose withCommonError(GaussianPose pose, int sign) const;
   void judgeFirst(const DenseScan& scan);
   void publish(const ObservedScene& scene);
 
@@ -306,7 +305,9 @@ Track HypothesisTracker::State::startAt(const RelocationResult& result, std::siz
 {
   const Candidate& candidate = result.candidates[k];
   Track fresh;
-  fresh.hypothesis.pose = withCommonError(candidate.pose, -1);
+  // Within the tracks the map's common error would make every scan look like news about it: it
+  // belongs in what is told, once.
+  fresh.hypothesis.pose = withoutCommonError(candidate.pose, matcher->map().error());
   fresh.hypothesis.id = next_id++;
   fresh.score = fresh.mean_score = candidate.score;
   const double view = fresh.seen.add(scan, candidate.pose.mean, travelled);
@@ -318,16 +319,6 @@ Track HypothesisTracker::State::startAt(const RelocationResult& result, std::siz
   fresh.addFollowed(kUnfollowed + view * followedLogOdds(fresh.evidence));
   fresh.addMisfit(0);
   return fresh;
-}
-
-/// The error that moves a whole neighbourhood of the map belongs in what is told, once: within the
-/// tracks it would make every scan look like news about it.
-GaussianPose HypothesisTracker::State::withCommonError(GaussianPose pose, int sign) const
-{
-  const double common = matcher->map().error().common_sigma;
-  pose.covariance(0, 0) += sign * common * common;
-  pose.covariance(1, 1) += sign * common * common;
-  return pose;
 }
 
 void HypothesisTracker::State::judgeFirst(const DenseScan& scan)
@@ -352,7 +343,7 @@ void HypothesisTracker::State::publish(const ObservedScene& scene)
   for (const Track& track : set.tracks)
   {
     belief.hypotheses.push_back(track.hypothesis);
-    belief.hypotheses.back().pose = withCommonError(track.hypothesis.pose, +1);
+    belief.hypotheses.back().pose = withCommonError(track.hypothesis.pose, matcher->map().error());
   }
   if (set.tracks.empty())
   {

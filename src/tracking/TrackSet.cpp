@@ -33,7 +33,7 @@ constexpr double kMaxFollowed = 12.0;
 constexpr double kSure = 0.9;  // a relocation that overrules all tracks
 constexpr double kMostNews = 4.0;  // views that a metre can bring
 constexpr double kScoreMemory = 0.9;  // of the running mean of the score, per step
-constexpr double kCorrelation = 12.0;  // scans of neighbouring steps share their errors
+constexpr double kCorrelation = 4.0;  // scans of neighbouring steps share their errors
 constexpr double kMinSigma = 0.005;  // [m], floor of a step's motion
 constexpr double kMinTurnSigma = 0.002;  // [rad]
 
@@ -158,7 +158,7 @@ void TrackSet::updatePose(Track& track, const DenseScan& scan, const DenseVerifi
   GaussianPose measured;
   measured.mean = has_odometry_ ? verifier.refine(scan, pose.mean, kUpdateSteps, scan.size())
                                 : searchedPose(pose.mean, scan, verifier);
-  measured.covariance = verifier.covarianceAt(scan, measured.mean, 0.0);
+  measured.covariance = verifier.covarianceAt(scan, measured.mean);
   for (int r = 0; r < 3; ++r)
   {
     for (int c = 0; c < 3; ++c) measured.covariance(r, c) *= kCorrelation;

@@ -108,6 +108,7 @@ inline void expectSameMap(const FeatureMap& a, const FeatureMap& b)
   EXPECT_EQ(a.error().relative_constant, b.error().relative_constant);
   EXPECT_EQ(a.error().relative_slope, b.error().relative_slope);
   EXPECT_EQ(a.error().common_sigma, b.error().common_sigma);
+  EXPECT_EQ(a.error().common_turn_sigma, b.error().common_turn_sigma);
   EXPECT_EQ(a.provenance().source_path, b.provenance().source_path);
   EXPECT_EQ(a.provenance().source_checksum, b.provenance().source_checksum);
   EXPECT_EQ(a.provenance().options_digest, b.provenance().options_digest);

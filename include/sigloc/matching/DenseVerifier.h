@@ -93,9 +93,9 @@ class DenseVerifier
   DenseEvidence evaluate(const DenseScan& scan, const mrpt::math::TPose2D& pose) const;
 
   /// Returns the 3x3 covariance of a refined pose [m^2, m rad, rad^2]: the returns' information
-  /// of 0.05 m each, tempered, plus `common_sigma` [m]. \cite algorithm eq. (6.9), (6.10)
-  mrpt::math::CMatrixDouble33 covarianceAt(const DenseScan& scan, const mrpt::math::TPose2D& pose,
-                                           double common_sigma) const;
+  /// of 0.05 m each, tempered; the map's own error is not in it. \cite algorithm eq. (6.9)
+  mrpt::math::CMatrixDouble33 covarianceAt(const DenseScan& scan,
+                                           const mrpt::math::TPose2D& pose) const;
 
   const DenseField& field() const { return field_; }
 
