@@ -5,7 +5,7 @@
 #include <bitset>
 #include <cmath>
 
-#include "explained_facts.h"
+#include "SceneFacts.h"
 
 namespace sigloc
 {
@@ -14,6 +14,7 @@ std::vector<Candidate> candidatesOf(const std::vector<RankedPose>& ranked,
 {
   std::vector<Candidate> candidates;
   candidates.reserve(ranked.size());
+  const SceneFacts facts(scene.features);
   for (const auto& [pose, evidence] : ranked)
   {
     Candidate candidate;
@@ -24,7 +25,7 @@ std::vector<Candidate> candidatesOf(const std::vector<RankedPose>& ranked,
     candidate.in_free = evidence.in_free;
     if (evidence.score >= ranked.front().evidence.score - DenseVerifier::kContender)
     {
-      candidate.facts = explainedFacts(scene.features, verifier.field(), pose);
+      candidate.facts = facts.explainedAt(pose, verifier.field());
     }
     candidates.push_back(std::move(candidate));
   }

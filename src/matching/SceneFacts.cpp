@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "explained_facts.h"
+#include "SceneFacts.h"
 
 #include <mrpt/math/wrap2pi.h>
 
@@ -14,6 +14,7 @@ namespace sigloc
 {
 using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
+using mrpt::math::wrapToPi;
 
 namespace
 {
@@ -28,9 +29,10 @@ constexpr double kInside = 0.1;  // [m] before its end a wall must be mapped,
 constexpr double kBeyond = 0.3;  // [m] and beyond it, not
 constexpr double kOnWall = 0.13;  // [m], of a place on a mapped wall
 constexpr double kOffWall = 0.16;  // [m], of one that is not
+}  // namespace
 
 /// Look-ups of places given in the robot frame.
-class PlacedField
+class SceneFacts::PlacedField
 {
  public:
   PlacedField(const DenseField& field, const TPose2D& pose) : cells_(field), place_(pose) {}
@@ -56,54 +58,15 @@ class PlacedField
   Placement place_;
 };
 
-bool wallExplained(const Feature& wall, const PlacedField& field)
-{
-  const TPoint2D start = segmentStart(wall);
-  const TPoint2D along = segmentEnd(wall) - start;
-  const int samples = std::max(2, static_cast<int>(std::lround(wall.size / kSampleStep)));
-  double sum = 0;
-  for (int i = 0; i < samples; ++i) sum += field.likelihood(start + along * ((i + 0.5) / samples));
-  return sum > kExplained * samples;
-}
-
-bool endExplained(const Feature& end, const PlacedField& field)
-{
-  const TPoint2D along = directionVector(end);
-  return field.distance(end.position + along * kInside) < kOnWall &&
-         field.distance(end.position - along * kBeyond) > kOffWall;
-}
-
-bool circleExplained(const Feature& circle, const PlacedField& field)
-{
-  return field.likelihood(circle.position + directionVector(circle) * circle.size) > kExplained;
-}
-
-bool sameWall(const Feature& a, const Feature& b)
-{
-  const TPoint2D normal = directionVector(b);
-  const TPoint2D d = a.position - b.position;
-  return std::abs(mrpt::math::wrapToPi(a.direction - b.direction)) < kSameDirection &&
-         std::abs(normal.x * d.x + normal.y * d.y) < kSameOffset;
-}
-
-/// True for a piece that goes on where another ends, and bends less than a corner does.
-bool bendsOn(const Feature& a, const Feature& b)
-{
-  const double bend = std::abs(mrpt::math::wrapToPi(a.direction - b.direction));
-  const double joint =
-      std::min((segmentEnd(a) - segmentStart(b)).norm(), (segmentStart(a) - segmentEnd(b)).norm());
-  return bend < kBend && joint < kJoint;
-}
-
 /// Counts walls: pieces of one wall once, the pieces of a curved one as what it is made by.
-class WallCount
+class SceneFacts::WallCount
 {
  public:
   /// Adds a wall; returns whether it tells something that those before it did not.
-  bool add(const Feature& wall)
+  bool add(const Wall& wall)
   {
-    const auto known = [&](const Counted& other) { return sameWall(wall, *other.wall); };
-    if (std::any_of(walls_.begin(), walls_.end(), known)) return false;
+    const auto is_known = [&](const Counted& other) { return isSameWall(wall, *other.wall); };
+    if (std::any_of(walls_.begin(), walls_.end(), is_known)) return false;
     const auto before =
         std::find_if(walls_.begin(), walls_.end(),
                      [&](const Counted& other) { return bendsOn(*other.wall, wall); });
@@ -116,28 +79,74 @@ class WallCount
  private:
   struct Counted
   {
-    const Feature* wall;
+    const Wall* wall;
     std::size_t curve;
   };
   std::vector<Counted> walls_;
   std::vector<std::uint32_t> facts_of_curve_;
 };
-}  // namespace
 
-std::uint32_t explainedFacts(const std::vector<Feature>& observed, const DenseField& field,
-                             const TPose2D& pose)
+SceneFacts::SceneFacts(const std::vector<Feature>& observed)
+{
+  for (const Feature& feature : observed)
+  {
+    const TPoint2D along = directionVector(feature);
+    const TPoint2D& place = feature.position;
+    if (feature.type == FeatureType::segment)
+    {
+      const TPoint2D half = TPoint2D(along.y, -along.x) * (0.5 * feature.size);
+      walls_.push_back({feature.direction, feature.size, place, along, place - half, place + half});
+    }
+    if (feature.type == FeatureType::wall_end)
+    {
+      wall_ends_.push_back({place + along * kInside, place - along * kBeyond});
+    }
+    if (feature.type == FeatureType::circle) circles_.push_back(place + along * feature.size);
+  }
+}
+
+bool SceneFacts::isSameWall(const Wall& a, const Wall& b)
+{
+  const TPoint2D d = a.middle - b.middle;
+  return std::abs(b.normal.x * d.x + b.normal.y * d.y) < kSameOffset &&
+         std::abs(wrapToPi(a.direction - b.direction)) < kSameDirection;
+}
+
+/// True for a piece that goes on where another ends, and bends less than a corner does.
+bool SceneFacts::bendsOn(const Wall& a, const Wall& b)
+{
+  const double joint = std::min((a.end - b.start).norm(), (a.start - b.end).norm());
+  return joint < kJoint && std::abs(wrapToPi(a.direction - b.direction)) < kBend;
+}
+
+bool SceneFacts::isExplained(const Wall& wall, const PlacedField& field)
+{
+  const TPoint2D along = wall.end - wall.start;
+  const int samples = std::max(2, static_cast<int>(std::lround(wall.length / kSampleStep)));
+  double sum = 0;
+  for (int i = 0; i < samples; ++i)
+  {
+    sum += field.likelihood(wall.start + along * ((i + 0.5) / samples));
+  }
+  return sum > kExplained * samples;
+}
+
+std::uint32_t SceneFacts::explainedAt(const TPose2D& pose, const DenseField& field) const
 {
   const PlacedField placed(field, pose);
   WallCount walls;
   std::uint32_t facts = 0;
-  for (const Feature& feature : observed)
+  for (const Wall& wall : walls_)
   {
-    if (feature.type == FeatureType::segment && wallExplained(feature, placed))
-    {
-      facts += walls.add(feature);
-    }
-    if (feature.type == FeatureType::wall_end && endExplained(feature, placed)) ++facts;
-    if (feature.type == FeatureType::circle && circleExplained(feature, placed)) facts += 2;
+    if (isExplained(wall, placed)) facts += walls.add(wall);
+  }
+  for (const WallEnd& end : wall_ends_)
+  {
+    facts += placed.distance(end.before) < kOnWall && placed.distance(end.beyond) > kOffWall;
+  }
+  for (const TPoint2D& circle : circles_)
+  {
+    if (placed.likelihood(circle) > kExplained) facts += 2;
   }
   return facts;
 }

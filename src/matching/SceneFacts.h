@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mrpt/math/TPoint2D.h>
+#include <mrpt/math/TPose2D.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "sigloc/features/Feature.h"
+#include "sigloc/map/DenseField.h"
+
+namespace sigloc
+{
+/// What a scene's features say of the robot's place, made ready to be asked of many poses.
+/// \cite algorithm eq. (7.5)
+class SceneFacts
+{
+ public:
+  explicit SceneFacts(const std::vector<Feature>& observed);
+
+  /// Returns how many independent facts the map explains when the robot stands at `pose`: a wall's
+  /// offset counts one, however many pieces of it are seen, a wall end one, a circle two.
+  std::uint32_t explainedAt(const mrpt::math::TPose2D& pose, const DenseField& field) const;
+
+ private:
+  /// All places are in the robot frame.
+  struct Wall
+  {
+    double direction;  // [rad], of the normal
+    double length;  // [m]
+    mrpt::math::TPoint2D middle, normal, start, end;
+  };
+  struct WallEnd
+  {
+    mrpt::math::TPoint2D before, beyond;  // the wall's own last stretch, and where nothing follows
+  };
+  class WallCount;
+  class PlacedField;
+
+  static bool isSameWall(const Wall& a, const Wall& b);
+  static bool bendsOn(const Wall& a, const Wall& b);
+  static bool isExplained(const Wall& wall, const PlacedField& field);
+
+  std::vector<Wall> walls_;
+  std::vector<WallEnd> wall_ends_;
+  std::vector<mrpt::math::TPoint2D> circles_;  // their nearest points
+};
+}  // namespace sigloc
