@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "FeatureFollowing.h"
+#include "PastScans.h"
 #include "sigloc/geometry/pose_fusion.h"
 #include "sigloc/matching/DenseVerifier.h"
 #include "sigloc/matching/weighing.h"
@@ -36,7 +37,7 @@ const DenseField* fieldOf(const FeatureMap& map)
 struct HypothesisTracker::State
 {
   State(std::shared_ptr<const SignatureMatcher> m, const TrackerOptions& o)
-      : matcher(std::move(m)), options(o), set(o)
+      : matcher(std::move(m)), options(o), set(o), past(o)
   {
     startAnew();
   }
@@ -63,6 +64,7 @@ struct HypothesisTracker::State
   TrackerOptions options;
   std::optional<PoseRegion> region;
   TrackSet set;
+  PastScans past;  // of the way since it started
   std::unique_ptr<FeatureFollowing> by_features;  // where no dense field backs the map
   std::uint64_t next_id = 1;
   double travel_since_relocation = 0;  // [m]
@@ -105,6 +107,7 @@ void HypothesisTracker::reset(const std::optional<PoseRegion>& region)
 void HypothesisTracker::State::startAnew()
 {
   set = TrackSet(options);
+  past = PastScans(options);
   first_step = true;
   belief = {};
   if (matcher->featureVerifier() == nullptr) return;
@@ -120,6 +123,7 @@ const Belief& HypothesisTracker::step(const std::optional<MotionIncrement>& moti
   const bool sees_enough = s.by_features ? s.by_features->look(s.set, motion, scene)
                                          : scene.beams.size() >= s.matcher->options().min_beams;
   const double travel = s.set.predict(motion);
+  s.past.move(motion);
   if (!sees_enough)
   {
     s.travel_since_relocation += travel;
@@ -144,6 +148,7 @@ void HypothesisTracker::State::followDensely(const std::optional<MotionIncrement
   if (!motion) travel = travelSeen(travel);
   travel_since_relocation += travel;
   travelled += travel;
+  past.remember(scan, travelled);
   set.follow(scan, travelled, travel);
   set.weigh(travel, scan);
   if (wantsRelocation()) relocate(scene, scan);
@@ -244,6 +249,7 @@ void HypothesisTracker::State::relocate(const ObservedScene& scene, const DenseS
   confirm(result, scan, fresh_share);
   weighElsewhere(result, fresh_share);
   set.dealOut(result, [&](std::size_t k) { return startAt(result, k, scan); });
+  past.weighNewcomers(set, *matcher->verifier());
 }
 
 /// Evidence for a track counts as far as it rests on structure that is new to the track: another

@@ -42,7 +42,13 @@ bool coincide(const TPose2D& a, const TPose2D& b, double distance, double angle)
   return std::hypot(a.x - b.x, a.y - b.y) <= distance && std::abs(wrapToPi(a.phi - b.phi)) <= angle;
 }
 
-/// Few returns tell little: half of a score may hang on three specks.
+bool heavier(const Track& a, const Track& b)
+{
+  if (a.hypothesis.weight != b.hypothesis.weight) return a.hypothesis.weight > b.hypothesis.weight;
+  return a.hypothesis.id < b.hypothesis.id;
+}
+}  // namespace
+
 double shareTold(const DenseScan& scan)
 {
   constexpr double kTelling = 60;  // returns
@@ -50,12 +56,10 @@ double shareTold(const DenseScan& scan)
   return std::min(1.0, static_cast<double>(seen) / kTelling);
 }
 
-bool heavier(const Track& a, const Track& b)
+bool isSamePlace(const TPose2D& a, const TPose2D& b)
 {
-  if (a.hypothesis.weight != b.hypothesis.weight) return a.hypothesis.weight > b.hypothesis.weight;
-  return a.hypothesis.id < b.hypothesis.id;
+  return coincide(a, b, kSameDistance, kSameAngle);
 }
-}  // namespace
 
 bool wouldMerge(const TPose2D& a, const TPose2D& b)
 {
@@ -229,11 +233,18 @@ void TrackSet::normalise()
   elsewhere /= sum;
 }
 
+void TrackSet::normaliseTracks()
+{
+  double sum = 0;
+  for (const Track& track : tracks) sum += track.hypothesis.weight;
+  for (Track& track : tracks) track.hypothesis.weight *= (1.0 - elsewhere) / sum;
+}
+
 Track* TrackSet::trackAt(const TPose2D& pose)
 {
   for (Track& track : tracks)
   {
-    if (coincide(track.hypothesis.pose.mean, pose, kSameDistance, kSameAngle)) return &track;
+    if (isSamePlace(track.hypothesis.pose.mean, pose)) return &track;
   }
   return nullptr;
 }

@@ -63,6 +63,13 @@ struct Track
   bool held() const { return std::max(confirmed, presence()) >= kHeld; }
 };
 
+/// The share of its evidence that a scan counts with. Few returns tell little: half of a score may
+/// hang on three specks.
+double shareTold(const DenseScan& scan);
+
+/// True for a pose so near to a track that it confirms it.
+bool isSamePlace(const mrpt::math::TPose2D& a, const mrpt::math::TPose2D& b);
+
 /// True for poses so near to each other that their tracks are merged.
 bool wouldMerge(const mrpt::math::TPose2D& a, const mrpt::math::TPose2D& b);
 
@@ -88,6 +95,9 @@ class TrackSet
 
   /// Scales all weights so that they sum to one.
   void normalise();
+
+  /// Scales those of the tracks alone, which must not all be zero, and leaves "somewhere else".
+  void normaliseTracks();
 
   /// Moves the weight of "somewhere else" by what a relocation that is `fresh_share` news says for
   /// the tracks, `here` in log-odds, while none is held that the relocation's best place without a

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iostream>
 
+#include "sigloc/tracking/HypothesisTracker.h"
 #include "support/simulated_office.h"
 
 namespace sigloc
@@ -125,6 +126,33 @@ TEST(LookAlikes, IdenticalRastersGetIdenticalWeights)
     EXPECT_GE(equal, 12);
     EXPECT_GT(worst, 1.0 / (10.0 * copies));
   }
+}
+
+TEST(LookAlikes, APlaceFoundLateCountsAsIfItHadBeenFollowed)
+{
+  // Each relocation lists a single place, now in one copy of the office, now in the other.
+  MatcherOptions one_place;
+  one_place.max_candidates = 1;
+  const auto matcher =
+      std::make_shared<SignatureMatcher>(exactCopies(*office().map(), 2), one_place);
+  DriveOptions twelve_metres;
+  twelve_metres.metres = 12;
+  int both_alive = 0;
+  for (std::uint64_t seed = 81; seed < 93; ++seed)
+  {
+    HypothesisTracker tracker(matcher);
+    for (const DriveStep& step :
+         simulateDrive(office().world(), twelve_metres, {}, MappedWorld::laser(), seed))
+    {
+      tracker.step(step.motion, observeScene({*step.scan}));
+    }
+    const std::vector<TrackedHypothesis>& found = tracker.belief().hypotheses;
+    if (found.size() < 2) continue;
+    EXPECT_NE(tracker.belief().verdict, Verdict::localized);
+    both_alive += found[1].weight > 0.1 ? 1 : 0;
+  }
+  std::cout << "both copies are alive in " << both_alive << " of 12 drives\n";
+  EXPECT_GE(both_alive, 4);
 }
 }  // namespace
 }  // namespace sigloc

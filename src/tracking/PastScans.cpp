@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "PastScans.h"
+
+#include <mrpt/math/wrap2pi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sigloc/matching/weighing.h"
+
+namespace sigloc
+{
+using mrpt::math::TPose2D;
+using mrpt::math::wrapToPi;
+
+namespace
+{
+constexpr std::size_t kMostLooks = 60;
+constexpr double kSpacing = 0.5;  // [m] of travel between them
+constexpr int kSteps = 3;  // of refinement
+constexpr double kWaySigma = 0.1;  // [m] that a look may be off the way that odometry tells
+constexpr double kWayTurnSigma = 0.05;  // [rad]
+constexpr double kMostAgainst = 3.0;  // of one look's log-likelihood
+}  // namespace
+
+/// A robot that goes back the way it came, and at each look stands where that fits best.
+class PastScans::WayBack
+{
+ public:
+  WayBack(const TPose2D& pose, const TPose2D& odometry, const DenseVerifier& verifier)
+      : pose_(pose), odometry_(odometry), verifier_(verifier)
+  {
+  }
+
+  Visit visit(const Look& look)
+  {
+    const TPose2D told = pose_ + (look.odometry - odometry_);
+    pose_ = verifier_.refine(look.scan, told, kSteps, look.scan.size());
+    odometry_ = look.odometry;
+    const double off = std::hypot(pose_.x - told.x, pose_.y - told.y) / kWaySigma;
+    const double turned = wrapToPi(pose_.phi - told.phi) / kWayTurnSigma;
+    const double detour = std::min(kMostAgainst, 0.5 * (off * off + turned * turned));
+    return {pose_, logLikelihoodOfScore(verifier_.evaluate(look.scan, pose_).score) - detour};
+  }
+
+ private:
+  TPose2D pose_;
+  TPose2D odometry_;
+  const DenseVerifier& verifier_;
+};
+
+void PastScans::move(const std::optional<MotionIncrement>& motion)
+{
+  ++step_;
+  if (motion)
+  {
+    odometry_ = odometry_ + motion->mean;
+    return;
+  }
+  looks_.clear();
+  known_since_ = step_ + 1;
+}
+
+void PastScans::remember(const DenseScan& scan, double travelled)
+{
+  if (step_ < known_since_) return;
+  if (!looks_.empty() && travelled < looks_.back().travelled + kSpacing) return;
+  looks_.push_back({scan, odometry_, travelled, step_});
+  if (looks_.size() <= kMostLooks) return;
+  looks_.pop_front();
+  known_since_ = looks_.front().step;
+}
+
+/// The looks since a step, the latest first.
+std::vector<PastScans::Visit> PastScans::wayTo(const TPose2D& pose, std::uint64_t since,
+                                               const DenseVerifier& verifier) const
+{
+  WayBack way(pose, odometry_, verifier);
+  std::vector<Visit> visits;
+  for (auto look = looks_.rbegin(); look != looks_.rend() && look->step >= since; ++look)
+  {
+    visits.push_back(way.visit(*look));
+  }
+  return visits;
+}
+
+/// How much of a look's log-likelihood counts: as in (8.5), but all of the first one.
+double PastScans::evidenceOf(std::deque<Look>::const_reverse_iterator look, bool first) const
+{
+  const double share = shareTold(look->scan);
+  if (first) return share;
+  const double travel = look->travelled - std::next(look)->travelled;
+  return share * std::min(1.0, travel / options_.evidence_distance);
+}
+
+/// Minus infinity where it is the rival's own way, or too light to be followed.
+double PastScans::logOddsAgainst(const std::vector<Visit>& rival, const TPose2D& pose,
+                                 const DenseVerifier& verifier) const
+{
+  constexpr double kNever = -std::numeric_limits<double>::infinity();
+  const double least = std::log(options_.prune_weight);
+  WayBack way(pose, odometry_, verifier);
+  auto look = looks_.rbegin();
+  double sum = 0;
+  for (std::size_t k = 0; k < rival.size(); ++k, ++look)
+  {
+    const Visit own = way.visit(*look);
+    if (isSamePlace(own.pose, rival[k].pose)) return kNever;
+    const double lead = own.log_likelihood - rival[k].log_likelihood;
+    sum += evidenceOf(look, k + 1 == rival.size()) * std::clamp(lead, -kMostAgainst, kMostAgainst);
+    if (sum < least) return kNever;
+  }
+  return sum;
+}
+
+void PastScans::weighNewcomers(TrackSet& set, const DenseVerifier& verifier) const
+{
+  const auto is_new = [](const Track& track) { return track.hypothesis.age == 0; };
+  if (std::none_of(set.tracks.begin(), set.tracks.end(), is_new)) return;
+  const Track* heaviest = nullptr;
+  for (const Track& track : set.tracks)
+  {
+    if (is_new(track)) continue;
+    if (heaviest == nullptr || track.hypothesis.weight > heaviest->hypothesis.weight)
+    {
+      heaviest = &track;
+    }
+  }
+  if (heaviest == nullptr || step_ - heaviest->hypothesis.age < known_since_) return;
+  const std::vector<Visit> rival =
+      wayTo(heaviest->hypothesis.pose.mean, step_ - heaviest->hypothesis.age, verifier);
+  if (rival.empty()) return;
+  const double most = heaviest->hypothesis.weight;
+  for (Track& track : set.tracks)
+  {
+    if (!is_new(track)) continue;
+    const double log_odds = logOddsAgainst(rival, track.hypothesis.pose.mean, verifier);
+    double& weight = track.hypothesis.weight;
+    weight = std::max(weight, most * std::exp(std::min(0.0, log_odds)));
+  }
+  set.normaliseTracks();
+}
+}  // namespace sigloc

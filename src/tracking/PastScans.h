@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mrpt/math/TPose2D.h>
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "sigloc/geometry/GaussianPose.h"
+#include "sigloc/matching/DenseVerifier.h"
+#include "TrackSet.h"
+
+namespace sigloc
+{
+/// What was seen on the way, to ask of a place that is found late how it would have explained it.
+/// A relocation lists few places: where many look alike, the right one may be missing at first.
+class PastScans
+{
+ public:
+  explicit PastScans(const TrackerOptions& options) : options_(options) {}
+
+  /// Goes on by one step; without odometry the way is lost, and everything is forgotten.
+  void move(const std::optional<MotionIncrement>& motion);
+
+  /// Remembers a scan, taken after `travelled` [m] in all, unless the last one is as good as the
+  /// same; of too many the oldest is forgotten.
+  void remember(const DenseScan& scan, double travelled);
+
+  /// Gives the tracks that started with this step the weight they would have if they had been
+  /// followed as long as the heaviest of the others, at most its own. \cite algorithm eq. (8.24)
+  void weighNewcomers(TrackSet& set, const DenseVerifier& verifier) const;
+
+ private:
+  struct Look
+  {
+    DenseScan scan;
+    mrpt::math::TPose2D odometry;  // where the robot stood, by odometry alone
+    double travelled;  // [m]
+    std::uint64_t step;
+  };
+  /// How a robot that came by would have explained a look.
+  struct Visit
+  {
+    mrpt::math::TPose2D pose;
+    double log_likelihood;
+  };
+  class WayBack;
+
+  std::vector<Visit> wayTo(const mrpt::math::TPose2D& pose, std::uint64_t since,
+                           const DenseVerifier& verifier) const;
+  double logOddsAgainst(const std::vector<Visit>& rival, const mrpt::math::TPose2D& pose,
+                        const DenseVerifier& verifier) const;
+  double evidenceOf(std::deque<Look>::const_reverse_iterator look, bool first) const;
+
+  TrackerOptions options_;
+  std::deque<Look> looks_;
+  mrpt::math::TPose2D odometry_;
+  std::uint64_t step_ = 0;
+  std::uint64_t known_since_ = 0;  // step since when nothing is forgotten
+};
+}  // namespace sigloc
