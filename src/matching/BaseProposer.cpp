@@ -98,7 +98,7 @@ std::vector<PoseProposal> BaseProposer::propose(const std::vector<Feature>& obse
   for (std::size_t i = 0; i < walls.size(); ++i)
   {
     if (i >= options_.slid_walls && proposals.size() >= options_.enough) break;
-    slide(*walls[i], proposals);
+    slide(*walls[i], options_.budget, proposals);
   }
   if (proposals.size() > options_.budget) proposals.resize(options_.budget);
   return proposals;
@@ -109,7 +109,8 @@ std::vector<PoseProposal> BaseProposer::proposeFurther(const std::vector<Feature
   std::vector<PoseProposal> proposals;
   proposeCirclePairs(observed, options_.max_pairs, options_.thorough_pairs, proposals);
   const std::vector<const Feature*> walls = wallsToSlide(observed);
-  for (std::size_t i = options_.slid_walls; i < walls.size(); ++i) slide(*walls[i], proposals);
+  for (std::size_t i = options_.slid_walls; i < walls.size(); ++i)
+    slide(*walls[i], options_.thorough_budget, proposals);
   if (proposals.size() > options_.thorough_budget) proposals.resize(options_.thorough_budget);
   return proposals;
 }
@@ -154,14 +155,17 @@ std::vector<const Feature*> BaseProposer::wallsToSlide(const std::vector<Feature
   return slid;
 }
 
-/// Lays an observed wall on every mapped one that is long enough.
-void BaseProposer::slide(const Feature& wall, std::vector<PoseProposal>& out) const
+/// Lays an observed wall on every mapped one that is long enough, until there are `most` proposals.
+void BaseProposer::slide(const Feature& wall, std::size_t most,
+                         std::vector<PoseProposal>& out) const
 {
   const TPoint2D normal = directionVector(wall);
   const double inside = wall.size * (0.5 - options_.overhang);
   for (const MappedWall& mapped : walls_)
   {
-    if (mapped.length + options_.length_tolerance < wall.size * (1.0 - options_.overhang)) break;
+    const bool is_long =
+        mapped.length + options_.length_tolerance >= wall.size * (1.0 - options_.overhang);
+    if (!is_long || out.size() >= most) break;
     const double phi = mapped.direction - wall.direction;
     const double c = mapped.c * normal.x + mapped.s * normal.y;
     const double s = mapped.s * normal.x - mapped.c * normal.y;
