@@ -86,15 +86,6 @@ std::vector<PastScans::Visit> PastScans::wayTo(const TPose2D& pose, std::uint64_
   return visits;
 }
 
-/// How much of a look's log-likelihood counts: as in (8.5), but all of the first one.
-double PastScans::evidenceOf(std::deque<Look>::const_reverse_iterator look, bool first) const
-{
-  const double share = shareTold(look->scan);
-  if (first) return share;
-  const double travel = look->travelled - std::next(look)->travelled;
-  return share * std::min(1.0, travel / options_.evidence_distance);
-}
-
 /// Minus infinity where it is the rival's own way, or too light to be followed.
 double PastScans::logOddsAgainst(const std::vector<Visit>& rival, const TPose2D& pose,
                                  const DenseVerifier& verifier) const
@@ -102,14 +93,19 @@ double PastScans::logOddsAgainst(const std::vector<Visit>& rival, const TPose2D&
   constexpr double kNever = -std::numeric_limits<double>::infinity();
   const double least = std::log(options_.prune_weight);
   WayBack way(pose, odometry_, verifier);
-  auto look = looks_.rbegin();
   double sum = 0;
-  for (std::size_t k = 0; k < rival.size(); ++k, ++look)
+  for (std::size_t k = 0; k < rival.size(); ++k)
   {
-    const Visit own = way.visit(*look);
+    const Look& look = lookBack(k);
+    const Visit own = way.visit(look);
     if (isSamePlace(own.pose, rival[k].pose)) return kNever;
+    // As in (8.5), but the first look counts in full, as the first relocation does.
+    const bool is_first = k + 1 == rival.size();
+    const double travel =
+        is_first ? options_.evidence_distance : look.travelled - lookBack(k + 1).travelled;
     const double lead = own.log_likelihood - rival[k].log_likelihood;
-    sum += evidenceOf(look, k + 1 == rival.size()) * std::clamp(lead, -kMostAgainst, kMostAgainst);
+    sum += shareTold(look.scan) * std::min(1.0, travel / options_.evidence_distance) *
+           std::clamp(lead, -kMostAgainst, kMostAgainst);
     if (sum < least) return kNever;
   }
   return sum;
@@ -118,27 +114,24 @@ double PastScans::logOddsAgainst(const std::vector<Visit>& rival, const TPose2D&
 void PastScans::weighNewcomers(TrackSet& set, const DenseVerifier& verifier) const
 {
   const auto is_new = [](const Track& track) { return track.hypothesis.age == 0; };
-  if (std::none_of(set.tracks.begin(), set.tracks.end(), is_new)) return;
-  const Track* heaviest = nullptr;
-  for (const Track& track : set.tracks)
+  const auto lighter = [&](const Track& a, const Track& b)
   {
-    if (is_new(track)) continue;
-    if (heaviest == nullptr || track.hypothesis.weight > heaviest->hypothesis.weight)
-    {
-      heaviest = &track;
-    }
-  }
-  if (heaviest == nullptr || step_ - heaviest->hypothesis.age < known_since_) return;
-  const std::vector<Visit> rival =
-      wayTo(heaviest->hypothesis.pose.mean, step_ - heaviest->hypothesis.age, verifier);
+    if (is_new(a) != is_new(b)) return is_new(a);
+    return a.hypothesis.weight < b.hypothesis.weight;
+  };
+  if (std::none_of(set.tracks.begin(), set.tracks.end(), is_new)) return;
+  const TrackedHypothesis heaviest =
+      std::max_element(set.tracks.begin(), set.tracks.end(), lighter)->hypothesis;
+  const std::uint64_t born = step_ - heaviest.age;
+  if (heaviest.age == 0 || born < known_since_) return;
+  const std::vector<Visit> rival = wayTo(heaviest.pose.mean, born, verifier);
   if (rival.empty()) return;
-  const double most = heaviest->hypothesis.weight;
   for (Track& track : set.tracks)
   {
     if (!is_new(track)) continue;
     const double log_odds = logOddsAgainst(rival, track.hypothesis.pose.mean, verifier);
     double& weight = track.hypothesis.weight;
-    weight = std::max(weight, most * std::exp(std::min(0.0, log_odds)));
+    weight = std::max(weight, heaviest.weight * std::exp(std::min(0.0, log_odds)));
   }
   set.normaliseTracks();
 }

@@ -53,7 +53,7 @@ class PastScans
                            const DenseVerifier& verifier) const;
   double logOddsAgainst(const std::vector<Visit>& rival, const mrpt::math::TPose2D& pose,
                         const DenseVerifier& verifier) const;
-  double evidenceOf(std::deque<Look>::const_reverse_iterator look, bool first) const;
+  const Look& lookBack(std::size_t k) const { return looks_[looks_.size() - 1 - k]; }
 
   TrackerOptions options_;
   std::deque<Look> looks_;
