@@ -141,7 +141,8 @@ TEST(FeatureTracking, CovarianceIsHonestOnGatedDrives)
   double sum = 0;
   std::size_t count = 0;
   std::ostringstream others;
-  for (const TrackRun& run : runSimulatedTrack(options).methods.front().runs)
+  const TrackReport report = runSimulatedTrack(options);
+  for (const TrackRun& run : report.methods.front().runs)
   {
     const TrackStepRecord& end = run.steps.back();
     if (end.judged != Claim::right)

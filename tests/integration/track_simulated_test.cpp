@@ -20,6 +20,12 @@ SimulatedTrackOptions smallOptions()
   return options;
 }
 
+/// By value: a loop over a part of the report itself would outlive it.
+std::vector<TrackRun> runsOf(const SimulatedTrackOptions& options)
+{
+  return runSimulatedTrack(options).methods.front().runs;
+}
+
 TEST(SimulatedTrack, GivesTheSameStepsOnOneAndTwoThreads)
 {
   SimulatedTrackOptions options = smallOptions();
@@ -66,7 +72,7 @@ TEST(SimulatedTrack, JudgesEveryClaimInAForeignMapWrong)
 {
   SimulatedTrackOptions options = smallOptions();
   options.foreign = true;
-  for (const TrackRun& run : runSimulatedTrack(options).methods.front().runs)
+  for (const TrackRun& run : runsOf(options))
   {
     EXPECT_FALSE(run.right_at_end);
     for (const TrackStepRecord& step : run.steps)
@@ -97,7 +103,7 @@ struct Outcome
 Outcome outcomeOf(const SimulatedTrackOptions& options)
 {
   Outcome outcome;
-  for (const TrackRun& run : runSimulatedTrack(options).methods.front().runs)
+  for (const TrackRun& run : runsOf(options))
   {
     outcome.right += run.right_at_end;
     outcome.wrong += run.wrong_steps > 0;
@@ -155,7 +161,7 @@ TEST(SimulatedTrack, ItsCovariancesAreHonest)
   options.map_sigma = 0;
   double sum = 0;
   std::size_t count = 0;
-  for (const TrackRun& run : runSimulatedTrack(options).methods.front().runs)
+  for (const TrackRun& run : runsOf(options))
   {
     for (const TrackStepRecord& step : run.steps)
     {

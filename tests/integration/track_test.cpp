@@ -147,7 +147,8 @@ TEST(Track, AsksNoPlaceTwice)
   ASSERT_GE(places, 2U);
   options.starts = static_cast<std::uint32_t>(places);
   std::set<std::size_t> starts;
-  for (const TrackRun& run : runTrack(options).methods.front().runs) starts.insert(run.start);
+  const TrackReport report = runTrack(options);
+  for (const TrackRun& run : report.methods.front().runs) starts.insert(run.start);
   EXPECT_EQ(starts.size(), places);
 }
 
