@@ -107,10 +107,13 @@ std::vector<PoseProposal> BaseProposer::propose(const std::vector<Feature>& obse
 std::vector<PoseProposal> BaseProposer::proposeFurther(const std::vector<Feature>& observed) const
 {
   std::vector<PoseProposal> proposals;
+  proposals.reserve(std::min(options_.thorough_budget, kUsualProposals));
   proposeCirclePairs(observed, options_.max_pairs, options_.thorough_pairs, proposals);
   const std::vector<const Feature*> walls = wallsToSlide(observed);
   for (std::size_t i = options_.slid_walls; i < walls.size(); ++i)
+  {
     slide(*walls[i], options_.thorough_budget, proposals);
+  }
   if (proposals.size() > options_.thorough_budget) proposals.resize(options_.thorough_budget);
   return proposals;
 }

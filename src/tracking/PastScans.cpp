@@ -22,7 +22,6 @@ constexpr double kSpacing = 0.5;  // [m] of travel between them
 constexpr int kSteps = 3;  // of refinement
 constexpr double kWaySigma = 0.1;  // [m] that a look may be off the way that odometry tells
 constexpr double kWayTurnSigma = 0.05;  // [rad]
-constexpr double kMostAgainst = 3.0;  // of one look's log-likelihood
 }  // namespace
 
 /// A robot that goes back the way it came, and at each look stands where that fits best.
@@ -41,7 +40,7 @@ class PastScans::WayBack
     odometry_ = look.odometry;
     const double off = std::hypot(pose_.x - told.x, pose_.y - told.y) / kWaySigma;
     const double turned = wrapToPi(pose_.phi - told.phi) / kWayTurnSigma;
-    const double detour = std::min(kMostAgainst, 0.5 * (off * off + turned * turned));
+    const double detour = std::min(kMaxRelative, 0.5 * (off * off + turned * turned));
     return {pose_, logLikelihoodOfScore(verifier_.evaluate(look.scan, pose_).score) - detour};
   }
 
@@ -104,8 +103,8 @@ double PastScans::logOddsAgainst(const std::vector<Visit>& rival, const TPose2D&
     const double travel =
         is_first ? options_.evidence_distance : look.travelled - lookBack(k + 1).travelled;
     const double lead = own.log_likelihood - rival[k].log_likelihood;
-    sum += shareTold(look.scan) * std::min(1.0, travel / options_.evidence_distance) *
-           std::clamp(lead, -kMostAgainst, kMostAgainst);
+    sum += shareBetweenRivals(look.scan, travel, options_) *
+           std::clamp(lead, -kMaxRelative, kMaxRelative);
     if (sum < least) return kNever;
   }
   return sum;

@@ -25,8 +25,8 @@ class PastScans
   /// Goes on by one step; without odometry the way is lost, and everything is forgotten.
   void move(const std::optional<MotionIncrement>& motion);
 
-  /// Remembers a scan, taken after `travelled` [m] in all, unless the last one is as good as the
-  /// same; of too many the oldest is forgotten.
+  /// Remembers a scan, taken after `travelled` [m] in all, unless the last one was taken near by;
+  /// of too many the oldest is forgotten.
   void remember(const DenseScan& scan, double travelled);
 
   /// Gives the tracks that started with this step the weight they would have if they had been

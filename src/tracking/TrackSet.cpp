@@ -49,11 +49,12 @@ bool heavier(const Track& a, const Track& b)
 }
 }  // namespace
 
-double shareTold(const DenseScan& scan)
+double shareBetweenRivals(const DenseScan& scan, double travel, const TrackerOptions& options)
 {
   constexpr double kTelling = 60;  // returns
   const auto seen = std::count(scan.isolated.begin(), scan.isolated.end(), 0);
-  return std::min(1.0, static_cast<double>(seen) / kTelling);
+  return std::min(1.0, static_cast<double>(seen) / kTelling) *
+         std::min(1.0, travel / options.evidence_distance);
 }
 
 bool isSamePlace(const TPose2D& a, const TPose2D& b)
@@ -207,7 +208,7 @@ void TrackSet::weigh(double travel, const DenseScan& scan)
                        [](const Track& a, const Track& b) { return a.score < b.score; })
           ->score;
   const double best = logLikelihoodOfScore(best_score);
-  const double between = shareTold(scan) * std::min(1.0, travel / options_.evidence_distance);
+  const double between = shareBetweenRivals(scan, travel, options_);
   for (Track& track : tracks)
   {
     const double behind = std::max(logLikelihoodOfScore(track.score) - best, -kMaxRelative);

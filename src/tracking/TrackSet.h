@@ -63,11 +63,11 @@ struct Track
   bool held() const { return std::max(confirmed, presence()) >= kHeld; }
 };
 
-/// The share of its evidence that a scan counts with. Few returns tell little: half of a score may
-/// hang on three specks.
-double shareTold(const DenseScan& scan);
+/// How much of what a scan says counts between rivals, in [0, 1], after `travel` [m] since the one
+/// before. Few returns tell little: half of a score may hang on three specks. Eq. (8.5)
+double shareBetweenRivals(const DenseScan& scan, double travel, const TrackerOptions& options);
 
-/// True for a pose so near to a track that it confirms it.
+/// True for a pose so near to a track that it is the track's.
 bool isSamePlace(const mrpt::math::TPose2D& a, const mrpt::math::TPose2D& b);
 
 /// True for poses so near to each other that their tracks are merged.

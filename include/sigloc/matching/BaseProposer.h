@@ -33,7 +33,8 @@ struct BaseProposerOptions
   static void visitFields(V&& visit)
   {
     using O = BaseProposerOptions;
-    visit(OptionField{"budget", &O::budget, 1U, 100000000U, "[-] most proposals of one scene"});
+    visit(OptionField{"budget", &O::budget, 1U, 100000000U,
+                      "[-] most proposals of one scene, further ones not counted"});
     visit(OptionField{"slid_walls", &O::slid_walls, 0U, 100U,
                       "[-] observed walls that are slid along the mapped ones at least"});
     visit(OptionField{"enough", &O::enough, 0U, 100000000U,
