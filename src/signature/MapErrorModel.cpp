@@ -6,23 +6,24 @@ namespace sigloc
 {
 namespace
 {
-void addCommonError(const MapErrorModel& error, double sign, GaussianPose& pose)
+// By reference: how a pose is passed by value changed between compilers.
+GaussianPose widened(const GaussianPose& pose, const MapErrorModel& error, double sign)
 {
-  pose.covariance(0, 0) += sign * error.common_sigma * error.common_sigma;
-  pose.covariance(1, 1) += sign * error.common_sigma * error.common_sigma;
-  pose.covariance(2, 2) += sign * error.common_turn_sigma * error.common_turn_sigma;
+  GaussianPose out = pose;
+  out.covariance(0, 0) += sign * error.common_sigma * error.common_sigma;
+  out.covariance(1, 1) += sign * error.common_sigma * error.common_sigma;
+  out.covariance(2, 2) += sign * error.common_turn_sigma * error.common_turn_sigma;
+  return out;
 }
 }  // namespace
 
-GaussianPose withCommonError(GaussianPose pose, const MapErrorModel& error)
+GaussianPose withCommonError(const GaussianPose& pose, const MapErrorModel& error)
 {
-  addCommonError(error, +1, pose);
-  return pose;
+  return widened(pose, error, +1);
 }
 
-GaussianPose withoutCommonError(GaussianPose pose, const MapErrorModel& error)
+GaussianPose withoutCommonError(const GaussianPose& pose, const MapErrorModel& error)
 {
-  addCommonError(error, -1, pose);
-  return pose;
+  return widened(pose, error, -1);
 }
 }  // namespace sigloc

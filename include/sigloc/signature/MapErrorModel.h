@@ -24,8 +24,8 @@ struct MapErrorModel
 
 /// Returns the pose of someone who knows the map only as well as `error` says: what is common to a
 /// neighbourhood widens the covariance. \cite algorithm eq. (6.10)
-GaussianPose withCommonError(GaussianPose pose, const MapErrorModel& error);
+GaussianPose withCommonError(const GaussianPose& pose, const MapErrorModel& error);
 
 /// Takes back what withCommonError() added.
-GaussianPose withoutCommonError(GaussianPose pose, const MapErrorModel& error);
+GaussianPose withoutCommonError(const GaussianPose& pose, const MapErrorModel& error);
 }  // namespace sigloc
