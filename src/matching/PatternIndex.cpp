@@ -344,7 +344,7 @@ std::size_t PatternIndex::slotsNear(const PatternShape& shape, double tolerance,
       for (std::size_t b = 0; b < blocks; ++b)
       {
         const std::int64_t block = first_block + static_cast<std::int64_t>(b);
-        const std::int64_t start = block << bits;
+        const std::int64_t start = block * (std::int64_t{1} << bits);
         const std::int64_t end = start + (1 << bits) - 1;
         reached[k * blocks + b] = {
             mix(stem.group, block),
