@@ -10,6 +10,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "sigloc/tracking/travel.h"
+
 namespace sigloc
 {
 using mrpt::bayes::CParticleFilter;
@@ -39,9 +41,7 @@ const Belief& ParticleTracker::step(const RawlogStep& step)
   if (step.motion)
   {
     motion = *step.motion;
-    const double travel =
-        std::hypot(motion.mean.x, motion.mean.y) +
-        std::abs(motion.mean.phi) * tracking_.evidence_distance / tracking_.evidence_turn;
+    const double travel = travelOf(motion.mean, tracking_);
     sigma = options_.motion_sigma * std::sqrt(travel);
     turn_sigma = options_.motion_turn_sigma * std::sqrt(travel);
   }

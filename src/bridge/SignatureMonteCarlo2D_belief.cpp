@@ -13,6 +13,7 @@
 #include "sigloc/geometry/pose_fusion.h"
 #include "sigloc/matching/DenseVerifier.h"
 #include "sigloc/matching/weighing.h"
+#include "sigloc/tracking/travel.h"
 
 namespace sigloc
 {
@@ -75,8 +76,7 @@ double SignatureMonteCarlo2D::predictModes(const mrpt::obs::CActionCollection* a
     mode.hypothesis.pose.mean = mode.hypothesis.pose.mean + motion.mean;
     ++mode.hypothesis.age;
   }
-  return std::hypot(motion.mean.x, motion.mean.y) +
-         std::abs(motion.mean.phi) * tracking_.evidence_distance / tracking_.evidence_turn;
+  return travelOf(motion.mean, tracking_);
 }
 
 /// Finds the places where the particles are now; each stays itself from step to step.
@@ -113,9 +113,7 @@ double SignatureMonteCarlo2D::travelSeen(double assumed)
   if (motion_known_ || modes_.empty() || score_ < tracking_.lost_score) return assumed;
   const TPose2D now = modes_.front().hypothesis.pose.mean;
   const TPose2D before = seen_.value_or(now);
-  const double moved = std::hypot(now.x - before.x, now.y - before.y) +
-                       std::abs(wrapToPi(now.phi - before.phi)) * tracking_.evidence_distance /
-                           tracking_.evidence_turn;
+  const double moved = travelBetween(before, now, tracking_);
   if (seen_ && moved < kMoved) return 0;
   seen_ = now;
   return moved;

@@ -7,6 +7,7 @@
 
 #include "FeatureAssociation.h"
 #include "sigloc/features/LocalMap.h"
+#include "sigloc/tracking/travel.h"
 
 namespace sigloc
 {
@@ -75,10 +76,7 @@ bool FeatureFollowing::look(TrackSet& set, const std::optional<MotionIncrement>&
 
 void FeatureFollowing::remember()
 {
-  const double travel =
-      std::hypot(since_recent_.mean.x, since_recent_.mean.y) +
-      std::abs(since_recent_.mean.phi) * options_.evidence_distance / options_.evidence_turn;
-  if (!recent_.empty() && travel < kStepTravel) return;
+  if (!recent_.empty() && travelOf(since_recent_.mean, options_) < kStepTravel) return;
   recent_.push_back({since_recent_, seen_});
   since_recent_ = {};
   if (recent_.size() > kRecentSteps) recent_.pop_front();
@@ -153,11 +151,11 @@ RelocationResult FeatureFollowing::localize(const std::optional<PoseRegion>& reg
   return matcher_->localize(scene, region);
 }
 
-void FeatureFollowing::relocate(TrackSet& set, const std::optional<PoseRegion>& region,
+bool FeatureFollowing::relocate(TrackSet& set, const std::optional<PoseRegion>& region,
                                 double fresh_share, bool settled, std::uint64_t& next_id)
 {
   const RelocationResult result = localize(region, settled);
-  if (result.verdict == Verdict::too_little_seen) return;
+  if (result.verdict == Verdict::too_little_seen) return false;
   weighElsewhere(set, result, fresh_share);
   for (const Candidate& candidate : result.candidates)
   {
@@ -169,6 +167,7 @@ void FeatureFollowing::relocate(TrackSet& set, const std::optional<PoseRegion>& 
     held->features = there.features;
   }
   set.dealOut(result, [&](std::size_t k) { return startAt(result.candidates[k], next_id++); });
+  return true;
 }
 
 /// Where a relocation finds poses that no track holds, as good as theirs, "somewhere else" gains.

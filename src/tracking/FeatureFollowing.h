@@ -34,9 +34,9 @@ class FeatureFollowing
   void weigh(TrackSet& set, double travel) const;
 
   /// Looks for places that no track holds, in a local map of the last steps or, once the belief is
-  /// settled, in the present one.
+  /// settled, in the present one. Returns false where too little is seen for an answer.
   /// Eq. (8.9), (8.19)
-  void relocate(TrackSet& set, const std::optional<PoseRegion>& region, double fresh_share,
+  bool relocate(TrackSet& set, const std::optional<PoseRegion>& region, double fresh_share,
                 bool settled, std::uint64_t& next_id);
 
   /// Keeps the present step for local maps to come.

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sigloc/tracking/HypothesisTracker.h"
 
-#include <mrpt/math/wrap2pi.h>
-
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -15,6 +13,8 @@
 #include "sigloc/matching/DenseVerifier.h"
 #include "sigloc/matching/weighing.h"
 #include "sigloc/tracking/rivals.h"
+#include "sigloc/tracking/travel.h"
+#include "step_input.h"
 #include "TrackSet.h"
 
 namespace sigloc
@@ -48,6 +48,8 @@ struct HypothesisTracker::State
   void followByFeatures(const std::optional<MotionIncrement>& motion, double travel);
   bool seesTooLittle(const ObservedScene& scene) const;
 
+  void goOn(double travel);
+  void haveRelocated();
   double travelSeen(double assumed);
   double freshShare() const;
   bool suspicious() const;
@@ -69,9 +71,8 @@ struct HypothesisTracker::State
   std::uint64_t next_id = 1;
   double travel_since_relocation = 0;  // [m]
   double travelled = 0;  // [m] in all
-  bool first_step = true;
-  bool relocated = false;
-  std::uint64_t found_id = 0;  // of the track that this step's relocation found best, or 0
+  bool waking_up = true;  // no relocation has answered yet
+  bool relocated = false;  // in this step
   double reliability = 0;  // of the first hypothesis when enough was last seen
   std::uint64_t seen_id = 0;  // of the track that was heaviest when the robot last moved
   mrpt::math::TPose2D seen_pose;  // where it was then
@@ -108,7 +109,7 @@ void HypothesisTracker::State::startAnew()
 {
   set = TrackSet(options);
   past = PastScans(options);
-  first_step = true;
+  waking_up = true;
   belief = {};
   if (matcher->featureVerifier() == nullptr) return;
   by_features = std::make_unique<FeatureFollowing>(matcher, options);
@@ -117,16 +118,17 @@ void HypothesisTracker::State::startAnew()
 const Belief& HypothesisTracker::step(const std::optional<MotionIncrement>& motion,
                                       const ObservedScene& scene)
 {
+  if (motion) checkMotion(*motion);
+  checkScene(scene);
   State& s = *state_;
   s.relocated = false;
-  s.found_id = 0;
   const bool sees_enough = s.by_features ? s.by_features->look(s.set, motion, scene)
                                          : scene.beams.size() >= s.matcher->options().min_beams;
   const double travel = s.set.predict(motion);
   s.past.move(motion);
   if (!sees_enough)
   {
-    s.travel_since_relocation += travel;
+    s.goOn(travel);
   }
   else if (s.by_features)
   {
@@ -146,15 +148,13 @@ void HypothesisTracker::State::followDensely(const std::optional<MotionIncrement
   const DenseScan scan = makeDenseScan(scene, kUpdateBeams);
   set.update(scan, *matcher->verifier());
   if (!motion) travel = travelSeen(travel);
-  travel_since_relocation += travel;
-  travelled += travel;
+  goOn(travel);
   past.remember(scan, travelled);
   set.follow(scan, travelled, travel);
   set.weigh(travel, scan);
   if (wantsRelocation()) relocate(scene, scan);
   set.mergeAndPrune();
   judgeFirst(scan);
-  first_step = false;
 }
 
 void HypothesisTracker::State::followByFeatures(const std::optional<MotionIncrement>& motion,
@@ -162,26 +162,37 @@ void HypothesisTracker::State::followByFeatures(const std::optional<MotionIncrem
 {
   by_features->update(set, travelled + travel, next_id);
   if (!motion) travel = travelSeen(travel);
-  travel_since_relocation += travel;
-  travelled += travel;
+  goOn(travel);
   by_features->weigh(set, travel);
   if (wantsRelocation())
   {
     const bool settled = belief.verdict == Verdict::localized && !suspicious();
-    by_features->relocate(set, first_step ? region : std::nullopt, freshShare(), settled, next_id);
-    relocated = true;
-    travel_since_relocation = 0;
+    const bool answered = by_features->relocate(set, waking_up ? region : std::nullopt,
+                                                freshShare(), settled, next_id);
+    if (answered) haveRelocated();
   }
   by_features->remember();
   set.mergeAndPrune();
   reliability = set.tracks.empty() ? 0 : by_features->reliabilityOf(set.tracks.front());
-  first_step = false;
+}
+
+void HypothesisTracker::State::goOn(double travel)
+{
+  travel_since_relocation += travel;
+  travelled += travel;
+}
+
+void HypothesisTracker::State::haveRelocated()
+{
+  relocated = true;
+  waking_up = false;
+  travel_since_relocation = 0;
 }
 
 /// How much of a relocation is news.
 double HypothesisTracker::State::freshShare() const
 {
-  return first_step ? 1.0 : std::min(1.0, travel_since_relocation / options.evidence_distance);
+  return waking_up ? 1.0 : std::min(1.0, travel_since_relocation / options.evidence_distance);
 }
 
 /// Without odometry only the scans tell whether the robot moves. While the heaviest track stays put
@@ -191,12 +202,10 @@ double HypothesisTracker::State::travelSeen(double assumed)
   constexpr double kMoved = 0.15;  // [m], more than the jitter of a standing robot's poses
   if (set.tracks.empty() || suspicious()) return assumed;
   const Track& first = set.heaviest();
-  if (first.score < options.lost_score) return assumed;
+  if (first.score < (by_features ? 0 : options.lost_score)) return assumed;
   const mrpt::math::TPose2D& pose = first.hypothesis.pose.mean;
   const bool same = first.hypothesis.id == seen_id;
-  const double turn = std::abs(mrpt::math::wrapToPi(pose.phi - seen_pose.phi));
-  const double moved = std::hypot(pose.x - seen_pose.x, pose.y - seen_pose.y) +
-                       turn * options.evidence_distance / options.evidence_turn;
+  const double moved = travelBetween(seen_pose, pose, options);
   if (same && moved < kMoved) return 0;
   seen_id = first.hypothesis.id;
   seen_pose = pose;
@@ -218,14 +227,14 @@ bool HypothesisTracker::State::doubtful() const
 {
   const Track& first = set.tracks.front();
   if (by_features && FeatureFollowing::contradicts(first)) return true;
-  return suspicious() && first.hypothesis.id != found_id;
+  return suspicious() && !first.found;
 }
 
 /// At the start, after a sudden fall of the score, at a steady rate while several poses or none
 /// hold, and at a low one to confirm what is held.
 bool HypothesisTracker::State::wantsRelocation() const
 {
-  if (first_step || suspicious()) return true;
+  if (waking_up || suspicious()) return true;
   const bool held = !set.tracks.empty() &&
                     set.heaviest().hypothesis.weight >= options.localized_probability &&
                     set.heaviest().held();
@@ -237,15 +246,14 @@ bool HypothesisTracker::State::wantsRelocation() const
 /// else", and for places that no track holds. Eq. (8.7) to (8.9)
 void HypothesisTracker::State::relocate(const ObservedScene& scene, const DenseScan& scan)
 {
-  const double fresh_share = freshShare();
-  const RelocationResult result = matcher->localize(scene, first_step ? region : std::nullopt);
-  relocated = true;
-  travel_since_relocation = 0;
+  const RelocationResult result = matcher->localize(scene, waking_up ? region : std::nullopt);
   if (result.verdict == Verdict::too_little_seen) return;
+  const double fresh_share = freshShare();
+  haveRelocated();
 
-  const Track* best =
+  Track* best =
       result.candidates.empty() ? nullptr : set.trackAt(result.candidates.front().pose.mean);
-  if (best != nullptr) found_id = best->hypothesis.id;
+  if (best != nullptr) best->found = true;
   confirm(result, scan, fresh_share);
   weighElsewhere(result, fresh_share);
   set.dealOut(result, [&](std::size_t k) { return startAt(result, k, scan); });
@@ -260,7 +268,7 @@ void HypothesisTracker::State::confirm(const RelocationResult& result, const Den
 {
   for (Track& track : set.tracks)
   {
-    double evidence = -kMaxAgainst;
+    double evidence = 0;  // where nothing was found anywhere, the track's own score tells
     if (!result.candidates.empty())
     {
       // For a track that the relocation did not find: what its best answer would be there.

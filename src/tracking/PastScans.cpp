@@ -59,7 +59,7 @@ void PastScans::move(const std::optional<MotionIncrement>& motion)
     return;
   }
   looks_.clear();
-  known_since_ = step_ + 1;
+  known_since_ = step_;
 }
 
 void PastScans::remember(const DenseScan& scan, double travelled)

@@ -22,7 +22,7 @@ class PastScans
  public:
   explicit PastScans(const TrackerOptions& options) : options_(options) {}
 
-  /// Goes on by one step; without odometry the way is lost, and everything is forgotten.
+  /// Goes on by one step; without odometry the way before it is lost, and everything is forgotten.
   void move(const std::optional<MotionIncrement>& motion);
 
   /// Remembers a scan, taken after `travelled` [m] in all, unless the last one was taken near by;

@@ -10,6 +10,7 @@
 
 #include "sigloc/geometry/pose_fusion.h"
 #include "sigloc/matching/weighing.h"
+#include "sigloc/tracking/travel.h"
 
 namespace sigloc
 {
@@ -102,14 +103,12 @@ double TrackSet::predict(const std::optional<MotionIncrement>& motion)
     increment.covariance(1, 1) = increment.covariance(0, 0);
     increment.covariance(2, 2) = options_.free_turn_sigma * options_.free_turn_sigma;
   }
-  const double turn_as_travel =
-      std::abs(increment.mean.phi) * options_.evidence_distance / options_.evidence_turn;
-  const double travel = motion ? std::hypot(increment.mean.x, increment.mean.y) + turn_as_travel
-                               : options_.lost_distance;
+  const double travel = motion ? travelOf(increment.mean, options_) : options_.lost_distance;
   for (Track& track : tracks)
   {
     track.hypothesis.pose = composeWithMotion(track.hypothesis.pose, increment);
     ++track.hypothesis.age;
+    track.found = false;
   }
   return travel;
 }
@@ -306,6 +305,7 @@ void TrackSet::mergeAndPrune()
       same->confirmed = std::max(same->confirmed, track.confirmed);
       same->followed = std::max(same->followed, track.followed);
       into.age = std::max(into.age, track.hypothesis.age);
+      same->found = same->found || track.found;
     }
     else if (kept.size() < options_.max_hypotheses &&
              track.hypothesis.weight >= options_.prune_weight)

@@ -43,6 +43,7 @@ struct Track
   double score = 0;  // of the last scan
   DenseEvidence evidence;  // of the last scan
   double mean_score = 0;  // running mean
+  bool found = false;  // best of the whole map by this step's relocation
   double confirmed = 0;  // log-odds that relocations, each blind to the track, have given it
   SeenStructure seen;  // what that evidence rests on
   double followed = 0;  // log-odds from how the map explained what came into view on the way

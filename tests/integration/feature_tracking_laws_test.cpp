@@ -244,6 +244,31 @@ TEST(FeatureTracking, SplitsWhereTwoPairingsAreAsGoodAndJoinsAgain)
   EXPECT_NEAR(joined.hypotheses[0].pose.mean.y, 0, 0.05);
 }
 
+TEST(FeatureTracking, AFirstLookAtTooLittleDoesNotEndTheSearch)
+{
+  std::vector<Feature> map;
+  for (const TPoint2D& p : kUnique)
+  {
+    map.push_back(landmarkAt(p, 0.01));
+    map.push_back(landmarkAt({50 + p.x, p.y}, 0.01));
+  }
+  HypothesisTracker tracker(
+      std::make_shared<const SignatureMatcher>(std::make_shared<const FeatureMap>(map)));
+  PoseRegion second_copy;
+  second_copy.x_min = 45;
+  second_copy.x_max = 55;
+  second_copy.y_min = -5;
+  second_copy.y_max = 5;
+  tracker.reset(second_copy);
+  EXPECT_EQ(tracker.step(std::nullopt, sceneOf({kUnique.front()})).verdict,
+            Verdict::too_little_seen);
+  EXPECT_FALSE(tracker.relocated());
+  const Belief& found = tracker.step(MotionIncrement{}, sceneOf(kUnique));
+  EXPECT_TRUE(tracker.relocated());
+  ASSERT_EQ(found.hypotheses.size(), 1U);
+  EXPECT_NEAR(found.hypotheses[0].pose.mean.x, 50, 0.05);
+}
+
 TEST(FeatureTracking, LeavesOutWhatTheMapDoesNotHold)
 {
   const auto matcher = ambiguousPlace();

@@ -28,7 +28,8 @@ struct Belief
   double elsewhere = 1;
   Verdict verdict = Verdict::too_little_seen;
   double probability = 0;  ///< of the verdict's claim
-  double reliability = 0;  ///< in [0, 1]: how well the first hypothesis explains what is seen now
+  /// In [0, 1]: how well the first hypothesis explains the latest look at enough to tell.
+  double reliability = 0;
   std::string reason;  ///< one line for people: why lost, which rivals remain
 };
 }  // namespace sigloc

@@ -86,7 +86,10 @@ class HypothesisTracker
   HypothesisTracker(HypothesisTracker&&) noexcept;
   HypothesisTracker& operator=(HypothesisTracker&&) noexcept;
 
-  /// Advances by one step and returns the belief after it. Without a motion a wide prior is used.
+  /// Advances by one step and returns the belief after it. Without a motion a wide prior is used;
+  /// the first step's does not matter. Throws std::invalid_argument, and forgets nothing, for a
+  /// motion with a figure that is not finite or a negative variance, and for returns or features at
+  /// places that are not finite.
   const Belief& step(const std::optional<MotionIncrement>& motion, const ObservedScene& scene);
 
   const Belief& belief() const;

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "step_input.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace sigloc
+{
+namespace
+{
+bool isFinite(const mrpt::math::TPoint2D& point)
+{
+  return std::isfinite(point.x) && std::isfinite(point.y);
+}
+}  // namespace
+
+void checkMotion(const MotionIncrement& motion)
+{
+  bool sound = isFinite({motion.mean.x, motion.mean.y}) && std::isfinite(motion.mean.phi);
+  for (int r = 0; r < 3; ++r)
+  {
+    for (int c = 0; c < 3; ++c) sound = sound && std::isfinite(motion.covariance(r, c));
+    sound = sound && motion.covariance(r, r) >= 0;
+  }
+  if (!sound) throw std::invalid_argument("a motion is not finite or has a negative variance");
+}
+
+void checkScene(const ObservedScene& scene)
+{
+  const bool sound = std::all_of(scene.beams.begin(), scene.beams.end(),
+                                 [](const BeamEnd& beam) { return isFinite(beam.point); }) &&
+                     std::all_of(scene.features.begin(), scene.features.end(),
+                                 [](const Feature& feature) { return isFinite(feature.position); });
+  if (!sound) throw std::invalid_argument("a return or feature is at no finite place");
+}
+}  // namespace sigloc
