@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <Eigen/Dense>
 #include <iostream>
 
 #include "sigloc/eval/run_parallel.h"
