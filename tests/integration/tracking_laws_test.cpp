@@ -241,6 +241,38 @@ TEST(Tracker, ACrowdDoesNotUnsettleIt)
   EXPECT_GE(stays, localized - 1);
 }
 
+TEST(Tracker, ClutterInAWideHallDoesNotUnsettleIt)
+{
+  WorldOptions wide;
+  wide.width = 40;
+  wide.height = 25;
+  const MappedWorld hall(makeWorld(WorldKind::hall, wide, 7), 7);
+  LaserOptions cluttered = MappedWorld::laser();
+  cluttered.clutter_share = 0.75;
+  const LaserSimulator simulator(hall.world(), cluttered);
+  int steps = 0;
+  int localized = 0;
+  for (std::uint64_t seed = 71; seed < 77; ++seed)
+  {
+    const auto drive = driveThrough(hall.world(), 24, seed);
+    const std::vector<DriveStep> before(drive.begin(), drive.begin() + drive.size() / 2);
+    HypothesisTracker tracker(hall.matcher());
+    if (!follow(tracker, before).right_at_end) continue;
+    Random random(seed);
+    for (std::size_t k = before.size(); k < drive.size(); ++k)
+    {
+      const LaserScan scan = simulator.scan(drive[k].world_from_robot, random);
+      const Belief& belief = tracker.step(drive[k].motion, observeScene({scan}));
+      EXPECT_FALSE(confidentlyWrong(belief, drive[k].world_from_robot)) << "seed " << seed;
+      ++steps;
+      localized += belief.verdict == Verdict::localized;
+    }
+  }
+  std::cout << "clutter in a hall: localized in " << localized << " of " << steps << " steps\n";
+  EXPECT_GE(steps, 100);
+  EXPECT_GE(localized, 0.8 * steps);
+}
+
 TEST(Tracker, InAForeignMapItIsSeldomLocalized)
 {
   int drives = 0;
