@@ -9,10 +9,10 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "sigloc/bridge/file_output.h"
 #include "sigloc/bridge/map_sources.h"
 #include "sigloc/bridge/RawlogReader.h"
 #include "sigloc/eval/report_files.h"
-#include "sigloc/eval/simulation_files.h"
 
 namespace sigloc
 {
@@ -121,6 +121,6 @@ void writeReferencePath(const ReferencePath& reference, const std::filesystem::p
             fixedNumber(pose.map_from_robot.y, 4) + " " + fixedNumber(pose.map_from_robot.phi, 5) +
             "\n";
   }
-  writeText(text, path);
+  writeFile(path, text);
 }
 }  // namespace sigloc
