@@ -14,7 +14,7 @@
 #include "sigloc/bridge/file_output.h"
 #include "sigloc/bridge/output_guard.h"
 #include "sigloc/config/TextStream.h"
-#include "sigloc/eval/FolderInProgress.h"
+#include "sigloc/eval/folder_output.h"
 
 namespace sigloc
 {
@@ -163,8 +163,6 @@ std::string markdownTable(const std::vector<std::vector<std::string>>& rows)
 
 void writeRunReport(const RunReport& report, const std::filesystem::path& folder)
 {
-  const FolderInProgress files(folder);
-  writeFiles(report, files.part());
-  files.keep();
+  fillFolder(folder, [&](const std::filesystem::path& part) { writeFiles(report, part); });
 }
 }  // namespace sigloc
