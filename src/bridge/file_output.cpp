@@ -42,8 +42,10 @@ class TemporaryFile
     std::error_code unnameable;
     const bool is_link = fs::is_symlink(path, unnameable) && fs::exists(path, unnameable);
     target_ = is_link ? fs::canonical(path) : path;
-    temporary_ = target_;
-    temporary_ += kTemporaryEnding + std::to_string(getpid());
+    // A name as long as names may be leaves no room for the ending.
+    constexpr std::size_t kLongestStem = 200;
+    temporary_ = target_.parent_path() / (target_.filename().string().substr(0, kLongestStem) +
+                                          kTemporaryEnding + std::to_string(getpid()));
   }
   ~TemporaryFile()
   {

@@ -3,7 +3,6 @@
 #include "sigloc/bridge/pf_localization_files.h"
 
 #include <mrpt/core/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -218,10 +217,16 @@ std::filesystem::path experimentSummaryFile(const std::filesystem::path& folder)
 
 void writeExperimentSummary(const std::filesystem::path& folder, const std::string& text)
 {
-  std::filesystem::path path = experimentSummaryFile(folder);
-  const auto parent = path.has_parent_path() ? path.parent_path() : ".";
-  const bool beside = access(parent.c_str(), W_OK | X_OK) == 0;
-  if (!beside && std::filesystem::is_directory(folder)) path = folder / kSummaryEnding;
-  writeFile(path, text);
+  const std::filesystem::path path = experimentSummaryFile(folder);
+  try
+  {
+    writeFile(path, text);
+  }
+  catch (const std::runtime_error&)
+  {
+    // Nothing may be made beside the folder, or its name is too long for it.
+    if (!std::filesystem::is_directory(folder)) throw;
+    writeFile(folder / kSummaryEnding, text);
+  }
 }
 }  // namespace sigloc

@@ -98,6 +98,14 @@ TEST(FileOutput, writesWhereALinkPoints)
   EXPECT_EQ(readBytes(folder / "file"), "second");
 }
 
+TEST(FileOutput, takesNamesAsLongAsTheyMayBe)
+{
+  const TemporaryFolder folder;
+  const fs::path path = folder / std::string(255, 'x');
+  writeFile(path, "bytes");
+  EXPECT_EQ(readBytes(path), "bytes");
+}
+
 TEST(FileOutput, knowsTheNamesOfTemporaryFiles)
 {
   EXPECT_EQ(withoutTemporaryEnding("steps.csv.part-123"), "steps.csv");
