@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <stdexcept>
 
+#include "picture_file.h"
 #include "pictures.h"
 #include "sigloc/eval/RelocationMethod.h"
 #include "sigloc/features/FeatureExtractor.h"
@@ -111,11 +111,7 @@ void drawInto(const std::filesystem::path& folder, const std::vector<FailedQuery
     drawing.proposed = failure.proposals;
     std::filesystem::create_directories(folder);
     const auto file = folder / (failure.method + "-" + failure.query.name + ".png");
-    if (!pictures->comparison(drawing, titleOf(failure), closeUpsOf(failure))
-             .saveToFile(file.string()))
-    {
-      throw std::runtime_error(file.string() + ": cannot write");
-    }
+    savePicture(pictures->comparison(drawing, titleOf(failure), closeUpsOf(failure)), file);
   }
 }
 }  // namespace

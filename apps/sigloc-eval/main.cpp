@@ -1,15 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <array>
-#include <exception>
 #include <functional>
-#include <iostream>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "commands.h"
-#include "sigloc/bridge/LocalizationSetup.h"
+#include "run_app.h"
 
 namespace
 {
@@ -54,22 +52,13 @@ int main(int argc, char** argv)
     CLI::App* sub = app.add_subcommand(command.name, command.description);
     runs.emplace_back(sub, command.set_up(*sub, commandLine(argc, argv)));
   }
-  try
+  const auto work = [&]
   {
-    app.parse(argc, argv);
     for (const auto& [sub, run] : runs)
     {
       if (sub->parsed()) return run();
     }
-  }
-  catch (const CLI::Success& help)
-  {
-    return app.exit(help);
-  }
-  catch (const std::exception& error)
-  {
-    std::cerr << "sigloc-eval: " << sigloc::firstLine(error.what()) << "\n";
     return 1;
-  }
-  return 1;
+  };
+  return sigloc::runApp(app, argc, argv, work);
 }

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <iostream>
-#include <stdexcept>
 
 #include "commands.h"
 #include "sigloc/bridge/output_guard.h"
@@ -21,12 +20,9 @@ struct ReferenceFlags
 
   int run() const
   {
-    if (std::filesystem::is_directory(out))
-    {
-      throw std::invalid_argument(out.string() + ": is a folder");
-    }
     checkWritableFolder(out.has_parent_path() ? out.parent_path() : ".");
     refuseToReplaceInputs(out, inputFiles(map, {rawlog}));
+    checkReferenceFile(out);
     const ReferencePath reference = referencePath(map, rawlog, poseOfFlag(last));
     writeReferencePath(reference, out);
     std::cout << reference.poses.size() << " poses; the worst scan has "

@@ -6,8 +6,8 @@
 #include <mrpt/core/format.h>
 
 #include <filesystem>
-#include <stdexcept>
 
+#include "picture_file.h"
 #include "sigloc/bridge/counted.h"
 
 namespace sigloc
@@ -72,9 +72,6 @@ void StepPictures::draw(const LocalizationRun& run, const RunWriter& writer,
   const auto folder = writer.workFolder() / "pictures";
   std::filesystem::create_directories(folder);
   const auto file = folder / (stepName(step) + (moment.empty() ? "" : "_" + moment) + ".png");
-  if (!pictures_->stepPicture(drawing, titleOf(step)).saveToFile(file.string()))
-  {
-    throw std::runtime_error(file.string() + ": cannot write");
-  }
+  savePicture(pictures_->stepPicture(drawing, titleOf(step)), file);
 }
 }  // namespace sigloc

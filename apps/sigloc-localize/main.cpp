@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "console.h"
+#include "run_app.h"
 #include "sigloc/bridge/output_guard.h"
 #include "sigloc/bridge/pf_localization_files.h"
 #include "StepPictures.h"
@@ -18,7 +19,6 @@ namespace
 {
 namespace fs = std::filesystem;
 
-constexpr int kBadInput = 1;
 constexpr int kTruncatedInput = 2;
 
 constexpr const char* kDefaultsHeader =
@@ -140,8 +140,8 @@ int main(int argc, char** argv)
   Arguments arguments;
   bool print_defaults = false;
   app.footer(
-      "Exit codes: 0 done, 1 bad input (nothing written), 2 truncated log (results cover "
-      "what was read).");
+      "Exit codes: 0 done, 1 bad input or no room for the output (nothing written but the map's "
+      "cache), 2 truncated log (results cover what was read).");
   auto* const config =
       app.add_option("CONFIG.ini", arguments.config, "configuration, as pf-localization reads it");
   app.add_option("DATASET.rawlog", arguments.rawlog, "log to use instead of rawlog_file");
@@ -149,9 +149,8 @@ int main(int argc, char** argv)
   app.add_option("--seed", arguments.seed, "seed instead of the one in [sigloc.matcher]");
   app.add_flag("--quiet", arguments.quiet, "no progress");
   app.add_flag("--print-defaults", print_defaults, "print all [sigloc.*] sections and exit");
-  try
+  const auto work = [&]
   {
-    app.parse(argc, argv);
     if (print_defaults)
     {
       std::cout << kDefaultsHeader << sigloc::defaultOptionSections();
@@ -160,15 +159,6 @@ int main(int argc, char** argv)
     if (config->count() == 0) throw std::runtime_error("CONFIG.ini is missing; see --help");
     if (arguments.output && arguments.output->empty()) throw std::runtime_error("--out is empty");
     return runAll(arguments);
-  }
-  catch (const CLI::ParseError& error)
-  {
-    if (error.get_exit_code() == 0) return app.exit(error);
-    std::cerr << "sigloc-localize: " << error.what() << '\n';
-  }
-  catch (const std::exception& error)
-  {
-    std::cerr << "sigloc-localize: " << sigloc::firstLine(error.what()) << '\n';
-  }
-  return kBadInput;
+  };
+  return sigloc::runApp(app, argc, argv, work);
 }

@@ -8,7 +8,9 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "picture_file.h"
 #include "pictures.h"
+#include "run_app.h"
 #include "sigloc/bridge/counted.h"
 #include "sigloc/bridge/LocalizationSetup.h"
 #include "sigloc/bridge/map_sources.h"
@@ -121,10 +123,7 @@ void draw(const std::filesystem::path& path, const std::filesystem::path& output
   const std::string title = path.filename().string() + ": " +
                             sigloc::counted(map.features().size(), "feature") + ", " +
                             std::to_string(std::lround(map.area())) + " m2";
-  if (!pictures.mapPicture({title}).saveToFile(output.string()))
-  {
-    throw std::runtime_error(output.string() + ": cannot write");
-  }
+  sigloc::savePicture(pictures.mapPicture({title}), output);
 }
 }  // namespace
 
@@ -153,22 +152,12 @@ int main(int argc, char** argv)
   draw_command->add_option("file", input, ".sigmap to read")->required();
   draw_command->add_option("-o,--output", output, "PNG to write")->required();
 
-  try
+  const auto work = [&]
   {
-    app.parse(argc, argv);
     if (build_command->parsed()) build(input, output, config);
     if (info_command->parsed()) info(input, as_json);
     if (draw_command->parsed()) draw(input, output);
     return 0;
-  }
-  catch (const CLI::ParseError& error)
-  {
-    if (error.get_exit_code() == 0) return app.exit(error);
-    std::cerr << "sigloc-map: " << error.what() << '\n';
-  }
-  catch (const std::exception& error)
-  {
-    std::cerr << "sigloc-map: " << sigloc::firstLine(error.what()) << '\n';
-  }
-  return 1;
+  };
+  return sigloc::runApp(app, argc, argv, work);
 }

@@ -4,17 +4,15 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <exception>
 #include <filesystem>
 #include <functional>
-#include <iostream>
 #include <map>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "sigloc/eval/FolderInProgress.h"
+#include "run_app.h"
+#include "sigloc/eval/folder_output.h"
 #include "sigloc/eval/robot_simulation.h"
 #include "sigloc/eval/simulation_files.h"
 #include "sigloc/eval/world_generators.h"
@@ -192,30 +190,10 @@ void simulateLaser(const Settings& settings, const std::filesystem::path& out,
                       "* `truth.txt`: the true path, rows `time x y phi`\n",
                       out);
 }
-}  // namespace
-
-int main(int argc, char** argv)
+/// The command that makes the same files again.
+std::string commandOf(int argc, char** argv)
 {
-  Settings settings;
-  CLI::App app{
-      "Makes a world from a seed, maps of it, a log of a robot driving through, and truth."};
-  describeOptions(app, settings);
-  try
-  {
-    app.parse(argc, argv);
-  }
-  catch (const CLI::CallForHelp& help)
-  {
-    return app.exit(help);
-  }
-  catch (const CLI::ParseError& error)
-  {
-    std::cerr << "sigloc-simulate: " << error.what() << "\n";
-    return 1;
-  }
-  if (app.count("--drive-seed") == 0) settings.drive_seed = settings.seed;
-  std::ostringstream command;
-  command << "sigloc-simulate";
+  std::string command = "sigloc-simulate";
   for (int i = 1; i < argc; ++i)
   {
     // The folder is where the reader found the note: naming another would only mislead.
@@ -223,28 +201,40 @@ int main(int argc, char** argv)
     if (argument == "--out")
     {
       ++i;
-      command << " --out DIR";
+      command += " --out DIR";
     }
     else
     {
-      command << " " << (argument.rfind("--out=", 0) == 0 ? "--out DIR" : argument);
+      command += " " + (argument.rfind("--out=", 0) == 0 ? "--out DIR" : argument);
     }
   }
-  try
+  return command;
+}
+
+void simulate(const Settings& settings, const std::string& command)
+{
+  const sigloc::WorldKind kind = sigloc::worldKindFrom(settings.world);
+  settings.checkUse(kind);
+  sigloc::checkSimulationFolder(settings.out);
+  const sigloc::World world = sigloc::makeWorld(kind, settings.layout, settings.seed);
+  const auto write = isScanned(kind) ? simulateLaser : simulateLandmarks;
+  sigloc::fillFolder(settings.out, [&](const std::filesystem::path& part)
+                     { write(settings, part, world, command); });
+}
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  Settings settings;
+  CLI::App app(
+      "Makes a world from a seed, maps of it, a log of a robot driving through, and truth.",
+      "sigloc-simulate");
+  describeOptions(app, settings);
+  const auto work = [&]
   {
-    const sigloc::WorldKind kind = sigloc::worldKindFrom(settings.world);
-    settings.checkUse(kind);
-    sigloc::checkSimulationFolder(settings.out);
-    const sigloc::World world = sigloc::makeWorld(kind, settings.layout, settings.seed);
-    const auto simulate = kind == sigloc::WorldKind::points ? simulateLandmarks : simulateLaser;
-    const sigloc::FolderInProgress files(settings.out);
-    simulate(settings, files.part(), world, command.str());
-    files.keep();
-  }
-  catch (const std::exception& error)
-  {
-    std::cerr << "sigloc-simulate: " << error.what() << "\n";
-    return 1;
-  }
-  return 0;
+    if (app.count("--drive-seed") == 0) settings.drive_seed = settings.seed;
+    simulate(settings, commandOf(argc, argv));
+    return 0;
+  };
+  return sigloc::runApp(app, argc, argv, work);
 }

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "sigloc/bridge/map_sources.h"
+#include "sigloc/bridge/text_rows.h"
 
 namespace sigloc
 {
@@ -69,22 +70,13 @@ double readNumber(const CConfigFileMemory& ini, const char* key, double fallback
 {
   const std::string text = ini.read_string_first_word(kExperiment, key, "");
   if (text.empty()) return fallback;
-  std::size_t used = 0;
-  double value = 0;
-  try
-  {
-    value = std::stod(text, &used);
-  }
-  catch (const std::exception&)
-  {
-    used = 0;
-  }
-  if (used != text.size() || !std::isfinite(value))
+  const std::optional<double> value = detail::toNumber(text);
+  if (!value)
   {
     throw std::runtime_error(std::string("[") + kExperiment + "]: bad value '" + text + "' for '" +
                              key + "'");
   }
-  return value;
+  return *value;
 }
 
 std::uint32_t readCount(const CConfigFileMemory& ini, const char* key, std::uint32_t fallback)
@@ -153,10 +145,11 @@ std::vector<std::uint32_t> readParticleCounts(const CConfigFileMemory& ini)
   for (std::string word; words >> word;)
   {
     const auto count = detail::parseValue<std::uint32_t>(word);
-    if (!count || *count == 0)
+    if (!count || *count == 0 || *count > ParticleOptions::kMostParticles)
     {
       throw std::runtime_error(std::string("[") + kExperiment + "]: bad value '" + word +
-                               "' for 'particles_count'");
+                               "' for 'particles_count': from 1 to " +
+                               std::to_string(ParticleOptions::kMostParticles));
     }
     counts.push_back(*count);
   }

@@ -11,11 +11,11 @@
 #include <cmath>
 #include <iomanip>
 #include <ostream>
-#include <sstream>
 
 #include "feature_archive.h"
 #include "sigloc/bridge/scan_conversion.h"
 #include "sigloc/bridge/scene_building.h"
+#include "sigloc/config/TextStream.h"
 
 IMPLEMENTS_SERIALIZABLE(ObservationSignatures, mrpt::obs::CObservation, sigloc)
 
@@ -110,7 +110,7 @@ void ObservationSignatures::setSensorPose(const CPose3D& pose)
 void ObservationSignatures::getDescriptionAsText(std::ostream& out) const
 {
   CObservation::getDescriptionAsText(out);
-  std::ostringstream text;
+  TextStream text;
   text << std::fixed << std::setprecision(3);
   text << "Features of the scan '" << source_label << "': " << features.size()
        << " (robot frame)\n";
@@ -138,7 +138,7 @@ std::string ObservationSignatures::exportTxtHeader() const
 
 std::string ObservationSignatures::exportTxtDataRow() const
 {
-  std::ostringstream row;
+  TextStream row;
   row << std::fixed << std::setprecision(6) << features.size();
   for (const Feature& feature : features)
   {

@@ -17,14 +17,23 @@ namespace sigloc
 using mrpt::bayes::CParticleFilter;
 using mrpt::obs::CActionRobotMovement2D;
 
+namespace
+{
+/// The options, before anything is allocated by them.
+const ParticleOptions& checked(const ParticleOptions& options)
+{
+  checkOptions(options);
+  return options;
+}
+}  // namespace
+
 ParticleTracker::ParticleTracker(std::shared_ptr<const SignatureMap> map,
                                  std::shared_ptr<const SignatureMatcher> matcher,
                                  const TrackerOptions& tracking, const ParticleOptions& options,
                                  std::uint32_t seed)
-    : tracking_(tracking), options_(options), filter_(options.particles, tracking)
+    : tracking_(tracking), options_(checked(options)), filter_(options.particles, tracking)
 {
   if (!map || !matcher) throw std::invalid_argument("ParticleTracker: no map or matcher");
-  checkOptions(options);
   filter_.options.metricMap = std::move(map);
   filter_.useMatcher(std::move(matcher));
   executor_.m_options.PF_algorithm = CParticleFilter::pfStandardProposal;

@@ -3,21 +3,21 @@
 #include "sigloc/bridge/RunWriter.h"
 
 #include <mrpt/core/bits_math.h>
-#include <mrpt/io/CFileOutputStream.h>
+#include <mrpt/io/CMemoryStream.h>
 #include <mrpt/opengl/COpenGLScene.h>
 #include <mrpt/serialization/CArchive.h>
 
 #include <cmath>
-#include <cstdio>
-#include <fstream>
 #include <iomanip>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "run_folder.h"
+#include "sigloc/bridge/file_output.h"
 #include "sigloc/bridge/output_guard.h"
 #include "sigloc/bridge/pf_localization_files.h"
 #include "sigloc/bridge/pose_pdf.h"
+#include "sigloc/config/TextStream.h"
 
 namespace sigloc
 {
@@ -26,27 +26,9 @@ namespace
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-[[noreturn]] void failToWrite(const fs::path& path)
+std::string pathRows(const std::vector<StepRecord>& steps)
 {
-  throw std::runtime_error(path.string() + ": cannot write");
-}
-
-std::ofstream openText(const fs::path& path)
-{
-  std::ofstream file(path);
-  if (!file) failToWrite(path);
-  return file;
-}
-
-void closeText(std::ofstream& file, const fs::path& path)
-{
-  file.close();
-  if (!file) failToWrite(path);
-}
-
-void writePath(const std::vector<StepRecord>& steps, const fs::path& path)
-{
-  std::ofstream file = openText(path);
+  TextStream file;
   file << "# time x y z qx qy qz qw: first hypothesis of each step, map frame\n" << std::fixed;
   for (const StepRecord& step : steps)
   {
@@ -56,11 +38,11 @@ void writePath(const std::vector<StepRecord>& steps, const fs::path& path)
          << std::setprecision(9) << std::sin(0.5 * pose.phi) << ' ' << std::cos(0.5 * pose.phi)
          << '\n';
   }
-  closeText(file, path);
+  return file.str();
 }
 
 /// Writes `,a,b,c` of the first pose's fields, empty where there is none.
-void writePoseColumns(std::ofstream& file, const Belief& belief)
+void writePoseColumns(std::ostream& file, const Belief& belief)
 {
   if (belief.hypotheses.empty())
   {
@@ -73,9 +55,9 @@ void writePoseColumns(std::ofstream& file, const Belief& belief)
        << sd(0) << ',' << sd(1) << ',' << mrpt::RAD2DEG(sd(2));
 }
 
-void writeSteps(const std::vector<StepRecord>& steps, const fs::path& path)
+std::string stepRows(const std::vector<StepRecord>& steps)
 {
-  std::ofstream file = openText(path);
+  TextStream file;
   file << "step,time,travelled_m,verdict,probability,reliability,hypotheses,elsewhere,relocated,"
           "x,y,phi_deg,sd_x,sd_y,sd_phi_deg,error_m,error_deg,any_right,confidently_wrong,"
           "extraction_ms,tracking_ms,reason\n"
@@ -99,7 +81,30 @@ void writeSteps(const std::vector<StepRecord>& steps, const fs::path& path)
     file << ',' << step.extraction_ms << ',' << step.tracking_ms << ','
          << ordered_json(belief.reason).dump() << '\n';
   }
-  closeText(file, path);
+  return file.str();
+}
+
+/// Rows `weight x y phi C11 C22 C33 C12 C13 C23`, as MRPT writes them.
+std::string modeRows(const mrpt::poses::CPosePDFSOG& sum)
+{
+  TextStream rows;
+  rows << std::scientific;
+  for (const auto& mode : sum)
+  {
+    const auto& c = mode.cov;
+    rows << std::exp(mode.log_w) << ' ' << mode.mean.x() << ' ' << mode.mean.y() << ' '
+         << mode.mean.phi() << ' ' << c(0, 0) << ' ' << c(1, 1) << ' ' << c(2, 2) << ' ' << c(0, 1)
+         << ' ' << c(0, 2) << ' ' << c(1, 2) << '\n';
+  }
+  return rows.str();
+}
+
+/// An object as MRPT stores it in a file that is not compressed.
+std::string bytesOf(const mrpt::serialization::CSerializable& object)
+{
+  mrpt::io::CMemoryStream memory;
+  mrpt::serialization::archiveFrom(memory) << object;
+  return {static_cast<const char*>(memory.getRawBufferData()), memory.getTotalBytesCount()};
 }
 
 template <class T>
@@ -196,12 +201,8 @@ void RunWriter::writeBelief(const StepRecord& step) const
 {
   const mrpt::poses::CPosePDFSOG sum = toSumOfGaussians(step.belief);
   const fs::path stem = work_ / "belief" / stepName(step);
-  const fs::path object_path = stem.string() + ".CPosePDFSOG";
-  const fs::path text_path = stem.string() + ".txt";
-  mrpt::io::CFileOutputStream file;
-  if (!file.open(object_path.string())) failToWrite(object_path);
-  mrpt::serialization::archiveFrom(file) << sum;
-  if (!sum.saveToTextFile(text_path.string())) failToWrite(text_path);
+  writeFile(stem.string() + ".CPosePDFSOG", bytesOf(sum));
+  writeFile(stem.string() + ".txt", modeRows(sum));
 }
 
 void RunWriter::writeScene(const FeatureMap& map, const StepRecord& step,
@@ -210,19 +211,17 @@ void RunWriter::writeScene(const FeatureMap& map, const StepRecord& step,
   mrpt::opengl::COpenGLScene scene;
   scene.insert(drawMap(map));
   scene.insert(drawStep(drawing));
-  const fs::path path = work_ / "3D" / (stepName(step) + ".3Dscene");
-  if (!scene.saveToFile(path.string())) failToWrite(path);
+  writeObjects(work_ / "3D" / (stepName(step) + ".3Dscene"),
+               [&](mrpt::serialization::CArchive& archive) { archive << scene; });
 }
 
 void RunWriter::finish(const LocalizationRun& run)
 {
-  writePath(run.steps(), work_ / "path.tum");
-  writeSteps(run.steps(), work_ / "steps.csv");
+  writeFile(work_ / "path.tum", pathRows(run.steps()));
+  writeFile(work_ / "steps.csv", stepRows(run.steps()));
   writeAnnotatedRawlog(run.setup().rawlog_file, run.steps(), work_ / "annotated.rawlog");
   writePfLocalizationFiles(run, work_);
-  std::ofstream file = openText(work_ / detail::kRunSummaryFile);
-  file << toJson(run.summary()) << '\n';
-  closeText(file, work_ / detail::kRunSummaryFile);
+  writeFile(work_ / detail::kRunSummaryFile, toJson(run.summary()) + "\n");
   replaceFolder();
   finished_ = true;
 }

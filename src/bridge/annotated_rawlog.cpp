@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <mrpt/io/CFileGZOutputStream.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/serialization/CArchive.h>
 
-#include <stdexcept>
+#include <exception>
 
 #include "gzip_input.h"
+#include "sigloc/bridge/file_output.h"
 #include "sigloc/bridge/pose_pdf.h"
 #include "sigloc/bridge/RunWriter.h"
 
@@ -14,6 +14,7 @@ namespace sigloc
 {
 namespace
 {
+using mrpt::serialization::CArchive;
 using mrpt::serialization::CSerializable;
 
 /// Returns the log's next object, or null at its end or where it cannot be read any further.
@@ -29,15 +30,9 @@ CSerializable::Ptr nextObject(detail::GzipInput& input)
     return nullptr;
   }
 }
-}  // namespace
 
-void writeAnnotatedRawlog(const std::filesystem::path& rawlog, const std::vector<StepRecord>& steps,
-                          const std::filesystem::path& output)
+void annotate(detail::GzipInput& input, const std::vector<StepRecord>& steps, CArchive& archive)
 {
-  detail::GzipInput input(rawlog);
-  mrpt::io::CFileGZOutputStream file;
-  if (!file.open(output.string())) throw std::runtime_error(output.string() + ": cannot write");
-  auto archive = mrpt::serialization::archiveFrom(file);
   auto step = steps.begin();
   std::size_t entry = 0;
   while (const auto object = nextObject(input))
@@ -57,5 +52,13 @@ void writeAnnotatedRawlog(const std::filesystem::path& rawlog, const std::vector
     if (!frame && pose) archive << *pose;
     ++entry;
   }
+}
+}  // namespace
+
+void writeAnnotatedRawlog(const std::filesystem::path& rawlog, const std::vector<StepRecord>& steps,
+                          const std::filesystem::path& output)
+{
+  detail::GzipInput input(rawlog);
+  writeObjects(output, [&](CArchive& archive) { annotate(input, steps, archive); });
 }
 }  // namespace sigloc

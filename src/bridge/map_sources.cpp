@@ -10,7 +10,6 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -20,6 +19,7 @@
 #include "map_source_readers.h"
 #include "sigloc/bridge/scan_conversion.h"
 #include "sigloc/bridge/sigmap_file.h"
+#include "sigloc/config/TextStream.h"
 
 namespace sigloc
 {
@@ -103,7 +103,7 @@ void appendOptions(const Options& options, std::ostream& out)
 
 std::string digestOf(const MapBuildingOptions& building, const FeatureExtractorOptions& extraction)
 {
-  std::ostringstream text;
+  TextStream text;
   text.precision(17);
   text << "build " << kBuildVersion << '\n';
   appendOptions(building, text);

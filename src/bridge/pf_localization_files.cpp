@@ -11,7 +11,9 @@
 #include <limits>
 #include <stdexcept>
 
+#include "sigloc/bridge/file_output.h"
 #include "sigloc/bridge/pose_pdf.h"
+#include "sigloc/config/TextStream.h"
 
 namespace sigloc
 {
@@ -48,7 +50,9 @@ double secondsOf(const StepRecord& step)
 
 std::string odometryRow(const StepRecord& step)
 {
-  return mrpt::format("%f %f %f", step.odometry.x, step.odometry.y, step.odometry.phi);
+  TextStream row;
+  row << std::fixed << step.odometry.x << ' ' << step.odometry.y << ' ' << step.odometry.phi;
+  return row.str();
 }
 
 std::string statisticsRow(const StepRecord& step)
@@ -65,13 +69,17 @@ std::string statisticsRow(const StepRecord& step)
   const double mean_square = sum > 0 ? squares / (sum * sum) : 0;  // of weights that sum to one
   const double effective = sum > 0 ? 1 / mean_square : 0;
   const double variance = sum > 0 ? (mean_square - 1 / count) / count : 0;
-  return mrpt::format("%zu %e %e %f %f", hypotheses.size(), effective, std::max(0.0, variance),
-                      step.belief.reliability, volumeOf(step.belief));
+  TextStream row;
+  row << hypotheses.size() << std::scientific << ' ' << effective << ' ' << std::max(0.0, variance)
+      << std::fixed << ' ' << step.belief.reliability << ' ' << volumeOf(step.belief);
+  return row.str();
 }
 
 std::string numberRow(double value)
 {
-  return mrpt::format("%e", value);
+  TextStream row;
+  row << std::scientific << value;
+  return row.str();
 }
 
 struct StepFile
@@ -90,6 +98,19 @@ constexpr StepFile kStepFiles[] = {
     {"PF_stats.txt", statisticsRow},
 };
 
+/// Rows `x y yaw log_weight` under MRPT's line of heads.
+std::string particleRows(const mrpt::poses::CPosePDFParticles& samples)
+{
+  TextStream rows;
+  rows << "% x  y  yaw[rad] log_weight\n";
+  for (const auto& sample : samples.m_particles)
+  {
+    rows << std::fixed << sample.d.x << ' ' << sample.d.y << ' ' << sample.d.phi << ' '
+         << std::scientific << sample.log_w << '\n';
+  }
+  return rows.str();
+}
+
 void writeParticles(const LocalizationRun& run, const std::filesystem::path& folder)
 {
   constexpr std::size_t kSamples = 500;
@@ -101,10 +122,7 @@ void writeParticles(const LocalizationRun& run, const std::filesystem::path& fol
     if ((step.number - 1) % every != 0 || step.belief.hypotheses.empty()) continue;
     const auto path = folder / mrpt::format("particles_%05zu.txt", step.number);
     const auto samples = toParticles(step.belief, kSamples, run.setup().matcher.seed + step.number);
-    if (!samples.saveToTextFile(path.string()))
-    {
-      throw std::runtime_error(path.string() + ": cannot write");
-    }
+    writeFile(path, particleRows(samples));
   }
 }
 }  // namespace
@@ -113,10 +131,9 @@ void writePfLocalizationFiles(const LocalizationRun& run, const std::filesystem:
 {
   for (const StepFile& kind : kStepFiles)
   {
-    std::ofstream file(folder / kind.name);
-    for (const StepRecord& step : run.steps()) file << kind.row(step) << '\n';
-    file.close();
-    if (!file) throw std::runtime_error((folder / kind.name).string() + ": cannot write");
+    std::string rows;
+    for (const StepRecord& step : run.steps()) rows += kind.row(step) + "\n";
+    writeFile(folder / kind.name, rows);
   }
   writeParticles(run, folder / "particles");
 }
@@ -173,12 +190,15 @@ std::string experimentSummary(const std::vector<ExperimentOutcome>& repetitions,
     return errors[static_cast<std::size_t>(std::lround(share * last))];
   };
   const double low = std::min(confidence_share, 1 - confidence_share);
-  return "% Ratio_covergence_success  #particles  average_time_per_execution  "
-         "convergence_mean_error convergence_error_conf_int_inf convergence_error_conf_int_sup\n" +
-         mrpt::format("%f %zu %f %f %f %f\n", tested > 0 ? converged / tested : kUnknown,
-                      repetitions.empty() ? 0 : repetitions.front().particles,
-                      seconds / static_cast<double>(std::max<std::size_t>(1, repetitions.size())),
-                      errors.empty() ? kUnknown : mean, quantile(low), quantile(1 - low));
+  TextStream text;
+  text << "% Ratio_covergence_success  #particles  average_time_per_execution  "
+          "convergence_mean_error convergence_error_conf_int_inf convergence_error_conf_int_sup\n"
+       << std::fixed << (tested > 0 ? converged / tested : kUnknown) << ' '
+       << (repetitions.empty() ? 0 : repetitions.front().particles) << ' '
+       << seconds / static_cast<double>(std::max<std::size_t>(1, repetitions.size())) << ' '
+       << (errors.empty() ? kUnknown : mean) << ' ' << quantile(low) << ' ' << quantile(1 - low)
+       << '\n';
+  return text.str();
 }
 
 std::filesystem::path experimentSummaryFile(const std::filesystem::path& folder)
@@ -197,15 +217,16 @@ std::filesystem::path experimentSummaryFile(const std::filesystem::path& folder)
 
 void writeExperimentSummary(const std::filesystem::path& folder, const std::string& text)
 {
-  std::filesystem::path path = experimentSummaryFile(folder);
-  std::ofstream file(path);
-  if (!file && std::filesystem::is_directory(folder))
+  const std::filesystem::path path = experimentSummaryFile(folder);
+  try
   {
-    path = folder / kSummaryEnding;
-    file.open(path);
+    writeFile(path, text);
   }
-  file << text;
-  file.close();
-  if (!file) throw std::runtime_error(path.string() + ": cannot write");
+  catch (const std::runtime_error&)
+  {
+    // Nothing may be made beside the folder, or its name is too long for it.
+    if (!std::filesystem::is_directory(folder)) throw;
+    writeFile(folder / kSummaryEnding, text);
+  }
 }
 }  // namespace sigloc

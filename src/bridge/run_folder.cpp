@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "sigloc/bridge/file_output.h"
 #include "sigloc/bridge/pf_localization_files.h"
 
 namespace sigloc::detail
@@ -31,7 +32,7 @@ bool isRunFile(const std::string& name)
     names.insert(pfLocalizationFiles().begin(), pfLocalizationFiles().end());
     return names;
   }();
-  return kNames.count(name) > 0;
+  return kNames.count(withoutTemporaryEnding(name)) > 0;
 }
 
 /// The first entry of a folder's entry that no run writes, or nullopt.
@@ -49,7 +50,8 @@ std::optional<fs::path> foreignPartOf(const fs::directory_entry& entry)
   }
   for (const fs::directory_entry& file : fs::directory_iterator(entry.path()))
   {
-    if (part->second.count(file.path().extension().string()) == 0) return file.path();
+    const fs::path name = withoutTemporaryEnding(file.path().filename().string());
+    if (part->second.count(name.extension().string()) == 0) return file.path();
   }
   return std::nullopt;
 }

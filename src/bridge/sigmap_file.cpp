@@ -10,8 +10,8 @@
 
 #include "feature_archive.h"
 #include "gzip_input.h"
-#include "gzip_output.h"
 #include "map_reach.h"
+#include "sigloc/bridge/file_output.h"
 
 namespace sigloc
 {
@@ -154,11 +154,15 @@ FeatureMap readSigmap(const std::filesystem::path& path)
 
 void saveSigmap(const FeatureMap& map, const std::filesystem::path& path)
 {
-  detail::GzipOutput output(path);
-  auto archive = mrpt::serialization::archiveFrom(output);
-  archive.WriteBuffer(kMagic, kMagicSize);
-  writeFeatureMap(map, archive);
-  output.commit();
+  // The lowest level of compression: maps are rebuilt often and read more often.
+  writeObjects(
+      path,
+      [&](CArchive& archive)
+      {
+        archive.WriteBuffer(kMagic, kMagicSize);
+        writeFeatureMap(map, archive);
+      },
+      kQuickCompression);
 }
 
 FeatureMap loadSigmap(const std::filesystem::path& path)

@@ -12,10 +12,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
 
 #include "occupancy_grid.h"
+#include "sigloc/config/TextStream.h"
 #include "sigloc/eval/method_names.h"
 
 namespace sigloc
@@ -120,7 +120,7 @@ double freeAreaOf(const EvaluationMap& map)
 
 std::string toIni(const MonteCarloSettings& settings)
 {
-  std::ostringstream ini;
+  TextStream ini;
   ini << "[KLD_options]\nKLD_binSize_PHI_deg=10\nKLD_binSize_XY=" << settings.kld_bin
       << "\nKLD_delta=0.01\nKLD_epsilon=0.01\nKLD_maxSampleSize=" << settings.kld_maximum
       << "\nKLD_minSampleSize=" << settings.kld_minimum << "\nKLD_minSamplesPerBin=0\n";

@@ -12,4 +12,8 @@ namespace sigloc::detail
 /// Returns its status, 0 for success, or nullopt when there is no such program.
 std::optional<int> runProgram(const std::string& program, const std::string& argument,
                               const std::filesystem::path& log);
+
+/// Runs a program as runProgram() does. Returns what it printed, or nullopt when there is no such
+/// program or it fails; what it says of errors is dropped.
+std::optional<std::string> outputOf(const std::string& program, const std::string& argument);
 }  // namespace sigloc::detail

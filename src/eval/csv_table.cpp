@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdio>
 #include <fstream>
 #include <limits>
 #include <stdexcept>
@@ -13,28 +14,50 @@ namespace sigloc::detail
 {
 namespace
 {
-std::vector<std::string> cellsOf(const std::string& line)
+/// The cells of the next row; a quoted one may run over lines.
+std::vector<std::string> readRow(std::istream& file)
 {
   std::vector<std::string> cells(1);
-  for (const char c : line)
+  bool quoted = false;
+  for (int c = file.get(); c != EOF && (quoted || c != '\n'); c = file.get())
   {
-    if (c == ',') cells.emplace_back();
-    if (c != ',' && c != '\r') cells.back() += c;
+    if (c == '"' && quoted && file.peek() == '"')
+    {
+      cells.back() += static_cast<char>(file.get());  // two within quotes stand for one
+    }
+    else if (c == '"')
+    {
+      quoted = !quoted;
+    }
+    else if (c == ',' && !quoted)
+    {
+      cells.emplace_back();
+    }
+    else if (c != '\r' || quoted)
+    {
+      cells.back() += static_cast<char>(c);
+    }
   }
   return cells;
 }
 }  // namespace
 
+std::string csvCell(const std::string& text)
+{
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string cell = "\"";
+  for (const char c : text) cell += c == '"' ? std::string(2, c) : std::string(1, c);
+  return cell + "\"";
+}
+
 CsvTable::CsvTable(std::filesystem::path path) : path_(std::move(path))
 {
   std::ifstream file(path_, std::ios::binary);
   if (!file) throw std::runtime_error(path_.string() + ": cannot be opened");
-  std::string line;
-  std::getline(file, line);
-  columns_ = cellsOf(line);
-  while (std::getline(file, line))
+  columns_ = readRow(file);
+  while (file.peek() != EOF)
   {
-    rows_.push_back(cellsOf(line));
+    rows_.push_back(readRow(file));
     if (rows_.back().size() == columns_.size()) continue;
     fail(rows_.size() - 1, std::to_string(rows_.back().size()) + " cells instead of " +
                                std::to_string(columns_.size()));

@@ -9,7 +9,10 @@
 
 namespace sigloc::detail
 {
-/// A results.csv: cells by row and name of the column. Our own files hold no quotes.
+/// A cell of a CSV file, in quotes where it needs them.
+std::string csvCell(const std::string& text);
+
+/// A results.csv: cells by row and name of the column.
 class CsvTable
 {
  public:

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <sstream>
 
 #include "look_plots.h"
 #include "sigloc/bridge/counted.h"
+#include "sigloc/config/TextStream.h"
 #include "sigloc/eval/cpu_time.h"
 #include "sigloc/eval/landmarks.h"
 #include "sigloc/eval/relocation_rows.h"
@@ -90,7 +90,7 @@ std::string landmarksTable(const LandmarksReport& report)
 void writeLandmarksReport(const LandmarksReport& report, const std::filesystem::path& folder)
 {
   RunReport files;
-  std::ostringstream csv;
+  TextStream csv;
   csv << "method,local_map_steps,step,features,travelled_m,answered,firm,right,truth_sure,error_m,"
          "error_deg,"
          "operations,time_ms\n";

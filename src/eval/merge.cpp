@@ -168,7 +168,8 @@ RunReport mergeRelocations(const std::vector<Run>& runs)
       by_run.back().insert(by_run.back().begin(), run.folder.string());
       for (const RelocationRecord& record : records[method])
       {
-        report.results += run.folder.string() + "," + relocationCsvRow(method, record) + "\n";
+        report.results +=
+            detail::csvCell(run.folder.string()) + "," + relocationCsvRow(method, record) + "\n";
         pooled[method].push_back(record);
       }
     }
@@ -296,7 +297,7 @@ RunReport mergeDrives(const std::vector<Run>& runs)
   {
     for (const auto& [name, method] : run.summary.at("methods").items())
     {
-      report.results += run.folder.string() + "," + name + "," +
+      report.results += detail::csvCell(run.folder.string()) + "," + name + "," +
                         std::to_string(method.value("confidently_wrong", 0)) + "," +
                         std::to_string(method.value("queries", 0)) + "\n";
     }

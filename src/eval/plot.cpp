@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <iomanip>
-#include <sstream>
 #include <system_error>
 
 #include "child_process.h"
+#include "sigloc/bridge/file_output.h"
+#include "sigloc/config/TextStream.h"
 
 namespace sigloc
 {
@@ -48,9 +48,9 @@ const char* styleOf(const PlotSeries& series)
   return series.markers ? "1:2 with linespoints" : "1:2 with lines";
 }
 
-std::string scriptOf(const Plot& plot, const std::filesystem::path& png)
+std::string scriptOf(const Plot& plot)
 {
-  std::ostringstream script;
+  TextStream script;
   script << std::setprecision(9);
   for (std::size_t i = 0; i < plot.series.size(); ++i)
   {
@@ -59,7 +59,6 @@ std::string scriptOf(const Plot& plot, const std::filesystem::path& png)
     script << "END_OF_DATA\n";
   }
   script << "set terminal pngcairo size 900,600 noenhanced\n"
-         << "set output " << quoted(png.string()) << "\n"
          << "set title " << quoted(plot.title) << "\n"
          << "set xlabel " << quoted(plot.x_label) << "\n"
          << "set ylabel " << quoted(plot.y_label) << "\n"
@@ -94,15 +93,17 @@ PlotSeries cumulativeShare(const std::string& title, std::vector<double> values,
 
 bool drawPlot(const Plot& plot, const std::filesystem::path& png)
 {
-  const std::string text = scriptOf(plot, png);
+  const std::string text = scriptOf(plot);
   if (text.empty()) return false;
   // From a file: a pipe to a gnuplot that ends early, or is missing, would end this program too.
   std::filesystem::path script = png;
   script += ".gnuplot";
-  std::ofstream(script) << text;
-  const bool drawn = detail::runProgram("gnuplot", script.string(), "/dev/null") == 0;
+  writeFile(script, text);
+  // Not into the file: gnuplot does not tell of a disk that takes a part of it only.
+  const auto picture = detail::outputOf("gnuplot", script.string());
   std::error_code ignored;
   std::filesystem::remove(script, ignored);
-  return drawn;
+  if (picture) writeFile(png, *picture);
+  return picture.has_value();
 }
 }  // namespace sigloc

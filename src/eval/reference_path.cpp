@@ -7,12 +7,13 @@
 #include <mrpt/slam/CICP.h>
 
 #include <algorithm>
+#include <fstream>
 #include <stdexcept>
 
+#include "sigloc/bridge/file_output.h"
 #include "sigloc/bridge/map_sources.h"
 #include "sigloc/bridge/RawlogReader.h"
 #include "sigloc/eval/report_files.h"
-#include "sigloc/eval/simulation_files.h"
 
 namespace sigloc
 {
@@ -20,6 +21,8 @@ using mrpt::math::TPose2D;
 
 namespace
 {
+constexpr const char* kHead = "# sigloc-eval reference: time x y phi";
+
 void addPoints(const LaserScan& scan, const TPose2D& frame, mrpt::maps::CSimplePointsMap& points)
 {
   const TPose2D frame_from_sensor = frame + scan.robot_from_sensor;
@@ -112,15 +115,29 @@ ReferencePath referencePath(const std::filesystem::path& map, const std::filesys
   return reference;
 }
 
+void checkReferenceFile(const std::filesystem::path& path)
+{
+  std::error_code unnameable;
+  if (!std::filesystem::exists(path, unnameable)) return;
+  if (std::filesystem::is_directory(path))
+    throw std::runtime_error(path.string() + ": is a folder");
+  std::string head;
+  std::ifstream file(path);
+  std::getline(file, head);
+  if (head == kHead) return;
+  throw std::runtime_error(path.string() +
+                           ": exists, and is no reference of an earlier run; not overwritten");
+}
+
 void writeReferencePath(const ReferencePath& reference, const std::filesystem::path& path)
 {
-  std::string text;
+  std::string text = std::string(kHead) + "\n";
   for (const ReferencePose& pose : reference.poses)
   {
     text += fixedNumber(pose.time, 6) + " " + fixedNumber(pose.map_from_robot.x, 4) + " " +
             fixedNumber(pose.map_from_robot.y, 4) + " " + fixedNumber(pose.map_from_robot.phi, 5) +
             "\n";
   }
-  writeText(text, path);
+  writeFile(path, text);
 }
 }  // namespace sigloc

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <sstream>
 
+#include "sigloc/config/TextStream.h"
 #include "sigloc/eval/plot.h"
 #include "sigloc/eval/reliability.h"
 #include "sigloc/eval/report_files.h"
@@ -135,7 +135,7 @@ std::string reliabilityTable(const ReliabilityReport& report)
 void writeReliabilityReport(const ReliabilityReport& report, const std::filesystem::path& folder)
 {
   RunReport run;
-  std::ostringstream csv;
+  TextStream csv;
   csv << "world,clutter,right,error_m,error_deg,signature,mrpt\n";
   for (const ReliabilityCase& judged : report.cases)
   {

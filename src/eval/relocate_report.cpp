@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
-#include <sstream>
 
 #include "look_plots.h"
+#include "sigloc/config/TextStream.h"
 #include "sigloc/eval/relocate.h"
 #include "sigloc/eval/relocation_rows.h"
 #include "sigloc/eval/report_files.h"
@@ -39,7 +39,7 @@ std::string resultsCsv(const RelocateReport& report)
 /// What the table does not say.
 std::string remarks(const RelocateReport& report)
 {
-  std::ostringstream out;
+  TextStream out;
   if (!report.complete)
     out << "**The rawlog is truncated: these are the steps that were read.**\n\n";
   if (report.foreign)

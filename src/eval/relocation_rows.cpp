@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sigloc/eval/relocation_rows.h"
 
-#include <sstream>
-
+#include "sigloc/config/TextStream.h"
 #include "sigloc/eval/report_files.h"
 
 namespace sigloc
@@ -72,7 +71,7 @@ std::string relocationCsvHead()
 
 std::string relocationCsvRow(const std::string& method, const RelocationRecord& r)
 {
-  std::ostringstream csv;
+  TextStream csv;
   csv << method << "," << r.query << "," << poseCells(r.truth) << "," << r.valid_beams << ","
       << toString(r.verdict) << "," << fixedNumber(r.probability, 6) << "," << poseCells(r.first)
       << "," << fixedNumber(r.first_score, 5) << "," << fixedNumber(r.error.distance, 4) << ","

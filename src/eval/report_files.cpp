@@ -9,11 +9,12 @@
 #include <fstream>
 #include <iomanip>
 #include <set>
-#include <sstream>
 #include <stdexcept>
 
+#include "sigloc/bridge/file_output.h"
 #include "sigloc/bridge/output_guard.h"
-#include "sigloc/eval/FolderInProgress.h"
+#include "sigloc/config/TextStream.h"
+#include "sigloc/eval/folder_output.h"
 
 namespace sigloc
 {
@@ -24,7 +25,7 @@ constexpr const char* kReportTool = "sigloc-eval";
 /// The provenance as a Markdown list.
 std::string provenanceSection(const nlohmann::ordered_json& provenance)
 {
-  std::ostringstream out;
+  TextStream out;
   for (const auto& [key, value] : provenance.items())
   {
     if (key == "data") continue;
@@ -39,29 +40,21 @@ std::string provenanceSection(const nlohmann::ordered_json& provenance)
   return out.str();
 }
 
-void writeTextFile(const std::filesystem::path& path, const std::string& text)
-{
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw std::runtime_error(path.string() + ": cannot be written");
-}
-
 /// Writes all files of a report into a folder that exists.
 void writeFiles(const RunReport& report, const std::filesystem::path& folder)
 {
   nlohmann::ordered_json summary = report.summary;
   summary["provenance"] = toJson(report.provenance);
-  writeTextFile(folder / "results.csv", report.results);
-  for (const auto& [file, content] : report.tables) writeTextFile(folder / file, content);
-  writeTextFile(folder / "summary.json", summary.dump(2) + "\n");
+  writeFile(folder / "results.csv", report.results);
+  for (const auto& [file, content] : report.tables) writeFile(folder / file, content);
+  writeFile(folder / "summary.json", summary.dump(2) + "\n");
   std::string text = report.text;
   for (const auto& [file, plot] : report.plots)
   {
     if (drawPlot(plot, folder / file)) text += "\n![" + plot.title + "](" + file + ")\n";
   }
   text += report.notes + "\n## Provenance\n\n" + provenanceSection(summary["provenance"]);
-  writeTextFile(folder / "report.md", text);
+  writeFile(folder / "report.md", text);
 }
 
 bool isReportFile(const std::string& name)
@@ -112,7 +105,7 @@ void checkReportFolder(const std::filesystem::path& folder,
 std::string fixedNumber(double value, int decimals)
 {
   if (std::isnan(value)) return "";
-  std::ostringstream text;
+  TextStream text;
   text << std::fixed << std::setprecision(decimals) << value;
   return text.str();
 }
@@ -150,7 +143,7 @@ std::string markdownTable(const std::vector<std::vector<std::string>>& rows)
     widths.resize(std::max(widths.size(), row.size()), 3);
     for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
   }
-  std::ostringstream out;
+  TextStream out;
   for (std::size_t r = 0; r < rows.size(); ++r)
   {
     out << "|";
@@ -170,8 +163,6 @@ std::string markdownTable(const std::vector<std::vector<std::string>>& rows)
 
 void writeRunReport(const RunReport& report, const std::filesystem::path& folder)
 {
-  const FolderInProgress files(folder);
-  writeFiles(report, files.part());
-  files.keep();
+  fillFolder(folder, [&](const std::filesystem::path& part) { writeFiles(report, part); });
 }
 }  // namespace sigloc

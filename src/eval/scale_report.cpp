@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
+#include "sigloc/config/TextStream.h"
 #include "sigloc/eval/cpu_time.h"
 #include "sigloc/eval/relocation_rows.h"
 #include "sigloc/eval/report_files.h"
@@ -208,7 +208,7 @@ void writeScaleReport(const ScaleReport& report, const std::filesystem::path& fo
 {
   RunReport files;
   nlohmann::ordered_json& json = files.summary;
-  std::ostringstream csv;
+  TextStream csv;
   csv << "method,map_features,wanted,observed,success,cases,signature_pairs,hypotheses,checks,cut_"
          "short,"
          "time_ms_median,time_ms_p95,time_ms_mean\n";

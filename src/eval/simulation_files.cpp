@@ -3,7 +3,6 @@
 #include "sigloc/eval/simulation_files.h"
 
 #include <mrpt/core/Clock.h>
-#include <mrpt/io/CFileGZOutputStream.h>
 #include <mrpt/maps/COccupancyGridMap2D.h>
 #include <mrpt/maps/CSimpleMap.h>
 #include <mrpt/obs/CActionCollection.h>
@@ -15,60 +14,25 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <set>
 #include <stdexcept>
 #include <string>
 
+#include "sigloc/bridge/file_output.h"
 #include "sigloc/bridge/output_guard.h"
 #include "sigloc/eval/motion_model.h"
+#include "sigloc/eval/report_files.h"
 
 namespace sigloc
 {
 namespace
 {
 namespace fs = std::filesystem;
-constexpr int kCompression = 9;
+using mrpt::serialization::CArchive;
 constexpr const char* kNote = "README.md";
 constexpr const char* kNoteHead = "# A simulated world\n\nMade by\n\n    ";
-
-/// Calls `write(temporary path)` and renames the result; removes it when anything fails.
-template <class Write>
-void writeAtomically(const fs::path& path, Write&& write)
-{
-  fs::path part = path;
-  part += ".part";
-  try
-  {
-    write(part);
-    fs::rename(part, path);
-  }
-  catch (const std::exception& error)
-  {
-    std::error_code ignored;
-    fs::remove(part, ignored);
-    throw std::runtime_error(path.string() + ": " + error.what());
-  }
-}
-
-/// Calls `write(archive)` for a gz-compressed archive. The header of MRPT's gz files holds no time.
-template <class Write>
-void writeArchive(const fs::path& path, Write&& write)
-{
-  writeAtomically(path,
-                  [&](const fs::path& part)
-                  {
-                    mrpt::io::CFileGZOutputStream file;
-                    if (!file.open(part.string(), kCompression))
-                    {
-                      throw std::runtime_error("cannot be written");
-                    }
-                    auto archive = mrpt::serialization::archiveFrom(file);
-                    write(archive);
-                  });
-}
 
 mrpt::obs::CObservationBearingRange::Ptr toBearingRange(const std::vector<Feature>& landmarks,
                                                         double time)
@@ -174,7 +138,8 @@ void writeSimpleMap(const std::vector<PosedScans>& scans, const fs::path& path)
     map.insert(pose, frame);
     time += 1.0;
   }
-  writeArchive(path, [&](mrpt::serialization::CArchive& archive) { archive << map; });
+  writeObjects(
+      path, [&](CArchive& archive) { archive << map; }, kBestCompression);
 }
 
 void writeGridMap(const World& world, double resolution, const fs::path& path)
@@ -210,13 +175,14 @@ void writeGridMap(const World& world, double resolution, const fs::path& path)
     }
   }
   drawSurfaces(world, grid);
-  writeArchive(path, [&](mrpt::serialization::CArchive& archive) { archive << grid; });
+  writeObjects(
+      path, [&](CArchive& archive) { archive << grid; }, kBestCompression);
 }
 
 void writeRawlog(const std::vector<DriveStep>& steps, const OdometryOptions& odometry,
                  RawlogKind kind, const fs::path& path)
 {
-  const auto write = [&](mrpt::serialization::CArchive& archive)
+  const auto write = [&](CArchive& archive)
   {
     for (const DriveStep& step : steps)
     {
@@ -238,7 +204,7 @@ void writeRawlog(const std::vector<DriveStep>& steps, const OdometryOptions& odo
       for (const auto& observation : frameOf(step)) archive << *observation;
     }
   };
-  writeArchive(path, write);
+  writeObjects(path, write, kBestCompression);
 }
 
 void checkSimulationFolder(const fs::path& folder)
@@ -258,48 +224,34 @@ void checkSimulationFolder(const fs::path& folder)
 void writeSimulationNote(const std::string& command, const std::string& files,
                          const fs::path& folder)
 {
-  writeText(kNoteHead + command +
+  writeFile(folder / kNote,
+            kNoteHead + command +
                 "\n\nwhich gives the same bytes each time. Lengths are in metres, angles in "
                 "radians.\n\n" +
-                files,
-            folder / kNote);
-}
-
-void writeText(const std::string& text, const fs::path& path)
-{
-  writeAtomically(path,
-                  [&](const fs::path& part)
-                  {
-                    std::ofstream file(part, std::ios::binary);
-                    file << text << std::flush;
-                    if (!file) throw std::runtime_error("cannot be written");
-                  });
+                files);
 }
 
 void writeTruth(const std::vector<DriveStep>& steps, const fs::path& path)
 {
   std::string text;
-  char row[128];
   for (const DriveStep& step : steps)
   {
     const auto& pose = step.world_from_robot;
-    std::snprintf(row, sizeof row, "%.3f %.6f %.6f %.6f\n", step.time, pose.x, pose.y, pose.phi);
-    text += row;
+    text += fixedNumber(step.time, 3) + " " + fixedNumber(pose.x, 6) + " " +
+            fixedNumber(pose.y, 6) + " " + fixedNumber(pose.phi, 6) + "\n";
   }
-  writeText(text, path);
+  writeFile(path, text);
 }
 
 void writeLandmarks(const std::vector<Feature>& landmarks, const fs::path& path)
 {
   std::string text;
-  char row[128];
   for (const Feature& landmark : landmarks)
   {
-    std::snprintf(row, sizeof row, "%.4f %.4f %.3f %.4f\n", landmark.position.x,
-                  landmark.position.y, landmark.size,
-                  std::sqrt(landmark.position_covariance(0, 0)));
-    text += row;
+    text += fixedNumber(landmark.position.x, 4) + " " + fixedNumber(landmark.position.y, 4) + " " +
+            fixedNumber(landmark.size, 3) + " " +
+            fixedNumber(std::sqrt(landmark.position_covariance(0, 0)), 4) + "\n";
   }
-  writeText(text, path);
+  writeFile(path, text);
 }
 }  // namespace sigloc

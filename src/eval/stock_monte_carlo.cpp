@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <mrpt/io/CFileGZOutputStream.h>
 #include <mrpt/maps/COccupancyGridMap2D.h>
 #include <mrpt/poses/CPosePDFParticles.h>
 #include <mrpt/serialization/CArchive.h>
@@ -9,10 +8,12 @@
 #include <fstream>
 #include <iomanip>
 #include <regex>
-#include <sstream>
 #include <stdexcept>
 
 #include "child_process.h"
+#include "sigloc/bridge/file_output.h"
+#include "sigloc/bridge/text_rows.h"
+#include "sigloc/config/TextStream.h"
 #include "sigloc/eval/MonteCarloSettings.h"
 #include "sigloc/eval/TrackingMethod.h"
 
@@ -55,9 +56,11 @@ class TemporaryFolder
 void writeDrive(const std::vector<RawlogStep>& steps, const MonteCarloSettings& settings,
                 const fs::path& path)
 {
-  mrpt::io::CFileGZOutputStream file(path.string());
-  auto archive = mrpt::serialization::archiveFrom(file);
-  for (const RawlogStep& step : steps) archive << actionsOf(step, settings) << *step.frame;
+  const auto write = [&](mrpt::serialization::CArchive& archive)
+  {
+    for (const RawlogStep& step : steps) archive << actionsOf(step, settings) << *step.frame;
+  };
+  writeObjects(path, write);
 }
 
 /// The options of `mcl`, and the section that names files. Particles are written every step: it is
@@ -67,7 +70,7 @@ std::string configurationOf(const MonteCarloSettings& settings, const fs::path& 
 {
   const PoseRegion region = startRegionOf(settings);
   constexpr double kDegrees = 180 / M_PI;
-  std::ostringstream ini;
+  TextStream ini;
   ini << std::setprecision(12) << toIni(settings)
       << "\n[LocalizationExperiment]\nmap_file=" << map.string()
       << "\nrawlog_file=" << drive.string() << "\nlogOutput_dir=" << out.string()
@@ -102,6 +105,7 @@ void runStock(const fs::path& ini, const fs::path& log)
 mrpt::poses::CPosePDFParticles readParticles(const fs::path& path)
 {
   std::ifstream file(path);
+  file.imbue(std::locale::classic());
   std::string head;
   std::getline(file, head);
   mrpt::poses::CPosePDFParticles particles;
@@ -125,9 +129,10 @@ std::vector<double> toldTimes(const fs::path& folder, const fs::path& log)
   std::vector<double> times = {0};
   if (std::regex_search(text, found, std::regex("particles initialized in ([0-9.]+)ms")))
   {
-    times.front() = std::stod(found[1]);
+    times.front() = detail::toNumber(found[1].str()).value_or(0);
   }
   std::ifstream file(folder / "exec_times.txt");
+  file.imbue(std::locale::classic());
   for (double seconds = 0; file >> seconds;) times.push_back(1e3 * seconds);
   return times;
 }
@@ -153,7 +158,7 @@ std::vector<TimedClaim> readClaims(const fs::path& folder, const fs::path& log, 
   TightCloud cloud;
   for (std::size_t i = 0; i < steps; ++i)
   {
-    std::ostringstream name;
+    TextStream name;
     name << "particles_" << std::setw(5) << std::setfill('0') << i << ".txt";
     const auto [covariance, mean] =
         readParticles(folder / "particles" / name.str()).getCovarianceAndMean();
@@ -179,7 +184,7 @@ class StockMonteCarlo : public TrackingMethod
     const fs::path log = folder.path() / "printed.txt";
     const fs::path out = folder.path() / "out";
     writeDrive(steps, settings_, drive);
-    std::ofstream(ini) << configurationOf(settings_, map_, drive, out / "mcl");
+    writeFile(ini, configurationOf(settings_, map_, drive, out / "mcl"));
     fs::create_directory(out);
     runStock(ini, log);
     return readClaims(onlyFolderIn(out), log, steps.size());
@@ -200,8 +205,8 @@ class StockFactory : public TrackingMethodFactory
     // A grid with the right likelihood options in it, which the program takes over.
     map_ = folder_.path() / "map.gridmap.gz";
     const auto maps = localizationMapOf(map, toIni(settings_));
-    mrpt::io::CFileGZOutputStream file(map_.string());
-    mrpt::serialization::archiveFrom(file) << *maps->mapByClass<mrpt::maps::COccupancyGridMap2D>();
+    const auto grid = maps->mapByClass<mrpt::maps::COccupancyGridMap2D>();
+    writeObjects(map_, [&](mrpt::serialization::CArchive& archive) { archive << *grid; });
   }
 
   std::unique_ptr<TrackingMethod> start(std::uint32_t /*seed*/) const override

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <sstream>
 #include <tuple>
 
+#include "sigloc/config/TextStream.h"
 #include "sigloc/eval/relocation_rows.h"
 #include "sigloc/eval/report_files.h"
 #include "sigloc/eval/track.h"
@@ -198,7 +198,7 @@ nlohmann::ordered_json methodJson(const TrackMethodReport& method)
 
 std::string resultsCsv(const TrackReport& report)
 {
-  std::ostringstream csv;
+  TextStream csv;
   csv << "method,start,step,travelled_m,seconds,kidnapped,confident,x,y,phi,error_m,error_deg,"
          "claim,"
          "verdict,hypotheses,weight,second_weight,elsewhere,nees,mapped,time_ms\n";
@@ -249,7 +249,7 @@ std::string eventCells(const std::optional<TrackEvent>& event)
 /// One row a run.
 std::string runsCsv(const TrackReport& report)
 {
-  std::ostringstream csv;
+  TextStream csv;
   csv << "method,start,group,steps,right_at_end,settled_after_m,settled_after_s,wrong_steps,"
          "wrong_episodes,noticed_after_m,noticed_after_s\n";
   for (const TrackMethodReport& method : report.methods)

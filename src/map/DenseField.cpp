@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <stdexcept>
 
+#include "sigloc/config/TextStream.h"
 #include "sigloc/map/raster_limits.h"
 
 namespace sigloc
@@ -189,7 +189,7 @@ std::optional<std::string> unusableCells(double resolution)
   constexpr double kFinest = 0.005;  // [m]
   constexpr double kCoarsest = 1.0;
   if (resolution >= kFinest && resolution <= kCoarsest) return std::nullopt;
-  std::ostringstream reason;
+  TextStream reason;
   reason << "cells of " << resolution << " m, not of " << kFinest << " to " << kCoarsest << " m";
   return reason.str();
 }

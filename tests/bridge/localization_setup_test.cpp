@@ -107,6 +107,10 @@ TEST(LocalizationSetup, namesTheIniAndTheReason)
   EXPECT_NE(reason("init_PDF_min_x=3\ninit_PDF_max_x=2\n").find("ends before it begins"),
             std::string::npos);
   EXPECT_NE(reason("tracker=particles\nparticles_count=many\n").find("'many'"), std::string::npos);
+  EXPECT_NE(reason("tracker=particles\nparticles_count=100 11000000\n")
+                .find("run.ini: [LocalizationExperiment]: bad value '11000000' for "
+                      "'particles_count': from 1 to 10000000"),
+            std::string::npos);
   EXPECT_NE(reason("STATS_CONF_INTERVAL=2\n").find("between 0 and 1"), std::string::npos);
   EXPECT_NE(reason("tracker=kalman\n").find("neither gaussians nor particles"), std::string::npos);
   EXPECT_NE(reason("[sigloc.matcher]\nmode=9\n").find("mode"), std::string::npos);

@@ -32,22 +32,35 @@ inline std::string quoted(const std::string& text)
   return "'" + text + "'";
 }
 
-/// Runs one of the project's programs with nothing to read from, in `folder`.
-inline CommandResult run(const TemporaryFolder& folder, const std::string& program,
-                         const std::vector<std::string>& arguments)
+/// A program of the project with its arguments, as a shell takes them.
+inline std::string commandLine(const std::string& program,
+                               const std::vector<std::string>& arguments)
+{
+  std::string command = quoted(std::string(SIGLOC_BIN_FOLDER) + "/" + program);
+  for (const std::string& argument : arguments) command += " " + quoted(argument);
+  return command;
+}
+
+/// Runs a shell's commands with nothing to read from, in `folder`.
+inline CommandResult runShell(const TemporaryFolder& folder, const std::string& commands)
 {
   const TemporaryFolder streams;
-  std::string command = "cd " + quoted(folder.path().string()) + " && " +
-                        quoted(std::string(SIGLOC_BIN_FOLDER) + "/" + program);
-  for (const std::string& argument : arguments) command += " " + quoted(argument);
-  command += " </dev/null >" + quoted((streams / "out").string()) + " 2>" +
-             quoted((streams / "err").string());
+  const std::string command = "cd " + quoted(folder.path().string()) + " && { " + commands +
+                              "; } </dev/null >" + quoted((streams / "out").string()) + " 2>" +
+                              quoted((streams / "err").string());
   const int status = std::system(command.c_str());
   CommandResult result;
   if (WIFEXITED(status)) result.exit_code = WEXITSTATUS(status);
   result.output = readBytes(streams / "out");
   result.errors = readBytes(streams / "err");
   return result;
+}
+
+/// Runs one of the project's programs with nothing to read from, in `folder`.
+inline CommandResult run(const TemporaryFolder& folder, const std::string& program,
+                         const std::vector<std::string>& arguments)
+{
+  return runShell(folder, commandLine(program, arguments));
 }
 
 /// All files and folders below a folder.

@@ -201,6 +201,11 @@ TEST(Outputs, mergedRunsAndReferencesReplaceNothingTheyRead)
                   {"reference", "--map", "lab.simplemap.gz", "--rawlog", kLabLog.string(), "--last",
                    "15.9,-10.01,4.9", "--out", "lab.simplemap.gz"},
                   "is the input lab.simplemap.gz");
+  fs::copy_file(truth, folder / "truth.txt");
+  expectUntouched(folder, "sigloc-eval",
+                  {"reference", "--map", "lab.simplemap.gz", "--rawlog", kLabLog.string(), "--last",
+                   "15.9,-10.01,4.9", "--out", "truth.txt"},
+                  "truth.txt: exists");
 }
 }  // namespace
 }  // namespace sigloc

@@ -8,6 +8,7 @@
 
 #include "bridge/rawlog_files.h"
 #include "sigloc/eval/relocate.h"
+#include "sigloc/eval/report_files.h"
 #include "sigloc/eval/sweep.h"
 
 namespace sigloc
@@ -65,6 +66,18 @@ TEST(Merge, EveryQueryOfAllRunsWeighsTheSame)
   // Quantiles are of all queries, not means of the runs' own.
   EXPECT_DOUBLE_EQ(method.at("time_ms").at("median").get<double>(), 101);
   EXPECT_TRUE(merged.complete);
+}
+
+TEST(Merge, FoldersMayHaveAnyName)
+{
+  const TemporaryFolder folder;
+  const std::filesystem::path odd = folder / "a,\"b\"";
+  writeRelocations(odd, 2, 11);
+  writeRelocations(folder / "plain", 3, 12, "signature", 2);
+  writeRelocations(folder / "more", 4, 13, "signature", 3);
+  writeRunReport(mergeRuns({odd, folder / "plain"}, "test").report, folder / "merged");
+  const MergedRuns again = mergeRuns({folder / "merged", folder / "more"}, "test");
+  EXPECT_EQ(again.report.summary.at("methods").at("signature").at("queries"), 36);
 }
 
 TEST(Merge, OfTwoSweepsIsTheSweepOverBothSeeds)

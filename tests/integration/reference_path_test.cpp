@@ -47,6 +47,19 @@ TEST(ReferencePath, FollowsTheTruthBackFromTheEnd)
   const auto read = GroundTruth::read(folder / "truth.txt").at(3, found.poses[3].time);
   ASSERT_TRUE(read);
   EXPECT_NEAR(read->x, found.poses[3].map_from_robot.x, 1e-3);
+  EXPECT_NO_THROW(checkReferenceFile(folder / "truth.txt")) << "an earlier one is replaced";
+}
+
+TEST(ReferencePath, ReplacesNothingElse)
+{
+  const test::TemporaryFolder folder;
+  EXPECT_NO_THROW(checkReferenceFile(folder / "truth.txt"));
+  for (const char* const text : {"", "1 2 3 4\n", "# time x y phi\n1 2 3 4\n"})
+  {
+    test::writeText(folder / "truth.txt", text);
+    EXPECT_THROW(checkReferenceFile(folder / "truth.txt"), std::runtime_error) << text;
+  }
+  EXPECT_THROW(checkReferenceFile(folder.path()), std::runtime_error);
 }
 
 TEST(ReferencePath, RefusesWhatItCannotFollow)

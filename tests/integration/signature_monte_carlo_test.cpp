@@ -172,6 +172,15 @@ TEST(ParticleTracker, IsAFunctionOfItsSeed)
   EXPECT_NE(first, endOf(kSeed + 1));
 }
 
+TEST(ParticleTracker, RefusesTooManyParticlesBeforeItMakesThem)
+{
+  const Office office;
+  const auto matcher = std::make_shared<const SignatureMatcher>(office.map->featureMap());
+  ParticleOptions options;
+  options.particles = 4000000000U;
+  EXPECT_THROW(ParticleTracker(office.map, matcher, {}, options), std::invalid_argument);
+}
+
 TEST(ParticleModes, AreTheirParticlesMoments)
 {
   mrpt::poses::CPosePDFParticles particles(4);

@@ -16,10 +16,12 @@ namespace
 namespace fs = std::filesystem;
 
 /// Runs sigloc-simulate; what it says goes to `folder`/out and `folder`/err.
-int simulate(const test::TemporaryFolder& folder, const std::string& arguments)
+int simulate(const test::TemporaryFolder& folder, const std::string& arguments,
+             const std::string& before = {})
 {
-  const std::string command = std::string(SIGLOC_SIMULATE) + " " + arguments + " </dev/null >" +
-                              (folder / "out").string() + " 2>" + (folder / "err").string();
+  const std::string command = before + std::string(SIGLOC_SIMULATE) + " " + arguments +
+                              " </dev/null >" + (folder / "out").string() + " 2>" +
+                              (folder / "err").string();
   const int status = std::system(command.c_str());
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
@@ -92,6 +94,17 @@ TEST(SimulateApp, ReplacesOnlySimulations)
   test::writeText(mine / "notes.txt", "mine");
   for (int i = 0; i < 2; ++i) EXPECT_EQ(simulate(folder, arguments), 0) << "an earlier one is";
   EXPECT_EQ(test::readBytes(mine / "notes.txt"), "mine");
+}
+
+TEST(SimulateApp, WhatDoesNotFitGivesOneLineAndNothingElse)
+{
+  const test::TemporaryFolder folder;
+  const std::string out = (folder / "x").string();
+  EXPECT_EQ(simulate(folder, "--metres 5 --out " + out, "trap '' XFSZ; ulimit -f 80; "), 1);
+  EXPECT_EQ(test::readBytes(folder / "err"), "sigloc-simulate: " + out +
+                                                 "/map.simplemap: cannot be written: File too "
+                                                 "large\n");
+  EXPECT_FALSE(fs::exists(out));
 }
 
 TEST(SimulateApp, HelpEndsWell)

@@ -18,6 +18,8 @@ namespace sigloc
 /// Section [sigloc.particles]: MRPT's filter where `tracker = particles`.
 struct ParticleOptions
 {
+  static constexpr std::uint32_t kMostParticles = 10000000;
+
   std::uint32_t particles = 500;
   double motion_sigma = 0.05;
   double motion_turn_sigma = 0.05;
@@ -26,7 +28,7 @@ struct ParticleOptions
   static void visitFields(V&& visit)
   {
     using O = ParticleOptions;
-    visit(OptionField{"particles", &O::particles, 1U, 10000000U,
+    visit(OptionField{"particles", &O::particles, 1U, kMostParticles,
                       "[-] how many are drawn when the robot is lost"});
     visit(OptionField{"motion_sigma", &O::motion_sigma, 0.0, 1.0,
                       "[m] standard deviation that a metre of travel adds to the odometry's own"});

@@ -31,6 +31,7 @@ struct Plot
 /// Returns the curve "share of the values that are at most x" of a list; `cases` at least its size.
 PlotSeries cumulativeShare(const std::string& title, std::vector<double> values, std::size_t cases);
 
-/// Draws the plot as a PNG with gnuplot. Returns false when gnuplot is not installed or fails.
+/// Draws the plot as a PNG with gnuplot. Returns false when there is nothing to draw, or gnuplot is
+/// not installed or fails. Throws std::runtime_error ("path: reason") where nothing can be written.
 bool drawPlot(const Plot& plot, const std::filesystem::path& png);
 }  // namespace sigloc

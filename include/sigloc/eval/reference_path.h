@@ -32,6 +32,11 @@ struct ReferencePath
 ReferencePath referencePath(const std::filesystem::path& map, const std::filesystem::path& rawlog,
                             const mrpt::math::TPose2D& last);
 
-/// Writes rows `time x y phi`. Throws std::runtime_error ("path: reason").
+/// Throws std::runtime_error ("path: reason") where writeReferencePath() would replace anything but
+/// an earlier one's file, which its first line tells.
+void checkReferenceFile(const std::filesystem::path& path);
+
+/// Writes rows `time x y phi` below a line that tells what they are. Throws std::runtime_error
+/// ("path: reason").
 void writeReferencePath(const ReferencePath& reference, const std::filesystem::path& path);
 }  // namespace sigloc

@@ -22,8 +22,7 @@ enum class RawlogKind : std::uint8_t
 };
 
 // All writers below make ordinary files of MRPT's own classes. Equal arguments give equal bytes.
-// Each writes beside its target first and renames, so that no half-written file is ever left;
-// each throws std::runtime_error naming the path and the reason.
+// Each throws as writeFile() does and leaves no half-written file.
 
 /// Returns a scan as MRPT stores it, at `time` [s since 1970], labelled "LASER".
 mrpt::obs::CObservation2DRangeScan::Ptr toRangeScan(const LaserScan& scan, double time);
@@ -54,7 +53,4 @@ void checkSimulationFolder(const std::filesystem::path& folder);
 /// makes them again, `files` tells what they are, a Markdown list.
 void writeSimulationNote(const std::string& command, const std::string& files,
                          const std::filesystem::path& folder);
-
-/// Writes a text file.
-void writeText(const std::string& text, const std::filesystem::path& path);
 }  // namespace sigloc

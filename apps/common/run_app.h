@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <iostream>
+
+#include "sigloc/bridge/file_output.h"
+#include "sigloc/bridge/LocalizationSetup.h"
+
+namespace sigloc
+{
+/// What every program does: parses the command line, works, and tells in one line what went wrong,
+/// output that got lost included. Returns the exit code: that of `work`, 0 after --help, else 1.
+inline int runApp(CLI::App& app, int argc, char** argv, const std::function<int()>& work)
+{
+  try
+  {
+    int code = 0;
+    try
+    {
+      app.parse(argc, argv);
+      code = work();
+    }
+    catch (const CLI::Success& help)
+    {
+      code = app.exit(help);
+    }
+    finishOutput(std::cout);
+    return code;
+  }
+  catch (const std::exception& error)
+  {
+    std::cerr << app.get_name() << ": " << firstLine(error.what()) << '\n';
+    return 1;
+  }
+}
+}  // namespace sigloc

@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// A host program may spell numbers its own way: our files do not change.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <locale>
+
+#include "rawlog_files.h"
+#include "sigloc/bridge/RunWriter.h"
+#include "sigloc/bridge/sigmap_file.h"
+
+namespace sigloc
+{
+namespace
+{
+namespace fs = std::filesystem;
+using test::readBytes;
+using test::TemporaryFolder;
+
+/// 1.234,5 instead of 1234.5.
+class CommaNumbers : public std::numpunct<char>
+{
+  char do_decimal_point() const override { return ','; }
+  char do_thousands_sep() const override { return '.'; }
+  std::string do_grouping() const override { return "\3"; }
+};
+
+/// Sets the host's way to spell numbers while it lives.
+class HostLocale
+{
+ public:
+  HostLocale() : before_(std::locale::global(std::locale(std::locale::classic(), new CommaNumbers)))
+  {
+  }
+  ~HostLocale() { std::locale::global(before_); }
+  HostLocale(const HostLocale&) = delete;
+  HostLocale& operator=(const HostLocale&) = delete;
+
+ private:
+  std::locale before_;
+};
+
+void localize(const fs::path& ini, const fs::path& out)
+{
+  LocalizationSetup setup = readLocalizationSetup(ini);
+  RunWriter writer(out, setup.inputFiles());
+  LocalizationRun run(setup, writer.mapCache(setup.map_file));
+  while (const StepRecord* const step = run.next()) writer.writeBelief(*step);
+  writer.finish(run);
+}
+
+TEST(Locale, doesNotChangeWhatARunWrites)
+{
+  const TemporaryFolder folder;
+  const fs::path datasets = "/usr/share/mrpt/datasets";
+  const fs::path ini = folder / "run.ini";
+  test::writeText(ini, "[LocalizationExperiment]\nmap_file = " +
+                           (datasets / "localization_demo.simplemap.gz").string() +
+                           "\nrawlog_file = " + (datasets / "localization_demo.rawlog").string() +
+                           "\n3DSceneFrequency = 20\nSTATS_CONF_INTERVAL = 0.25\n");
+  localize(ini, folder / "plain");
+  const std::string map = readBytes(folder / "localization_demo.simplemap.gz.cache.sigmap");
+  fs::remove(folder / "localization_demo.simplemap.gz.cache.sigmap");
+  {
+    const HostLocale host;
+    localize(ini, folder / "host");
+  }
+  EXPECT_TRUE(readBytes(folder / "localization_demo.simplemap.gz.cache.sigmap") == map);
+  for (const char* const file :
+       {"path.tum", "cov_est.txt", "odo_est.txt", "PF_stats.txt", "belief/step_00009.txt",
+        "belief/step_00009.CPosePDFSOG", "particles/particles_00001.txt", "annotated.rawlog"})
+  {
+    EXPECT_FALSE(readBytes(folder / "plain" / file).empty()) << file;
+    EXPECT_TRUE(readBytes(folder / "plain" / file) == readBytes(folder / "host" / file)) << file;
+  }
+  // Times differ between two runs, but not the number of cells.
+  const std::string steps = readBytes(folder / "host/steps.csv");
+  const auto commas = [](const std::string& text)
+  { return std::count(text.begin(), text.end(), ','); };
+  EXPECT_EQ(commas(steps), commas(readBytes(folder / "plain/steps.csv")));
+}
+}  // namespace
+}  // namespace sigloc
