@@ -83,6 +83,22 @@ void Progress::finish()
   if (!quiet_ && terminal_) std::cout << '\n';
 }
 
+std::string leftOutLine(const LeftOutOfLog& left_out)
+{
+  std::string line;
+  if (left_out.observations > 0)
+  {
+    line = counted(left_out.observations, "observation") +
+           " left out (no beams, or a sensor that is tilted, far off or nowhere)";
+  }
+  if (left_out.motions > 0)
+  {
+    line += (line.empty() ? "" : "; ") + counted(left_out.motions, "motion") +
+            " taken for unknown (a jump of the odometry, or no number)";
+  }
+  return line;
+}
+
 std::string summaryTable(const LocalizationRun& run)
 {
   const RunSummary summary = run.summary();

@@ -36,6 +36,13 @@ struct Arguments
   bool quiet = false;
 };
 
+/// Prints one line on stderr, unless there is nothing to tell.
+void warn(const fs::path& file, const std::string& message)
+{
+  if (message.empty()) return;
+  std::cerr << "sigloc-localize: " << file.string() << ": " << message << '\n';
+}
+
 /// Runs once, adding to `outcomes`; returns the exit code.
 int localize(const sigloc::LocalizationSetup& setup, bool quiet,
              std::vector<sigloc::ExperimentOutcome>& outcomes)
@@ -58,9 +65,11 @@ int localize(const sigloc::LocalizationSetup& setup, bool quiet,
   outcomes.push_back(sigloc::outcomeOf(run));
   std::cout << sigloc::summaryTable(run);
   if (writer) std::cout << "written to              " << setup.output_folder.string() << '\n';
+  warn(setup.rawlog_file, sigloc::leftOutLine(run.summary().left_out));
   if (!run.summary().truncated) return 0;
-  std::cerr << "sigloc-localize: " << setup.rawlog_file.string() << ": truncated or damaged after "
-            << run.steps().size() << " steps; the results cover those\n";
+  warn(setup.rawlog_file,
+       mrpt::format("truncated or damaged after %zu steps; the results cover those",
+                    run.steps().size()));
   return kTruncatedInput;
 }
 

@@ -13,7 +13,6 @@
 #include "sigloc/bridge/GroundTruth.h"
 #include "sigloc/bridge/map_sources.h"
 #include "sigloc/bridge/pose_pdf.h"
-#include "sigloc/bridge/RawlogReader.h"
 
 namespace sigloc
 {
@@ -225,6 +224,7 @@ RunSummary LocalizationRun::summary() const
   summary.map_reused = state_->map_reused;
   summary.map_seconds = state_->map_seconds;
   summary.seed = setup_.matcher.seed;
+  summary.left_out = state_->reader.leftOut();
   summary.truncated = state_->reader.truncated();
   summary.steps = steps_.size();
   std::vector<double> relocation_times;

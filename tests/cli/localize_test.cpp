@@ -239,6 +239,31 @@ TEST(Localize, saysThatATruncatedLogWasCovered)
   EXPECT_TRUE(std::filesystem::exists(folder / "out/annotated.rawlog"));
 }
 
+TEST(Localize, leavesOutWhatIsBrokenAndSaysSo)
+{
+  const TemporaryFolder folder;
+  std::vector<mrpt::serialization::CSerializable::Ptr> log;
+  for (int i = 0; i < 4; ++i)
+  {
+    mrpt::math::CMatrixDouble33 covariance;
+    log.push_back(makeAction({i == 2 ? 1e30 : 0.1, 0, 0}, covariance));
+    const auto scan = makeScan(i);
+    if (i == 1) scan->sensorPose = {std::nan(""), 0, 0, 0, 0, 0};
+    log.push_back(makeFrame(scan));
+  }
+  writeObjects(folder / "broken.rawlog", log);
+  writeConfig(folder, "broken.rawlog");
+  const CommandResult result = localize(folder);
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(countLines(result.errors), 1) << result.errors;
+  for (const char* told : {"broken.rawlog", "1 observation left out", "1 motion taken for unknown"})
+  {
+    EXPECT_NE(result.errors.find(told), std::string::npos) << result.errors;
+  }
+  EXPECT_EQ(summaryOf(folder)["steps"], 3);
+  EXPECT_LT(summaryOf(folder)["distance"], 1.0);
+}
+
 TEST(Localize, takesAScanWithoutAnyValidBeam)
 {
   const TemporaryFolder folder;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sigloc/bridge/LocalizationSetup.h"
+#include "sigloc/bridge/RawlogReader.h"
 #include "sigloc/features/ObservedScene.h"
 #include "sigloc/tracking/Belief.h"
 
@@ -64,6 +65,7 @@ struct RunSummary
   bool map_reused = false;
   double map_seconds = 0;  ///< to build the map, or to load it
   std::uint32_t seed = 0;
+  LeftOutOfLog left_out;
   bool truncated = false;  ///< the rawlog broke off: everything covers what was read
 };
 
