@@ -136,8 +136,8 @@ LocalizationRun::LocalizationRun(const LocalizationSetup& setup, const fs::path&
   if (setup_.use_particles)
   {
     const auto map = std::make_shared<const SignatureMap>(FeatureMap(*map_));
-    state_->particles = std::make_unique<ParticleTracker>(map, matcher, setup_.tracker,
-                                                          setup_.particles, setup_.matcher.seed);
+    state_->particles = std::make_unique<ParticleTracker>(
+        map, matcher, setup_.tracker, setup_.particles, setup_.matcher.seed, setup_.features);
     state_->particles->reset(setup_.prior);
     return;
   }
