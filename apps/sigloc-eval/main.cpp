@@ -66,6 +66,15 @@ int main(int argc, char** argv)
   {
     return app.exit(help);
   }
+  catch (const CLI::RequiredError& error)
+  {
+    // What no command takes is told last: a word that is no command would be called a missing one.
+    const std::vector<std::string> unknown = app.remaining();
+    const std::string reason =
+        unknown.empty() ? error.what() : "no such command: " + unknown.front();
+    std::cerr << "sigloc-eval: " << reason << "\n";
+    return 1;
+  }
   catch (const std::exception& error)
   {
     std::cerr << "sigloc-eval: " << sigloc::firstLine(error.what()) << "\n";
