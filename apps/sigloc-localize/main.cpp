@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "console.h"
+#include "sigloc/bridge/map_sources.h"
 #include "sigloc/bridge/output_guard.h"
 #include "sigloc/bridge/pf_localization_files.h"
 #include "StepPictures.h"
@@ -50,6 +51,7 @@ int localize(const sigloc::LocalizationSetup& setup, bool quiet,
   std::optional<sigloc::RunWriter> writer;
   if (!setup.output_folder.empty()) writer.emplace(setup.output_folder, setup.inputFiles());
   sigloc::LocalizationRun run(setup, writer ? writer->mapCache(setup.map_file) : fs::path());
+  if (!run.summary().map_reused) warn(setup.map_file, sigloc::warningOfMapSource(setup.map_file));
   std::optional<sigloc::StepPictures> pictures;
   if (writer) pictures.emplace(run);
   sigloc::Progress progress(quiet);
@@ -122,6 +124,7 @@ int runAll(const Arguments& arguments)
 {
   sigloc::LocalizationSetup setup =
       sigloc::readLocalizationSetup(arguments.config, arguments.rawlog);
+  for (const std::string& warning : setup.warnings) warn(arguments.config, warning);
   if (arguments.output) setup.output_folder = *arguments.output;
   if (arguments.seed) setup.matcher.seed = *arguments.seed;
   const std::vector<Experiment> experiments = experimentsOf(setup);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "sigloc/bridge/GroundTruth.h"
@@ -87,6 +88,12 @@ CachedMap makeMap(const LocalizationSetup& setup, const fs::path& cache)
   }
   return made;
 }
+
+std::optional<double> travelOf(const StepRecord& step)
+{
+  return step.travel_known ? std::optional(step.travelled) : std::nullopt;
+}
+
 /// pf-localization's test: one pose, not far from the truth.
 bool hasConverged(const StepRecord& step)
 {
@@ -163,6 +170,8 @@ const StepRecord* LocalizationRun::next()
   // How the robot came to the first step is motion in another run.
   if (steps_.empty()) input->motion.reset();
   step.travelled = steps_.empty() ? 0 : steps_.back().travelled;
+  step.travel_known = steps_.empty() || input->motion.has_value() ||
+                      (steps_.size() > 1 && steps_.back().travel_known);
   step.odometry = steps_.empty() ? setup_.initial_odometry : steps_.back().odometry;
   if (input->motion)
   {
@@ -237,12 +246,12 @@ RunSummary LocalizationRun::summary() const
     if (step.any_right && state_->truth && !summary.steps_to_first_right)
     {
       summary.steps_to_first_right = step.number;
-      summary.metres_to_first_right = step.travelled;
+      summary.metres_to_first_right = travelOf(step);
     }
     if (step.belief.verdict == Verdict::localized && !summary.steps_to_localized)
     {
       summary.steps_to_localized = step.number;
-      summary.metres_to_localized = step.travelled;
+      summary.metres_to_localized = travelOf(step);
     }
     if (step.truth) summary.final_error = step.error;
   }
@@ -257,7 +266,7 @@ RunSummary LocalizationRun::summary() const
     summary.converged = hasConverged(steps_.back());
   }
   const StepRecord& last = steps_.back();
-  summary.distance = last.travelled;
+  summary.distance = travelOf(last).value_or(std::numeric_limits<double>::quiet_NaN());
   summary.final_verdict = last.belief.verdict;
   if (!last.belief.hypotheses.empty())
   {

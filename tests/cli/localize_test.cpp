@@ -278,6 +278,18 @@ TEST(Localize, takesAScanWithoutAnyValidBeam)
   EXPECT_TRUE(summaryOf(folder)["final_pose"].is_null());
 }
 
+TEST(Localize, knowsNoDistanceWithoutOdometry)
+{
+  const TemporaryFolder folder;
+  writeObjects(folder / "still.rawlog", {makeScan(1), makeScan(2), makeScan(3)});
+  writeConfig(folder, "still.rawlog");
+  const CommandResult result = localize(folder);
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_NE(result.output.find("3 steps, distance unknown"), std::string::npos) << result.output;
+  EXPECT_TRUE(summaryOf(folder)["distance_m"].is_null());
+  EXPECT_TRUE(summaryOf(folder)["meters_to_localized"].is_null());
+}
+
 TEST(Localize, runsStockConfigurationsUnchanged)
 {
   const TemporaryFolder folder;
