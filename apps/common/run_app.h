@@ -5,6 +5,9 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <iostream>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "sigloc/bridge/file_output.h"
 #include "sigloc/bridge/LocalizationSetup.h"
@@ -26,6 +29,13 @@ inline int runApp(CLI::App& app, int argc, char** argv, const std::function<int(
     catch (const CLI::Success& help)
     {
       code = app.exit(help);
+    }
+    catch (const CLI::RequiredError&)
+    {
+      // CLI11 would call a word that is no command a missing one.
+      const std::vector<std::string> unknown = app.remaining();
+      if (app.get_require_subcommand_min() == 0 || unknown.empty()) throw;
+      throw std::invalid_argument("no such command: " + unknown.front());
     }
     finishOutput(std::cout);
     return code;

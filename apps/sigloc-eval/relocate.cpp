@@ -3,6 +3,7 @@
 #include "sigloc/eval/relocate.h"
 
 #include <iostream>
+#include <limits>
 
 #include "commands.h"
 #include "failure_pictures.h"
@@ -61,8 +62,10 @@ std::function<int()> setUpRelocate(CLI::App& command, const std::string& command
   command.add_option("--rawlog", sources.rawlog, "rawlog: every step with truth is a query");
   command.add_option("--ground-truth", sources.ground_truth,
                      "truth of the rawlog: rows `time x y phi`, or 3 or 7 columns");
-  command.add_option("--interleave", sources.interleave,
-                     "every k-th scan of the map is a query, the rest map");
+  command
+      .add_option("--interleave", sources.interleave,
+                  "every k-th scan of the map is a query, the rest map")
+      ->check(numberFrom(2, std::numeric_limits<std::uint32_t>::max()));
   addPoseOption(command, "--map-from-queries", flags->map_from_queries,
                 "frame of the queries' truth in the map");
   command.add_flag("--foreign", sources.foreign, "the queries are of another place");

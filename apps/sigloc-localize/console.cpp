@@ -6,6 +6,7 @@
 #include <mrpt/core/format.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <iomanip>
 #include <iostream>
 #include <sstream>
@@ -19,7 +20,13 @@ namespace
 std::string reached(const std::optional<std::size_t>& step, const std::optional<double>& metres)
 {
   if (!step) return "never";
-  return mrpt::format("step %zu, after %.1f m", *step, *metres);
+  const std::string when = mrpt::format("step %zu", *step);
+  return metres ? when + mrpt::format(", after %.1f m", *metres) : when;
+}
+
+std::string distanceText(bool known, double metres)
+{
+  return known ? mrpt::format("%.1f m", metres) : "distance unknown";
 }
 
 std::string timing(double median, double p95, std::size_t count)
@@ -64,8 +71,9 @@ void Progress::show(const LocalizationRun& run)
   constexpr std::size_t kStepsBetweenLines = 50;
   if (!terminal_ && step.number % kStepsBetweenLines != 1) return;
   const std::string line =
-      mrpt::format("%3.0f %%  step %zu  %.1f m  %s (%.3f)  %s", 100 * run.progress(), step.number,
-                   step.travelled, toString(step.belief.verdict), step.belief.probability,
+      mrpt::format("%3.0f %%  step %zu  %s  %s (%.3f)  %s", 100 * run.progress(), step.number,
+                   distanceText(step.travel_known, step.travelled).c_str(),
+                   toString(step.belief.verdict), step.belief.probability,
                    counted(step.belief.hypotheses.size(), "hypothesis", "hypotheses").c_str());
   if (terminal_)
   {
@@ -83,6 +91,22 @@ void Progress::finish()
   if (!quiet_ && terminal_) std::cout << '\n';
 }
 
+std::string leftOutLine(const LeftOutOfLog& left_out)
+{
+  std::string line;
+  if (left_out.observations > 0)
+  {
+    line = counted(left_out.observations, "observation") +
+           " left out (no beams, or a sensor that is tilted, far off or nowhere)";
+  }
+  if (left_out.motions > 0)
+  {
+    line += (line.empty() ? "" : "; ") + counted(left_out.motions, "motion") +
+            " taken for unknown (a jump of the odometry, or no number)";
+  }
+  return line;
+}
+
 std::string summaryTable(const LocalizationRun& run)
 {
   const RunSummary summary = run.summary();
@@ -91,8 +115,9 @@ std::string summaryTable(const LocalizationRun& run)
   { table << std::left << std::setw(24) << name << value << '\n'; };
   row("map", mapLine(summary, run.setup()));
   row("log", run.setup().rawlog_file.filename().string() +
-                 mrpt::format(": %s, %.1f m%s", counted(summary.steps, "step").c_str(),
-                              summary.distance, summary.truncated ? ", TRUNCATED" : ""));
+                 mrpt::format(": %s, %s%s", counted(summary.steps, "step").c_str(),
+                              distanceText(!std::isnan(summary.distance), summary.distance).c_str(),
+                              summary.truncated ? ", TRUNCATED" : ""));
   const bool scored = !run.setup().ground_truth_file.empty();
   row("first right hypothesis",
       scored ? reached(summary.steps_to_first_right, summary.metres_to_first_right)

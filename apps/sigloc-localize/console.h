@@ -23,6 +23,9 @@ class Progress
   bool terminal_;
 };
 
+/// Returns a line on what of a log was left out, empty for nothing.
+std::string leftOutLine(const LeftOutOfLog& left_out);
+
 /// Returns the table that ends a run.
 std::string summaryTable(const LocalizationRun& run);
 }  // namespace sigloc

@@ -11,6 +11,7 @@
 
 #include "console.h"
 #include "run_app.h"
+#include "sigloc/bridge/map_sources.h"
 #include "sigloc/bridge/output_guard.h"
 #include "sigloc/bridge/pf_localization_files.h"
 #include "StepPictures.h"
@@ -36,6 +37,13 @@ struct Arguments
   bool quiet = false;
 };
 
+/// Prints one line on stderr, unless there is nothing to tell.
+void warn(const fs::path& file, const std::string& message)
+{
+  if (message.empty()) return;
+  std::cerr << "sigloc-localize: " << file.string() << ": " << message << '\n';
+}
+
 /// Runs once, adding to `outcomes`; returns the exit code.
 int localize(const sigloc::LocalizationSetup& setup, bool quiet,
              std::vector<sigloc::ExperimentOutcome>& outcomes)
@@ -43,6 +51,7 @@ int localize(const sigloc::LocalizationSetup& setup, bool quiet,
   std::optional<sigloc::RunWriter> writer;
   if (!setup.output_folder.empty()) writer.emplace(setup.output_folder, setup.inputFiles());
   sigloc::LocalizationRun run(setup, writer ? writer->mapCache(setup.map_file) : fs::path());
+  if (!run.summary().map_reused) warn(setup.map_file, sigloc::warningOfMapSource(setup.map_file));
   std::optional<sigloc::StepPictures> pictures;
   if (writer) pictures.emplace(run);
   sigloc::Progress progress(quiet);
@@ -58,9 +67,11 @@ int localize(const sigloc::LocalizationSetup& setup, bool quiet,
   outcomes.push_back(sigloc::outcomeOf(run));
   std::cout << sigloc::summaryTable(run);
   if (writer) std::cout << "written to              " << setup.output_folder.string() << '\n';
+  warn(setup.rawlog_file, sigloc::leftOutLine(run.summary().left_out));
   if (!run.summary().truncated) return 0;
-  std::cerr << "sigloc-localize: " << setup.rawlog_file.string() << ": truncated or damaged after "
-            << run.steps().size() << " steps; the results cover those\n";
+  warn(setup.rawlog_file,
+       mrpt::format("truncated or damaged after %zu steps; the results cover those",
+                    run.steps().size()));
   return kTruncatedInput;
 }
 
@@ -113,6 +124,7 @@ int runAll(const Arguments& arguments)
 {
   sigloc::LocalizationSetup setup =
       sigloc::readLocalizationSetup(arguments.config, arguments.rawlog);
+  for (const std::string& warning : setup.warnings) warn(arguments.config, warning);
   if (arguments.output) setup.output_folder = *arguments.output;
   if (arguments.seed) setup.matcher.seed = *arguments.seed;
   const std::vector<Experiment> experiments = experimentsOf(setup);

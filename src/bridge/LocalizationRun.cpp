@@ -8,12 +8,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "sigloc/bridge/GroundTruth.h"
 #include "sigloc/bridge/map_sources.h"
 #include "sigloc/bridge/pose_pdf.h"
-#include "sigloc/bridge/RawlogReader.h"
 
 namespace sigloc
 {
@@ -88,6 +88,12 @@ CachedMap makeMap(const LocalizationSetup& setup, const fs::path& cache)
   }
   return made;
 }
+
+std::optional<double> travelOf(const StepRecord& step)
+{
+  return step.travel_known ? std::optional(step.travelled) : std::nullopt;
+}
+
 /// pf-localization's test: one pose, not far from the truth.
 bool hasConverged(const StepRecord& step)
 {
@@ -137,8 +143,8 @@ LocalizationRun::LocalizationRun(const LocalizationSetup& setup, const fs::path&
   if (setup_.use_particles)
   {
     const auto map = std::make_shared<const SignatureMap>(FeatureMap(*map_));
-    state_->particles = std::make_unique<ParticleTracker>(map, matcher, setup_.tracker,
-                                                          setup_.particles, setup_.matcher.seed);
+    state_->particles = std::make_unique<ParticleTracker>(
+        map, matcher, setup_.tracker, setup_.particles, setup_.matcher.seed, setup_.features);
     state_->particles->reset(setup_.prior);
     return;
   }
@@ -164,6 +170,8 @@ const StepRecord* LocalizationRun::next()
   // How the robot came to the first step is motion in another run.
   if (steps_.empty()) input->motion.reset();
   step.travelled = steps_.empty() ? 0 : steps_.back().travelled;
+  step.travel_known = steps_.empty() || input->motion.has_value() ||
+                      (steps_.size() > 1 && steps_.back().travel_known);
   step.odometry = steps_.empty() ? setup_.initial_odometry : steps_.back().odometry;
   if (input->motion)
   {
@@ -225,6 +233,7 @@ RunSummary LocalizationRun::summary() const
   summary.map_reused = state_->map_reused;
   summary.map_seconds = state_->map_seconds;
   summary.seed = setup_.matcher.seed;
+  summary.left_out = state_->reader.leftOut();
   summary.truncated = state_->reader.truncated();
   summary.steps = steps_.size();
   std::vector<double> relocation_times;
@@ -237,12 +246,12 @@ RunSummary LocalizationRun::summary() const
     if (step.any_right && state_->truth && !summary.steps_to_first_right)
     {
       summary.steps_to_first_right = step.number;
-      summary.metres_to_first_right = step.travelled;
+      summary.metres_to_first_right = travelOf(step);
     }
     if (step.belief.verdict == Verdict::localized && !summary.steps_to_localized)
     {
       summary.steps_to_localized = step.number;
-      summary.metres_to_localized = step.travelled;
+      summary.metres_to_localized = travelOf(step);
     }
     if (step.truth) summary.final_error = step.error;
   }
@@ -257,7 +266,7 @@ RunSummary LocalizationRun::summary() const
     summary.converged = hasConverged(steps_.back());
   }
   const StepRecord& last = steps_.back();
-  summary.distance = last.travelled;
+  summary.distance = travelOf(last).value_or(std::numeric_limits<double>::quiet_NaN());
   summary.final_verdict = last.belief.verdict;
   if (!last.belief.hypotheses.empty())
   {

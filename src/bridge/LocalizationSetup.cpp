@@ -14,6 +14,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "gzip_input.h"
+#include "ini_warnings.h"
 #include "sigloc/bridge/map_sources.h"
 #include "sigloc/bridge/text_rows.h"
 
@@ -35,11 +37,9 @@ constexpr const char* kReport = "sigloc.localize";
 constexpr std::array<const char*, 6> kSections = {kMatcher,  kTracker, kParticles,
                                                   kFeatures, kMap,     kReport};
 
-/// Throws std::runtime_error naming the path for anything that is not a text file.
+/// Returns the text of a file that is there; throws std::runtime_error where it is none.
 std::string readText(const fs::path& path)
 {
-  if (!fs::exists(path)) throw std::runtime_error("no such file");
-  if (fs::is_directory(path)) throw std::runtime_error("is a folder, not an ini file");
   std::ifstream file(path, std::ios::binary);
   std::stringstream text;
   text << file.rdbuf();
@@ -187,13 +187,20 @@ bool readTracker(const CConfigFileMemory& ini)
   return name == "particles";
 }
 
+/// Where that cannot be told, whoever reads the file says why.
+bool mayExist(const fs::path& path)
+{
+  std::error_code error;
+  return fs::status(path, error).type() != fs::file_type::not_found;
+}
+
 /// Finds a file that an ini names: beside the ini, then from the current folder.
 fs::path findFile(const fs::path& named, const fs::path& ini, const char* key)
 {
   if (named.empty()) throw std::runtime_error(std::string("'") + key + "' is missing");
   const fs::path beside = ini.parent_path() / named;  // `named` itself where it is absolute
-  if (fs::exists(beside)) return beside.lexically_normal();
-  if (fs::exists(named)) return named;
+  if (mayExist(beside)) return beside.lexically_normal();
+  if (mayExist(named)) return named;
   throw std::runtime_error(std::string("'") + key + "' names " + named.string() +
                            ", which does not exist");
 }
@@ -205,6 +212,8 @@ void readExperiment(const CConfigFileMemory& ini, const fs::path& path, const fs
   {
     throw std::runtime_error(std::string("no section [") + kExperiment + "]");
   }
+  const std::string unread = detail::warningOfUnreadKeys(ini, kExperiment);
+  if (!unread.empty()) setup.warnings.push_back(unread);
   const auto named = [&](const char* key) { return ini.read_string(kExperiment, key, ""); };
   setup.map_file = findFile(named("map_file"), path, "map_file");
   setup.rawlog_file = rawlog.empty() ? findFile(named("rawlog_file"), path, "rawlog_file") : rawlog;
@@ -224,11 +233,16 @@ void readExperiment(const CConfigFileMemory& ini, const fs::path& path, const fs
 template <class Read>
 LocalizationSetup parse(const fs::path& path, Read&& read)
 {
+  detail::requireFile(path);
   try
   {
     CConfigFileMemory ini;
-    ini.setContent(readText(path));
+    const std::string text = readText(path);
+    ini.setContent(text);
     LocalizationSetup setup;
+    std::vector<std::string> sections(kSections.begin(), kSections.end());
+    sections.emplace_back(kExperiment);
+    setup.warnings = detail::warningsOfRepeatedKeys(text, sections);
     setup.config_file = path;
     readSections(ini, setup);
     read(ini, setup);

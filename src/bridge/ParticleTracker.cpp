@@ -30,12 +30,13 @@ const ParticleOptions& checked(const ParticleOptions& options)
 ParticleTracker::ParticleTracker(std::shared_ptr<const SignatureMap> map,
                                  std::shared_ptr<const SignatureMatcher> matcher,
                                  const TrackerOptions& tracking, const ParticleOptions& options,
-                                 std::uint32_t seed)
+                                 std::uint32_t seed, const FeatureExtractorOptions& extraction)
     : tracking_(tracking), options_(checked(options)), filter_(options.particles, tracking)
 {
   if (!map || !matcher) throw std::invalid_argument("ParticleTracker: no map or matcher");
   filter_.options.metricMap = std::move(map);
   filter_.useMatcher(std::move(matcher));
+  filter_.useExtraction(extraction);
   executor_.m_options.PF_algorithm = CParticleFilter::pfStandardProposal;
   executor_.m_options.resamplingMethod = CParticleFilter::prSystematic;
   // Its own randomize() would keep a Gaussian drawn before.

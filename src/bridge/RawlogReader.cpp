@@ -16,6 +16,7 @@
 
 #include "gzip_input.h"
 #include "motion_conversion.h"
+#include "sensor_mount.h"
 #include "sigloc/bridge/scan_conversion.h"
 
 namespace sigloc
@@ -56,6 +57,27 @@ bool isRange(const CObservation& observation)
          dynamic_cast<const mrpt::obs::CObservationBearingRange*>(&observation) != nullptr;
 }
 
+/// Returns how many scans and landmark observations there are in a frame.
+std::size_t countRanges(const CSensoryFrame& frame)
+{
+  return static_cast<std::size_t>(std::count_if(frame.begin(), frame.end(),
+                                                [](const CObservation::Ptr& observation)
+                                                { return isRange(*observation); }));
+}
+
+/// Returns how many landmark observations of a frame are of a sensor that can be where it is.
+std::size_t countUsableLandmarkLooks(const CSensoryFrame& frame)
+{
+  return static_cast<std::size_t>(std::count_if(
+      frame.begin(), frame.end(),
+      [](const CObservation::Ptr& observation)
+      {
+        const auto* const seen =
+            dynamic_cast<const mrpt::obs::CObservationBearingRange*>(observation.get());
+        return seen != nullptr && detail::isSensorMount(seen->sensorLocationOnRobot);
+      }));
+}
+
 CPose2D interpolated(const OdometryReading& a, const OdometryReading& b, double time)
 {
   const double span = b.time - a.time;
@@ -87,6 +109,8 @@ struct RawlogReader::State
   std::optional<RawlogStep> makeStep(const CSensoryFrame::Ptr& frame, std::optional<double> time,
                                      const std::optional<CPose2D>& odometry);
   std::optional<MotionIncrement> takeMotion(const std::optional<CPose2D>& odometry, double time);
+  std::optional<MotionIncrement> believed(const mrpt::poses::CPosePDFGaussian& motion,
+                                          double seconds);
   double timeOf(const CObservation& observation);
 
   detail::GzipInput input;
@@ -94,7 +118,10 @@ struct RawlogReader::State
   std::size_t objects_taken = 0;
   bool truncated = false;
   bool ended = false;
+  LeftOutOfLog left_out;
   double latest_time = 0;  // [s], stands in where an entry has none
+
+  std::optional<double> time_of_step;  // of the last one
 
   // Motion of action logs since the last step.
   bool has_action = false;
@@ -104,7 +131,7 @@ struct RawlogReader::State
 
   // Motion of observation logs.
   std::optional<OdometryReading> odometry;
-  std::optional<OdometryReading> odometry_of_step;
+  std::optional<CPose2D> odometry_of_step;
   Group group;
 };
 
@@ -257,6 +284,8 @@ std::optional<RawlogStep> RawlogReader::State::makeStep(const CSensoryFrame::Ptr
   RawlogStep step;
   step.scans = laserScansOf(*frame);
   step.landmarks = landmarksOf(*frame);
+  left_out.observations +=
+      countRanges(*frame) - step.scans.size() - countUsableLandmarkLooks(*frame);
   if (step.scans.empty() && step.landmarks.empty()) return std::nullopt;
   step.time = time.value_or(latest_time);
   step.motion = takeMotion(odometry_now, step.time);
@@ -268,21 +297,26 @@ std::optional<RawlogStep> RawlogReader::State::makeStep(const CSensoryFrame::Ptr
 std::optional<MotionIncrement> RawlogReader::State::takeMotion(
     const std::optional<CPose2D>& odometry_now, double time)
 {
-  if (has_action)
+  const double seconds = time - std::exchange(time_of_step, time).value_or(time);
+  if (std::exchange(has_action, false))
   {
-    const bool known = !action_unknown;
-    has_action = action_unknown = false;
-    if (!known) return std::nullopt;
-    return detail::toMotionIncrement(action_motion);
+    if (!std::exchange(action_unknown, false)) return believed(action_motion, seconds);
+    ++left_out.motions;
+    return std::nullopt;
   }
   if (!odometry_now) return std::nullopt;
-  const OdometryReading now{time, *odometry_now};
-  const OdometryReading before = odometry_of_step.value_or(now);
-  odometry_of_step = now;
-  const CPose2D increment = now.pose - before.pose;
-  const double limit = kMaxJump + kMaxSpeed * std::abs(now.time - before.time);
-  if (increment.norm() > limit) return std::nullopt;
-  return detail::toMotionIncrement(detail::motionFromOdometry(increment));
+  const CPose2D before = std::exchange(odometry_of_step, odometry_now).value_or(*odometry_now);
+  return believed(detail::motionFromOdometry(*odometry_now - before), seconds);
+}
+
+/// Returns the motion, none for what is none but a reset of the odometry or a broken reading.
+std::optional<MotionIncrement> RawlogReader::State::believed(
+    const mrpt::poses::CPosePDFGaussian& motion, double seconds)
+{
+  const double limit = kMaxJump + kMaxSpeed * std::abs(seconds);
+  if (motion.mean.norm() <= limit) return detail::toMotionIncrement(motion);
+  ++left_out.motions;
+  return std::nullopt;
 }
 
 RawlogReader::RawlogReader(const std::filesystem::path& path)
@@ -320,6 +354,11 @@ std::optional<RawlogStep> RawlogReader::next()
 bool RawlogReader::truncated() const
 {
   return state_->truncated;
+}
+
+const LeftOutOfLog& RawlogReader::leftOut() const
+{
+  return state_->left_out;
 }
 
 double RawlogReader::progress() const

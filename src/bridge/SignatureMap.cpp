@@ -40,37 +40,66 @@ void mixIn(std::uint64_t value, std::uint64_t& hash)
   hash ^= hash >> 29U;
 }
 
-std::uint64_t bitsOf(double value)
+void mixIn(double value, std::uint64_t& hash)
 {
   std::uint64_t bits = 0;
   std::memcpy(&bits, &value, sizeof(bits));
-  return bits;
+  mixIn(bits, hash);
 }
 
-/// Tells observations apart. An address alone would not do: freed memory is used again.
-std::uint64_t fingerprintOf(const CObservation& observation)
+void mixIn(const CPose3D& pose, std::uint64_t& hash)
+{
+  for (const double value : {pose.x(), pose.y(), pose.z(), pose.yaw(), pose.pitch(), pose.roll()})
+  {
+    mixIn(value, hash);
+  }
+}
+
+/// Of the ranges only a few are looked at: every particle asks.
+void mixIn(const CObservation2DRangeScan& scan, std::uint64_t& hash)
 {
   constexpr std::size_t kSamples = 16;
+  const std::size_t n = scan.getScanSize();
+  mixIn(n, hash);
+  mixIn(scan.sensorPose, hash);
+  mixIn(static_cast<double>(scan.aperture), hash);
+  mixIn(static_cast<double>(scan.maxRange), hash);
+  mixIn(std::uint64_t{scan.rightToLeft}, hash);
+  const std::size_t stride = std::max<std::size_t>(1, n / kSamples);
+  for (std::size_t i = 0; i < n; i += stride)
+  {
+    mixIn(static_cast<double>(scan.getScanRange(i)), hash);
+    mixIn(std::uint64_t{scan.getScanRangeValidity(i)}, hash);
+  }
+}
+
+void mixIn(const CObservationBearingRange& landmarks, std::uint64_t& hash)
+{
+  mixIn(landmarks.sensorLocationOnRobot, hash);
+  for (const auto& measured : landmarks.sensedData)
+  {
+    for (const float value : {measured.range, measured.yaw, measured.pitch})
+    {
+      mixIn(static_cast<double>(value), hash);
+    }
+  }
+}
+
+/// Tells observations, and what is made of them, apart. An address alone would not do: freed memory
+/// is used again.
+std::uint64_t fingerprintOf(const CObservation& observation, std::size_t max_points)
+{
   std::uint64_t hash = 1;
-  mixIn(reinterpret_cast<std::uintptr_t>(&observation), hash);
+  mixIn(max_points, hash);
+  mixIn(std::uint64_t{reinterpret_cast<std::uintptr_t>(&observation)}, hash);
   mixIn(static_cast<std::uint64_t>(observation.timestamp.time_since_epoch().count()), hash);
   if (const auto* scan = dynamic_cast<const CObservation2DRangeScan*>(&observation))
   {
-    const std::size_t n = scan->getScanSize();
-    mixIn(n, hash);
-    mixIn(bitsOf(scan->sensorPose.x()) ^ bitsOf(scan->sensorPose.yaw()), hash);
-    const std::size_t stride = std::max<std::size_t>(1, n / kSamples);
-    for (std::size_t i = 0; i < n; i += stride)
-    {
-      mixIn(bitsOf(static_cast<double>(scan->getScanRange(i))), hash);
-    }
+    mixIn(*scan, hash);
   }
   if (const auto* landmarks = dynamic_cast<const CObservationBearingRange*>(&observation))
   {
-    for (const auto& measured : landmarks->sensedData)
-    {
-      mixIn(bitsOf(static_cast<double>(measured.range)), hash);
-    }
+    mixIn(*landmarks, hash);
   }
   return hash;
 }
@@ -213,7 +242,8 @@ bool SignatureMap::internal_canComputeObservationLikelihood(const CObservation& 
 std::shared_ptr<const SignatureMap::PreparedObservation> SignatureMap::prepared(
     const CObservation& observation) const
 {
-  const std::uint64_t fingerprint = fingerprintOf(observation);
+  const std::size_t max_points = likelihood_options.points.max_points;
+  const std::uint64_t fingerprint = fingerprintOf(observation, max_points);
   const std::lock_guard<std::mutex> lock(learnt_.mutex);
   auto& kept = learnt_.observations;
   for (const auto& entry : kept)
@@ -222,7 +252,6 @@ std::shared_ptr<const SignatureMap::PreparedObservation> SignatureMap::prepared(
   }
   auto made = std::make_shared<PreparedObservation>();
   made->fingerprint = fingerprint;
-  const std::size_t max_points = likelihood_options.points.max_points;
   if (const auto* range_scan = dynamic_cast<const CObservation2DRangeScan*>(&observation))
   {
     const auto scan = toLaserScan(*range_scan);

@@ -13,7 +13,6 @@
 #include "sigloc/bridge/pose_pdf.h"
 #include "sigloc/bridge/scan_conversion.h"
 #include "sigloc/bridge/SignatureMap.h"
-#include "sigloc/features/FeatureExtractor.h"
 
 namespace sigloc
 {
@@ -28,10 +27,10 @@ constexpr double kGathered = 0.5;  // [m], particles within are a pose that the 
 constexpr double kGatheredAngle = 0.5;  // [rad]
 constexpr std::size_t kCompared = 16;  // particles that tell whether the caller has set them anew
 
-ObservedScene sceneOf(const CSensoryFrame* frame)
+ObservedScene sceneOf(const CSensoryFrame* frame, const FeatureExtractorOptions& extraction)
 {
   if (frame == nullptr) return {};
-  ObservedScene scene = observeScene(laserScansOf(*frame));
+  ObservedScene scene = observeScene(laserScansOf(*frame), extraction);
   const std::vector<Feature> landmarks = landmarksOf(*frame);
   scene.features.insert(scene.features.end(), landmarks.begin(), landmarks.end());
   return scene;
@@ -90,6 +89,12 @@ void SignatureMonteCarlo2D::useMatcher(std::shared_ptr<const SignatureMatcher> m
   own_matcher_ = matcher_ == nullptr;
 }
 
+void SignatureMonteCarlo2D::useExtraction(const FeatureExtractorOptions& extraction)
+{
+  checkOptions(extraction);
+  extraction_ = extraction;
+}
+
 void SignatureMonteCarlo2D::forget(const std::optional<PoseRegion>& region)
 {
   lost_ = true;
@@ -142,7 +147,7 @@ void SignatureMonteCarlo2D::step(const CActionCollection* action, const CSensory
 {
   const SignatureMatcher& signatures = matcher();
   noticeReset();
-  const ObservedScene scene = sceneOf(observation);
+  const ObservedScene scene = sceneOf(observation, extraction_);
   const bool blind = scene.beams.size() < signatures.options().min_beams && scene.features.empty();
   double travel = predictModes(action);
   // Evidence is paid out per distance: the errors of map and scan stay the same for a stretch.

@@ -53,6 +53,7 @@ void requireFile(const std::filesystem::path& path)
 {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
+  if (status.type() == std::filesystem::file_type::none) fail(path, error.message());
   if (!std::filesystem::exists(status)) fail(path, "no such file");
   if (std::filesystem::is_directory(status)) fail(path, "is a folder, not a file");
   if (!std::ifstream(path, std::ios::binary)) fail(path, "cannot be read");

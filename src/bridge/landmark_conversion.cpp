@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sensor_mount.h"
 #include "sigloc/bridge/scan_conversion.h"
 
 namespace sigloc
@@ -13,6 +14,18 @@ using mrpt::obs::CObservationBearingRange;
 
 constexpr double kMinSigmaRange = 0.01;  // [m], where the log gives none
 constexpr double kMinSigmaBearing = 0.1 * M_PI / 180.0;  // [rad]
+
+/// What a log says of a variance, where that makes sense, and at least the square of `least`.
+double varianceOr(double given, double least)
+{
+  return std::isfinite(given) ? std::max(given, least * least) : least * least;
+}
+
+bool isUsable(const CObservationBearingRange::TMeasurement& measured)
+{
+  return measured.range > 0 && static_cast<double>(measured.range) <= kFarthestReturn &&
+         std::isfinite(measured.yaw) && std::isfinite(measured.pitch);
+}
 
 Feature toPoint(const CObservationBearingRange& observation,
                 const CObservationBearingRange::TMeasurement& measured)
@@ -36,8 +49,8 @@ Feature toPoint(const CObservationBearingRange& observation,
     range_variance = measured.covariance(0, 0);
     bearing_variance = measured.covariance(1, 1);
   }
-  range_variance = std::max(range_variance, kMinSigmaRange * kMinSigmaRange);
-  bearing_variance = std::max(bearing_variance, kMinSigmaBearing * kMinSigmaBearing);
+  range_variance = varianceOr(range_variance, kMinSigmaRange);
+  bearing_variance = varianceOr(bearing_variance, kMinSigmaBearing);
 
   // Along and across the line of sight, seen from above.
   const auto rotation = pose.getRotationMatrix();
@@ -59,11 +72,10 @@ Feature toPoint(const CObservationBearingRange& observation,
 std::vector<Feature> landmarksOf(const CObservationBearingRange& observation)
 {
   std::vector<Feature> landmarks;
+  if (!detail::isSensorMount(observation.sensorLocationOnRobot)) return landmarks;
   for (const auto& measured : observation.sensedData)
   {
-    const bool usable = std::isfinite(measured.range) && measured.range > 0 &&
-                        std::isfinite(measured.yaw) && std::isfinite(measured.pitch);
-    if (usable) landmarks.push_back(toPoint(observation, measured));
+    if (isUsable(measured)) landmarks.push_back(toPoint(observation, measured));
   }
   return landmarks;
 }

@@ -12,11 +12,13 @@
 #include <iterator>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "gzip_input.h"
 #include "map_reach.h"
 #include "map_source_readers.h"
+#include "sigloc/bridge/counted.h"
 #include "sigloc/bridge/scan_conversion.h"
 #include "sigloc/bridge/sigmap_file.h"
 #include "sigloc/config/TextStream.h"
@@ -111,6 +113,11 @@ std::string digestOf(const MapBuildingOptions& building, const FeatureExtractorO
   return mrpt::system::md5(text.str());
 }
 
+bool isFinite(const mrpt::poses::CPose2D& pose)
+{
+  return std::isfinite(pose.x()) && std::isfinite(pose.y()) && std::isfinite(pose.phi());
+}
+
 MapProvenance provenanceOf(const std::filesystem::path& path, const MapBuildingOptions& building,
                            const FeatureExtractorOptions& extraction)
 {
@@ -149,14 +156,41 @@ std::vector<PosedScans> posedScansOf(const mrpt::maps::CSimpleMap& simplemap)
     const auto [pose, frame] = simplemap.get(i);
     if (!pose || !frame) continue;
     const mrpt::poses::CPose2D mean(pose->getMeanVal());
-    const bool finite =
-        std::isfinite(mean.x()) && std::isfinite(mean.y()) && std::isfinite(mean.phi());
     PosedScans posed;
     posed.map_from_robot = mean.asTPose();
     posed.scans = laserScansOf(*frame);
-    if (finite && !posed.scans.empty()) posed_scans.push_back(std::move(posed));
+    if (isFinite(mean) && !posed.scans.empty()) posed_scans.push_back(std::move(posed));
   }
   return posed_scans;
+}
+
+std::string warningOfMapSource(const std::filesystem::path& path)
+{
+  constexpr double kOneFloor = 0.5;  // [m]
+  if (formatOf(path) != Format::simplemap) return {};
+  mrpt::maps::CSimpleMap simplemap;
+  detail::readObjectFile(path, simplemap);
+  std::size_t nowhere = 0;
+  std::vector<double> heights;
+  for (std::size_t i = 0; i < simplemap.size(); ++i)
+  {
+    const auto pose = std::get<0>(simplemap.get(i));
+    if (!pose) continue;
+    const mrpt::poses::CPose3D mean = pose->getMeanVal();
+    if (!isFinite(mrpt::poses::CPose2D(mean)))
+    {
+      ++nowhere;
+    }
+    else if (std::isfinite(mean.z()))
+    {
+      heights.push_back(mean.z());
+    }
+  }
+  if (nowhere > 0) return counted(nowhere, "key frame") + " left out, whose pose is no number";
+  if (heights.empty()) return {};
+  const auto [lowest, highest] = std::minmax_element(heights.begin(), heights.end());
+  if (*highest - *lowest <= kOneFloor) return {};
+  return "its key frames are at heights that differ; all are taken to be on one floor";
 }
 
 namespace detail

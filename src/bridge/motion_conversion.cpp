@@ -22,6 +22,7 @@ namespace
 {
 constexpr double kMinSigmaXy = 0.001;  // [m]
 constexpr double kMinSigmaPhi = 0.05 * M_PI / 180.0;  // [rad]
+constexpr double kMaxVariance = 1e4;  // [m^2, rad^2], what claims more tells nothing
 
 bool isFinite(const CPose2D& pose)
 {
@@ -31,7 +32,8 @@ bool isFinite(const CPose2D& pose)
 bool isCovariance(const CMatrixDouble33& matrix)
 {
   const auto m = matrix.asEigen();
-  return m.allFinite() && (m - m.transpose()).norm() < 1e-6 * (1.0 + m.norm()) &&
+  return m.allFinite() && m.diagonal().maxCoeff() <= kMaxVariance &&
+         (m - m.transpose()).norm() < 1e-6 * (1.0 + m.norm()) &&
          Eigen::LLT<Eigen::Matrix3d>(m).info() == Eigen::Success;
 }
 

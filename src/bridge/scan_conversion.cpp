@@ -5,18 +5,27 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sensor_mount.h"
+
 namespace sigloc
 {
 namespace
 {
 constexpr double kMaxTilt = 10.0 * M_PI / 180.0;  // [rad]
 constexpr double kDefaultRangeSigma = 0.01;  // [m], where the log gives none
+constexpr double kMaxRangeSigma = 1.0;  // [m], what claims more is taken to give none
+
+double rangeSigmaOf(const mrpt::obs::CObservation2DRangeScan& scan)
+{
+  const auto sigma = static_cast<double>(scan.stdError);
+  return sigma > 0 && sigma <= kMaxRangeSigma ? sigma : kDefaultRangeSigma;
+}
 }  // namespace
 
 std::optional<LaserScan> toLaserScan(const mrpt::obs::CObservation2DRangeScan& scan)
 {
   const std::size_t n = scan.getScanSize();
-  if (n < 2) return std::nullopt;
+  if (n < 2 || !detail::isSensorMount(scan.sensorPose)) return std::nullopt;
 
   // The third column of the rotation is the scan plane's normal: up, down (upside-down mounting) or
   // tilted, in which case the planar model does not hold.
@@ -27,10 +36,10 @@ std::optional<LaserScan> toLaserScan(const mrpt::obs::CObservation2DRangeScan& s
 
   LaserScan out;
   out.angle_step = static_cast<double>(scan.aperture) / static_cast<double>(n - 1);
-  if (!(out.angle_step > 0)) return std::nullopt;
+  if (!(out.angle_step > 0 && std::isfinite(out.angle_step))) return std::nullopt;
   out.first_angle = -0.5 * static_cast<double>(scan.aperture);
-  out.max_range = static_cast<double>(scan.maxRange);
-  out.range_sigma = scan.stdError > 0 ? static_cast<double>(scan.stdError) : kDefaultRangeSigma;
+  out.max_range = std::min(static_cast<double>(scan.maxRange), kFarthestReturn);
+  out.range_sigma = rangeSigmaOf(scan);
   out.robot_from_sensor = {scan.sensorPose.x(), scan.sensorPose.y(),
                            std::atan2(rotation(1, 0), rotation(0, 0))};
   out.ranges.resize(n);
@@ -39,7 +48,7 @@ std::optional<LaserScan> toLaserScan(const mrpt::obs::CObservation2DRangeScan& s
   {
     const float range = scan.getScanRange(i);
     const bool usable =
-        scan.getScanRangeValidity(i) && std::isfinite(range) && range > 0 && range < scan.maxRange;
+        scan.getScanRangeValidity(i) && range > 0 && static_cast<double>(range) < out.max_range;
     out.ranges[i] = usable ? range : 0.0F;
     out.valid[i] = usable ? 1 : 0;
   }

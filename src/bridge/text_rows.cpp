@@ -13,6 +13,7 @@ namespace sigloc::detail
 namespace
 {
 constexpr std::string_view kSeparators = " \t,;\r";
+constexpr std::string_view kUtf8Mark = "\xEF\xBB\xBF";
 constexpr std::size_t kChunkBytes = 1U << 20U;
 }  // namespace
 
@@ -33,6 +34,8 @@ std::vector<std::string> readLines(const std::filesystem::path& path)
   {
     throw std::runtime_error(path.string() + ": not a text file");
   }
+  // Some editors begin UTF-8 with a mark.
+  if (text.compare(0, kUtf8Mark.size(), kUtf8Mark) == 0) text.erase(0, kUtf8Mark.size());
   std::vector<std::string> lines;
   for (std::size_t begin = 0; begin < text.size();)
   {

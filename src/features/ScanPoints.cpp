@@ -58,7 +58,7 @@ ScanPoints validPoints(const LaserScan& scan, const FeatureExtractorOptions& opt
   ScanPoints out;
   out.beam_count = n;
   out.beam_spacing = scan.angle_step;
-  out.max_range = scan.max_range;
+  out.max_range = std::min(scan.max_range, kFarthestReturn);
   out.closed = coversFullCircle(scan);
   out.points.reserve(n);
   out.ranges.reserve(n);
@@ -67,7 +67,7 @@ ScanPoints validPoints(const LaserScan& scan, const FeatureExtractorOptions& opt
   {
     const double range = static_cast<double>(scan.ranges[i]);
     if (scan.valid[i] == 0 || !std::isfinite(range) || range < options.min_range || range <= 0 ||
-        range > scan.max_range)
+        range > out.max_range)
     {
       continue;
     }

@@ -31,7 +31,7 @@ std::vector<Bearing> bearingsOf(const std::vector<TPoint2D>& points, const TPoin
   {
     const TPoint2D ray = point - origin;
     const double range = ray.norm();
-    if (!std::isfinite(range) || range <= 0) continue;
+    if (!(range > 0 && range <= kFarthestReturn)) continue;
     const double angle = std::atan2(ray.y, ray.x);
     bearings.push_back({angle < 0 ? angle + kTurn : angle, range});
   }

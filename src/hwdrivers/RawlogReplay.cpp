@@ -9,6 +9,8 @@
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/serialization/CArchive.h>
 
+#include <cstdio>
+#include <fstream>
 #include <stdexcept>
 
 IMPLEMENTS_GENERIC_SENSOR(RawlogReplay, sigloc)
@@ -29,7 +31,9 @@ void RawlogReplay::loadConfig_sensorSpecific(const mrpt::config::CConfigFileBase
 
 void RawlogReplay::initialize()
 {
-  if (!file_.open(path_)) throw std::runtime_error(path_ + ": cannot read");
+  // MRPT opens a file that is not there by asking for its size, which throws a reason of its own.
+  const bool readable = std::ifstream(path_, std::ios::binary).get() != EOF;
+  if (!readable || !file_.open(path_)) throw std::runtime_error(path_ + ": cannot read");
   m_state = ssWorking;
 }
 

@@ -51,7 +51,7 @@ void SignatureSensor::loadConfig_sensorSpecific(const CConfigFileBase& source,
   laser_ = driver == "SignatureSensor" ? nullptr : CGenericSensor::createSensorPtr(driver);
   if (!laser_)
   {
-    throw std::invalid_argument("[" + section + "] laser_driver: no such sensor: " + driver);
+    throw std::invalid_argument("section " + section + ": laser_driver: no such sensor: " + driver);
   }
   extraction_ = extractionOptions(source, section);
   laser_->loadConfig(source, section);

@@ -240,7 +240,10 @@ class QuickField::TurnedReturns
       const auto dy = static_cast<std::int32_t>(s * x_[i] + c * y_[i] + (kShift + 0.5F)) - kShift;
       turned.dx[i] = dx;
       turned.dy[i] = dy;
-      turned.flat[i] = dy * width_ + dx;
+      // Only of use where all returns fall on the raster; elsewhere it may wrap around.
+      turned.flat[i] = static_cast<std::int32_t>(static_cast<std::uint32_t>(dy) *
+                                                     static_cast<std::uint32_t>(width_) +
+                                                 static_cast<std::uint32_t>(dx));
       least_x = std::min(least_x, dx);
       most_x = std::max(most_x, dx);
       least_y = std::min(least_y, dy);

@@ -116,6 +116,34 @@ TEST(LocalizationSetup, namesTheIniAndTheReason)
   EXPECT_NE(reason("[sigloc.matcher]\nmode=9\n").find("mode"), std::string::npos);
 }
 
+TEST(LocalizationSetup, warnsOfKeysThatNothingReads)
+{
+  const TemporaryFolder folder;
+  EXPECT_TRUE(read(folder, "use_3D_poses=false\n# trackr=1\n[other]\ntrackr=1\ntrackr=2\n")
+                  .warnings.empty());
+  const auto warnings = read(folder, "trackr = particles\nTracker=particles\nmap_fil=x\n").warnings;
+  ASSERT_EQ(warnings.size(), 1U);
+  for (const char* key : {"[LocalizationExperiment]", "'trackr'", "'Tracker'", "'map_fil'"})
+  {
+    EXPECT_NE(warnings[0].find(key), std::string::npos) << warnings[0];
+  }
+  const char* const stock = "/usr/share/mrpt/config_files/pf-localization/localization_demo.ini";
+  EXPECT_TRUE(readLocalizationSetup(stock).warnings.empty());
+}
+
+TEST(LocalizationSetup, warnsOfKeysThatAreThereTwice)
+{
+  const TemporaryFolder folder;
+  const auto setup = read(folder,
+                          "rawlog_offset=3\n  rawlog_offset = 4\n"
+                          "[sigloc.matcher]\nseed=5\n; seed=6\nseed=7\n[sigloc.tracker]\n");
+  EXPECT_EQ(setup.rawlog_offset, 4U);
+  EXPECT_EQ(setup.matcher.seed, 7U);
+  ASSERT_EQ(setup.warnings.size(), 2U);
+  EXPECT_NE(setup.warnings[0].find("'rawlog_offset' is there 2 times"), std::string::npos);
+  EXPECT_NE(setup.warnings[1].find("[sigloc.matcher]: 'seed'"), std::string::npos);
+}
+
 TEST(LocalizationSetup, messagesLoseMrptsTrimmings)
 {
   EXPECT_EQ(firstLine("==== MRPT exception ====\nMessage:  It broke\nLocation: x.cpp:1\n"),

@@ -198,6 +198,86 @@ TEST(RawlogReader, TakesAnOdometryResetForNoMotion)
   EXPECT_FALSE(steps[1].motion);
 }
 
+TEST(RawlogReader, TakesAJumpOfActionsForNoMotion)
+{
+  const TemporaryFolder folder;
+  const auto path = folder / "actions.rawlog";
+  const auto small = diagonal(0.01, 0.001);
+  writeObjects(path, {makeAction({0.5, 0, 0}, small), makeFrame(makeScan(1.0)),
+                      makeAction({5e4, 0, 0}, small), makeFrame(makeScan(2.0)),
+                      makeAction({1e30, 0, 0}, small), makeFrame(makeScan(3.0)),
+                      makeAction({0.5, 0, 0}, diagonal(1e30, 0.1)), makeFrame(makeScan(4.0)),
+                      makeAction({12, 0, 0}, small), makeFrame(makeScan(5.0))});
+  RawlogReader reader(path);
+  const auto steps = readAll(reader);
+  ASSERT_EQ(steps.size(), 5U);
+  EXPECT_TRUE(steps[0].motion);
+  EXPECT_FALSE(steps[1].motion);
+  EXPECT_FALSE(steps[2].motion);
+  ASSERT_TRUE(steps[3].motion);
+  EXPECT_LT(steps[3].motion->covariance(0, 0), 1.0) << "as if the log gave none";
+  EXPECT_TRUE(steps[4].motion) << "in a second a fast robot gets there";
+  EXPECT_EQ(reader.leftOut().motions, 2U);
+}
+
+TEST(RawlogReader, LeavesOutWhatASensorCannotBe)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const float infinity = std::numeric_limits<float>::infinity();
+  const TemporaryFolder folder;
+  const auto path = folder / "actions.rawlog";
+  double time = 0;
+  std::vector<mrpt::serialization::CSerializable::Ptr> log;
+  const auto add = [&](const auto& change)
+  {
+    const auto scan = makeScan(++time);
+    change(*scan);
+    log.push_back(makeFrame(scan));
+  };
+  using Scan = mrpt::obs::CObservation2DRangeScan;
+  add([](Scan&) {});
+  add([&](Scan& scan) { scan.sensorPose = {nan, 0, 0, 0, 0, 0}; });
+  add([&](Scan& scan) { scan.sensorPose = {0, 0, 0, nan, 0, 0}; });
+  add([&](Scan& scan) { scan.sensorPose = {1e30, 0, 0, 0, 0, 0}; });
+  add([&](Scan& scan) { scan.aperture = infinity; });
+  add([&](Scan& scan) { scan.stdError = infinity; });
+  add(
+      [&](Scan& scan)
+      {
+        scan.maxRange = 3e38F;
+        scan.setScanRange(7, 1e38F);
+      });
+  writeObjects(path, log);
+  RawlogReader reader(path);
+  const auto steps = readAll(reader);
+  ASSERT_EQ(steps.size(), 3U);
+  EXPECT_EQ(reader.leftOut().observations, 4U);
+  EXPECT_LT(steps[1].scans[0].range_sigma, 0.1) << "as if the log gave none";
+  EXPECT_EQ(steps[2].scans[0].valid[7], 0);
+  EXPECT_EQ(steps[2].scans[0].valid[8], 1);
+}
+
+TEST(RawlogReader, LeavesOutLandmarksThatMakeNoSense)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  auto sound = mrpt::obs::CObservationBearingRange::Create();
+  sound->validCovariances = true;
+  sound->sensedData.resize(2);
+  sound->sensedData[0] = {4.0F, 0.0F, 0.0F, 7, {}};
+  sound->sensedData[0].covariance(0, 0) = nan;
+  sound->sensedData[1] = {1e30F, 0.0F, 0.0F, 8, {}};
+  auto lost = mrpt::obs::CObservationBearingRange::Create(*sound);
+  lost->sensorLocationOnRobot = mrpt::poses::CPose3D(nan, 0, 0, 0, 0, 0);
+  const TemporaryFolder folder;
+  writeObjects(folder / "l.rawlog", {makeFrame(sound), makeFrame(lost)});
+  RawlogReader reader(folder / "l.rawlog");
+  const auto steps = readAll(reader);
+  ASSERT_EQ(steps.size(), 1U);
+  ASSERT_EQ(steps[0].landmarks.size(), 1U);
+  EXPECT_GT(steps[0].landmarks[0].position_covariance(0, 0), 0);
+  EXPECT_EQ(reader.leftOut().observations, 1U);
+}
+
 TEST(RawlogReader, TurnsBearingsAndRangesIntoPoints)
 {
   auto observation = mrpt::obs::CObservationBearingRange::Create();

@@ -122,6 +122,27 @@ TEST(BadInput, mapWithoutFeaturesIsRefused)
                 "bad.simplemap");
 }
 
+// As an unreadable folder would, a loop of links keeps the system from telling whether a file is
+// there.
+TEST(BadInput, whatCannotBeReachedSaysWhy)
+{
+  const TemporaryFolder folder;
+  std::filesystem::create_symlink("loop", folder / "loop");
+  writeConfig(folder, kLabMap.string(), "loop/a.rawlog");
+  const auto before = listing(folder);
+  const auto result = localize(folder);
+  expectRefused(folder, before, result, "loop/a.rawlog: Too many levels");
+  expectRefused(folder, before, run(folder, "sigloc-localize", {"loop/run.ini", "--quiet"}),
+                "loop/run.ini: Too many levels");
+}
+
+TEST(BadInput, unknownCommandIsNamed)
+{
+  const TemporaryFolder folder;
+  expectRefused(folder, {}, run(folder, "sigloc-eval", {"nosuch"}), "no such command: nosuch");
+  expectRefused(folder, {}, run(folder, "sigloc-eval", {"relocate"}), "required");
+}
+
 TEST(BadInput, unknownKeyIsNamed)
 {
   const TemporaryFolder folder;

@@ -239,6 +239,31 @@ TEST(Localize, saysThatATruncatedLogWasCovered)
   EXPECT_TRUE(std::filesystem::exists(folder / "out/annotated.rawlog"));
 }
 
+TEST(Localize, leavesOutWhatIsBrokenAndSaysSo)
+{
+  const TemporaryFolder folder;
+  std::vector<mrpt::serialization::CSerializable::Ptr> log;
+  for (int i = 0; i < 4; ++i)
+  {
+    mrpt::math::CMatrixDouble33 covariance;
+    log.push_back(makeAction({i == 2 ? 1e30 : 0.1, 0, 0}, covariance));
+    const auto scan = makeScan(i);
+    if (i == 1) scan->sensorPose = {std::nan(""), 0, 0, 0, 0, 0};
+    log.push_back(makeFrame(scan));
+  }
+  writeObjects(folder / "broken.rawlog", log);
+  writeConfig(folder, "broken.rawlog");
+  const CommandResult result = localize(folder);
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(countLines(result.errors), 1) << result.errors;
+  for (const char* told : {"broken.rawlog", "1 observation left out", "1 motion taken for unknown"})
+  {
+    EXPECT_NE(result.errors.find(told), std::string::npos) << result.errors;
+  }
+  EXPECT_EQ(summaryOf(folder)["steps"], 3);
+  EXPECT_LT(summaryOf(folder)["distance"], 1.0);
+}
+
 TEST(Localize, takesAScanWithoutAnyValidBeam)
 {
   const TemporaryFolder folder;
@@ -251,6 +276,18 @@ TEST(Localize, takesAScanWithoutAnyValidBeam)
   EXPECT_EQ(result.errors, "");
   EXPECT_EQ(summaryOf(folder)["final_verdict"], "too little seen");
   EXPECT_TRUE(summaryOf(folder)["final_pose"].is_null());
+}
+
+TEST(Localize, knowsNoDistanceWithoutOdometry)
+{
+  const TemporaryFolder folder;
+  writeObjects(folder / "still.rawlog", {makeScan(1), makeScan(2), makeScan(3)});
+  writeConfig(folder, "still.rawlog");
+  const CommandResult result = localize(folder);
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_NE(result.output.find("3 steps, distance unknown"), std::string::npos) << result.output;
+  EXPECT_TRUE(summaryOf(folder)["distance_m"].is_null());
+  EXPECT_TRUE(summaryOf(folder)["meters_to_localized"].is_null());
 }
 
 TEST(Localize, runsStockConfigurationsUnchanged)

@@ -181,6 +181,23 @@ TEST(ParticleTracker, RefusesTooManyParticlesBeforeItMakesThem)
   EXPECT_THROW(ParticleTracker(office.map, matcher, {}, options), std::invalid_argument);
 }
 
+TEST(ParticleTracker, SeesFeaturesAsItIsTold)
+{
+  const Office office;
+  const auto matcher = std::make_shared<const SignatureMatcher>(office.map->featureMap());
+  const auto endOf = [&](double min_segment_length)
+  {
+    FeatureExtractorOptions extraction;
+    extraction.min_segment_length = min_segment_length;
+    ParticleTracker tracker(office.map, matcher, {}, {}, kSeed, extraction);
+    tracker.step(office.steps[0]);
+    const Belief& belief = tracker.filter().belief();
+    return belief.hypotheses.empty() ? TPose2D() : belief.hypotheses.front().pose.mean;
+  };
+  EXPECT_EQ(endOf(0.25), endOf(0.25));
+  EXPECT_NE(endOf(0.25), endOf(6));
+}
+
 TEST(ParticleModes, AreTheirParticlesMoments)
 {
   mrpt::poses::CPosePDFParticles particles(4);

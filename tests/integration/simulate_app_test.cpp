@@ -48,6 +48,21 @@ TEST(SimulateApp, WritesEveryWorldTheSameTwice)
   }
 }
 
+TEST(SimulateApp, NamesTheFlagThatIsBad)
+{
+  for (const auto& [arguments, flag] :
+       {std::pair{"--seed -1", "--seed"}, std::pair{"--drive-seed -1", "--drive-seed"},
+        std::pair{"--noise -1", "--noise"}, std::pair{"--range nan", "--range"},
+        std::pair{"--odometry-a1 1e9", "--odometry-a1"}})
+  {
+    const test::TemporaryFolder folder;
+    EXPECT_NE(simulate(folder, std::string(arguments) + " --out " + (folder / "new").string()), 0);
+    const std::string error = test::readBytes(folder / "err");
+    EXPECT_NE(error.find(flag), std::string::npos) << error;
+    EXPECT_FALSE(fs::exists(folder / "new"));
+  }
+}
+
 TEST(SimulateApp, BadArgumentsGiveOneLineAndNothingElse)
 {
   for (const char* arguments :

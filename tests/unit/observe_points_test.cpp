@@ -83,4 +83,17 @@ TEST(ObservePoints, SkipsWhatIsNoPoint)
   EXPECT_TRUE(observePoints({}).features.empty());
   EXPECT_TRUE(observePoints({{nan, 1}, {0, 0}}).beams.empty());
   EXPECT_EQ(observePoints({{1, 1}, {nan, 2}}).beams.size(), 1U);
+  EXPECT_EQ(observePoints({{1, 1}, {1e30, 2}}).beams.size(), 1U);
+}
+
+// The first look counted their cells beyond what a whole number holds.
+TEST(ObserveScene, SeesNoReturnBeyondTheFarthest)
+{
+  LaserScan scan = roomScan();
+  const std::size_t all = observeScene({scan}).beams.size();
+  scan.max_range = 3e38;
+  scan.ranges[10] = 1e38F;
+  scan.ranges[20] = 2e4F;
+  scan.ranges[30] = 9e3F;
+  EXPECT_EQ(observeScene({scan}).beams.size(), all - 2);
 }

@@ -69,7 +69,7 @@ TEST(OptionFields, absentKeysKeepTheDefaultsAndPresentOnesAreRead)
 
 TEST(OptionFields, unknownKeyIsNamedWithItsSection)
 {
-  EXPECT_EQ(refusal("gaet = 3\n"), "[sigloc.example]: unknown key 'gaet'");
+  EXPECT_EQ(refusal("gaet = 3\n"), "section sigloc.example: unknown key 'gaet'");
 }
 
 TEST(OptionFields, valuesThatAreNotOfTheFieldsTypeAreRefused)

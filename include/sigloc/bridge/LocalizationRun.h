@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sigloc/bridge/LocalizationSetup.h"
+#include "sigloc/bridge/RawlogReader.h"
 #include "sigloc/features/ObservedScene.h"
 #include "sigloc/tracking/Belief.h"
 
@@ -30,6 +31,7 @@ struct StepRecord
   std::size_t entry = 0;  ///< RawlogStep::entry
   double time = 0;  ///< [s]
   double travelled = 0;  ///< [m] by odometry, up to and with this step
+  bool travel_known = true;  ///< false where odometry has told of no motion yet
   mrpt::math::TPose2D odometry;  ///< dead reckoning from LocalizationSetup::initial_odometry
   Belief belief;
   bool relocated = false;
@@ -45,9 +47,9 @@ struct StepRecord
 struct RunSummary
 {
   std::size_t steps = 0;
-  double distance = 0;  ///< [m]
+  double distance = 0;  ///< [m], NaN for a log without odometry
   std::optional<std::size_t> steps_to_first_right;  ///< none where the path's truth is unknown
-  std::optional<double> metres_to_first_right;
+  std::optional<double> metres_to_first_right;  ///< none without odometry, too
   std::optional<std::size_t> steps_to_localized;
   std::optional<double> metres_to_localized;
   std::optional<PoseError> final_error;  ///< at the last step that has a truth
@@ -64,6 +66,7 @@ struct RunSummary
   bool map_reused = false;
   double map_seconds = 0;  ///< to build the map, or to load it
   std::uint32_t seed = 0;
+  LeftOutOfLog left_out;
   bool truncated = false;  ///< the rawlog broke off: everything covers what was read
 };
 

@@ -76,6 +76,8 @@ struct LocalizationSetup
   FeatureExtractorOptions features;
   MapBuildingOptions map;
   ReportOptions report;
+  /// On the ini: keys of [LocalizationExperiment] that nothing reads, and keys given repeatedly.
+  std::vector<std::string> warnings;
 
   /// Every file that a run reads. Throws as filesOfMapSource() does.
   std::vector<std::filesystem::path> inputFiles() const;
@@ -87,11 +89,11 @@ struct LocalizationSetup
 /// ground_truth_path_file, logOutput_dir, 3DSceneFrequency, experimentRepetitions,
 /// experimentTestConvergenceAtStep, STATS_CONF_INTERVAL, initial_odo_*, init_PDF_*, and `tracker`,
 /// gaussians or particles; with particles, particles_count too) and our [sigloc.*] sections. What
-/// else belongs to the particle filter is accepted and ignored. A file name is looked up in the
-/// ini's folder, then in the current one; logOutput_dir is relative to the current folder. `rawlog`
-/// replaces rawlog_file when given. Throws std::runtime_error naming the ini and the reason:
-/// unreadable, no such section, a named file that does not exist, an unknown [sigloc.*] section or
-/// key, a bad value.
+/// else belongs to the particle filter is accepted and ignored; of other keys there is a warning. A
+/// file name is looked up in the ini's folder, then in the current one; logOutput_dir is relative
+/// to the current folder. `rawlog` replaces rawlog_file when given. Throws std::runtime_error
+/// naming the ini and the reason: unreadable, no such section, a named file that does not exist, an
+/// unknown [sigloc.*] section or key, a bad value.
 LocalizationSetup readLocalizationSetup(const std::filesystem::path& ini,
                                         const std::filesystem::path& rawlog = {});
 

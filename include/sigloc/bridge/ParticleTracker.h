@@ -50,7 +50,7 @@ class ParticleTracker
   ParticleTracker(std::shared_ptr<const SignatureMap> map,
                   std::shared_ptr<const SignatureMatcher> matcher,
                   const TrackerOptions& tracking = {}, const ParticleOptions& options = {},
-                  std::uint32_t seed = 1);
+                  std::uint32_t seed = 1, const FeatureExtractorOptions& extraction = {});
 
   /// Advances by one step and returns the belief after it. Without a motion a wide prior is used.
   const Belief& step(const RawlogStep& step);

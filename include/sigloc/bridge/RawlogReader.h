@@ -21,7 +21,7 @@ namespace sigloc
 struct RawlogStep
 {
   double time = 0;  ///< [s] since the epoch of the log's clock
-  std::optional<MotionIncrement> motion;  ///< none when the log has no odometry
+  std::optional<MotionIncrement> motion;  ///< none when the log has no odometry, or a broken one
   std::vector<LaserScan> scans;
   std::vector<Feature> landmarks;  ///< from CObservationBearingRange, without identities
   std::size_t entry = 0;  ///< index of the log's object that completed the step, from 0
@@ -29,6 +29,13 @@ struct RawlogStep
   /// What the log itself says of the motion, for MRPT's own filter; null unless exactly one action
   /// collection led here.
   mrpt::obs::CActionCollection::Ptr actions;
+};
+
+/// What of a log makes no sense and was taken for not being there.
+struct LeftOutOfLog
+{
+  std::size_t observations = 0;  ///< scans that toLaserScan() refuses, landmarks of such a sensor
+  std::size_t motions = 0;  ///< not finite, or farther than any robot drives between two steps
 };
 
 /// Reads a rawlog step by step, both kinds: action/sensory-frame pairs, and observations only as
@@ -49,6 +56,8 @@ class RawlogReader
 
   /// True when reading ended before the end of the file: outputs cover what was read.
   bool truncated() const;
+  /// Of what was read so far.
+  const LeftOutOfLog& leftOut() const;
   /// Share of the file read so far, in [0, 1].
   double progress() const;
 

@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "sigloc/features/FeatureExtractor.h"
 #include "sigloc/features/ObservedScene.h"
 #include "sigloc/matching/SignatureMatcher.h"
 #include "sigloc/tracking/Belief.h"
@@ -41,6 +42,10 @@ class SignatureMonteCarlo2D : public mrpt::slam::CMonteCarloLocalization2D
 
   /// Uses a matcher made before instead of making one of the SignatureMap at the first step.
   void useMatcher(std::shared_ptr<const SignatureMatcher> matcher);
+
+  /// Sees features in scans with these options instead of the defaults; throws
+  /// std::invalid_argument for options outside their ranges.
+  void useExtraction(const FeatureExtractorOptions& extraction);
 
   /// Declares the robot lost, anywhere or within a region.
   void forget(const std::optional<PoseRegion>& region = std::nullopt);
@@ -89,6 +94,7 @@ class SignatureMonteCarlo2D : public mrpt::slam::CMonteCarloLocalization2D
 
   std::size_t particles_when_lost_;
   TrackerOptions tracking_;
+  FeatureExtractorOptions extraction_;
   std::shared_ptr<const SignatureMatcher> matcher_;
   bool own_matcher_ = true;
   bool lost_ = true;

@@ -24,6 +24,10 @@ using MapSource = std::variant<std::vector<PosedScans>, OccupancyRaster, Feature
 /// foreign or unusable file, and for a map that reaches farther than 100 km from its origin.
 MapSource readMapSource(const std::filesystem::path& path);
 
+/// Returns a line on the key frames of a simplemap that are not used as they are, left out or taken
+/// for being on one floor; empty for none, and for other map sources. The same errors.
+std::string warningOfMapSource(const std::filesystem::path& path);
+
 /// Returns the files that a map source is read from: `path`, and the image that a ROS map names.
 /// Throws std::runtime_error ("path: reason") for a ROS map that cannot be read.
 std::vector<std::filesystem::path> filesOfMapSource(const std::filesystem::path& path);

@@ -15,15 +15,18 @@
 namespace sigloc
 {
 /// Returns the scan in the core's form: counter-clockwise (clockwise and upside-down scans are
-/// reversed), NaN, infinite, non-positive and max-range beams invalid. Returns nullopt for a scan
-/// whose plane is tilted by more than 10 degrees or that has fewer than two beams.
+/// reversed), NaN, infinite, non-positive and max-range beams invalid, those beyond kFarthestReturn
+/// too. A noise of none or more than a metre counts as not given. Returns nullopt for a scan whose
+/// plane is tilted by more than 10 degrees, that has fewer than two beams, or whose aperture or
+/// sensor pose is not finite or, the latter, more than 100 m from the robot.
 std::optional<LaserScan> toLaserScan(const mrpt::obs::CObservation2DRangeScan& scan);
 
 /// Returns all usable 2D scans of a sensory frame.
 std::vector<LaserScan> laserScansOf(const mrpt::obs::CSensoryFrame& frame);
 
 /// Returns the landmarks of an observation as points in the robot frame with their covariances,
-/// without identities. Non-finite and non-positive ranges are skipped.
+/// without identities. Non-finite and non-positive ranges and those beyond kFarthestReturn are
+/// skipped, as is all of an observation with such a sensor pose as toLaserScan() refuses.
 std::vector<Feature> landmarksOf(const mrpt::obs::CObservationBearingRange& observation);
 
 /// Returns the landmarks of all CObservationBearingRange of a sensory frame.

@@ -117,7 +117,8 @@ Options loadOptions(const mrpt::config::CConfigFileBase& ini, const std::string&
   {
     if (known_set.count(key) == 0)
     {
-      throw std::invalid_argument("[" + section + "]: unknown key '" + key + "'");
+      // Without brackets: MRPT's programs take what comes before one for a place in the source.
+      throw std::invalid_argument("section " + section + ": unknown key '" + key + "'");
     }
   }
   Options options = defaults;
@@ -130,7 +131,7 @@ Options loadOptions(const mrpt::config::CConfigFileBase& ini, const std::string&
         const std::optional<T> value = detail::parseValue<T>(text);
         if (!value)
         {
-          throw std::invalid_argument("[" + section + "]: bad value '" + text + "' for '" +
+          throw std::invalid_argument("section " + section + ": bad value '" + text + "' for '" +
                                       field.key + "'");
         }
         options.*(field.member) = *value;

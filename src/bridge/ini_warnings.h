@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mrpt/config/CConfigFileBase.h>
+
+#include <string>
+#include <vector>
+
+namespace sigloc::detail
+{
+/// Returns a line on the keys of a section that neither sigloc nor pf-localization reads from
+/// [LocalizationExperiment]; empty for none. They are no error: pf-localization ignores them.
+std::string warningOfUnreadKeys(const mrpt::config::CConfigFileBase& ini,
+                                const std::string& section);
+
+/// Returns a line for each key of the named sections that the text of an ini gives several times.
+std::vector<std::string> warningsOfRepeatedKeys(const std::string& text,
+                                                const std::vector<std::string>& sections);
+}  // namespace sigloc::detail
