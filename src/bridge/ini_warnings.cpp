@@ -17,7 +17,7 @@ constexpr const char* kSpaces = " \t\r";
 // pf-localization 2.5.8 reads all of them but `tracker`.
 const std::set<std::string>& readKeys()
 {
-  static const std::set<std::string> keys = {
+  static const std::set<std::string> kKeys = {
       "3DSceneFollowRobot",
       "3DSceneFrequency",
       "DO_RELIABILITY_ESTIMATE",
@@ -53,7 +53,7 @@ const std::set<std::string>& readKeys()
       "tracker",
       "use_3D_poses",
   };
-  return keys;
+  return kKeys;
 }
 
 std::string trimmed(const std::string& text)
@@ -97,9 +97,13 @@ std::vector<std::string> warningsOfRepeatedKeys(const std::string& text,
     if (std::exchange(goes_on, line.back() == '\\') || isComment(line)) continue;
     const std::size_t equals = line.find('=');
     if (line.front() == '[')
+    {
       section = line.substr(1, line.find(']') - 1);
+    }
     else if (equals != std::string::npos)
+    {
       ++counts[{section, trimmed(line.substr(0, equals))}];
+    }
   }
   std::vector<std::string> warnings;
   for (const auto& [key, count] : counts)
