@@ -26,10 +26,8 @@ if(SIGLOC_WERROR)
   target_compile_options(sigloc_flags INTERFACE -Werror)
 endif()
 if(SIGLOC_SANITIZE)
-  # With sanitizers g++ 12 takes members of its own <regex> for uninitialized.
   target_compile_options(sigloc_flags INTERFACE -fsanitize=${SIGLOC_SANITIZE}
-                         -fno-omit-frame-pointer -fno-sanitize-recover=all
-                         -Wno-error=maybe-uninitialized)
+                         -fno-omit-frame-pointer -fno-sanitize-recover=all)
   target_link_options(sigloc_flags INTERFACE -fsanitize=${SIGLOC_SANITIZE})
 endif()
 if(SIGLOC_COVERAGE)

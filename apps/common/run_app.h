@@ -3,6 +3,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <functional>
 #include <iostream>
 #include <stdexcept>
@@ -14,6 +15,12 @@
 
 namespace sigloc
 {
+/// Prints one line about a file on stderr, unless there is nothing to tell.
+inline void warn(const char* program, const std::filesystem::path& file, const std::string& message)
+{
+  if (!message.empty()) std::cerr << program << ": " << file.string() << ": " << message << '\n';
+}
+
 /// What every program does: parses the command line, works, and tells in one line what went wrong,
 /// output that got lost included. Returns the exit code: that of `work`, 0 after --help, else 1.
 inline int runApp(CLI::App& app, int argc, char** argv, const std::function<int()>& work)

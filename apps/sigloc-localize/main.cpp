@@ -20,6 +20,7 @@ namespace
 {
 namespace fs = std::filesystem;
 
+constexpr const char* kProgram = "sigloc-localize";
 constexpr int kTruncatedInput = 2;
 
 constexpr const char* kDefaultsHeader =
@@ -37,13 +38,6 @@ struct Arguments
   bool quiet = false;
 };
 
-/// Prints one line on stderr, unless there is nothing to tell.
-void warn(const fs::path& file, const std::string& message)
-{
-  if (message.empty()) return;
-  std::cerr << "sigloc-localize: " << file.string() << ": " << message << '\n';
-}
-
 /// Runs once, adding to `outcomes`; returns the exit code.
 int localize(const sigloc::LocalizationSetup& setup, bool quiet,
              std::vector<sigloc::ExperimentOutcome>& outcomes)
@@ -51,7 +45,8 @@ int localize(const sigloc::LocalizationSetup& setup, bool quiet,
   std::optional<sigloc::RunWriter> writer;
   if (!setup.output_folder.empty()) writer.emplace(setup.output_folder, setup.inputFiles());
   sigloc::LocalizationRun run(setup, writer ? writer->mapCache(setup.map_file) : fs::path());
-  if (!run.summary().map_reused) warn(setup.map_file, sigloc::warningOfMapSource(setup.map_file));
+  if (!run.summary().map_reused)
+    sigloc::warn(kProgram, setup.map_file, sigloc::warningOfMapSource(setup.map_file));
   std::optional<sigloc::StepPictures> pictures;
   if (writer) pictures.emplace(run);
   sigloc::Progress progress(quiet);
@@ -67,11 +62,11 @@ int localize(const sigloc::LocalizationSetup& setup, bool quiet,
   outcomes.push_back(sigloc::outcomeOf(run));
   std::cout << sigloc::summaryTable(run);
   if (writer) std::cout << "written to              " << setup.output_folder.string() << '\n';
-  warn(setup.rawlog_file, sigloc::leftOutLine(run.summary().left_out));
+  sigloc::warn(kProgram, setup.rawlog_file, sigloc::leftOutLine(run.summary().left_out));
   if (!run.summary().truncated) return 0;
-  warn(setup.rawlog_file,
-       mrpt::format("truncated or damaged after %zu steps; the results cover those",
-                    run.steps().size()));
+  sigloc::warn(kProgram, setup.rawlog_file,
+               mrpt::format("truncated or damaged after %zu steps; the results cover those",
+                            run.steps().size()));
   return kTruncatedInput;
 }
 
@@ -124,7 +119,8 @@ int runAll(const Arguments& arguments)
 {
   sigloc::LocalizationSetup setup =
       sigloc::readLocalizationSetup(arguments.config, arguments.rawlog);
-  for (const std::string& warning : setup.warnings) warn(arguments.config, warning);
+  for (const std::string& warning : setup.warnings)
+    sigloc::warn(kProgram, arguments.config, warning);
   if (arguments.output) setup.output_folder = *arguments.output;
   if (arguments.seed) setup.matcher.seed = *arguments.seed;
   const std::vector<Experiment> experiments = experimentsOf(setup);

@@ -21,6 +21,7 @@ namespace
 {
 using nlohmann::ordered_json;
 
+constexpr const char* kProgram = "sigloc-map";
 constexpr std::array<const char*, 5> kTypeNames = {"points", "segments", "circles", "corners",
                                                    "wall_ends"};
 
@@ -67,12 +68,6 @@ void checkBuildOutput(const std::filesystem::path& input, const std::filesystem:
   }
 }
 
-/// Prints one line on stderr, unless there is nothing to tell.
-void warn(const std::filesystem::path& file, const std::string& message)
-{
-  if (!message.empty()) std::cerr << "sigloc-map: " << file.string() << ": " << message << '\n';
-}
-
 void build(const std::filesystem::path& input, const std::filesystem::path& output,
            const std::filesystem::path& config)
 {
@@ -82,8 +77,8 @@ void build(const std::filesystem::path& input, const std::filesystem::path& outp
   const sigloc::FeatureMap map = sigloc::buildMapFromFile(input, setup.map, setup.features);
   if (map.empty()) throw std::runtime_error(input.string() + ": no feature found in it");
   sigloc::saveSigmap(map, output);
-  for (const std::string& warning : setup.warnings) warn(config, warning);
-  warn(input, sigloc::warningOfMapSource(input));
+  for (const std::string& warning : setup.warnings) sigloc::warn(kProgram, config, warning);
+  sigloc::warn(kProgram, input, sigloc::warningOfMapSource(input));
   std::cout << output.string() << ": " << map.features().size() << " features\n";
 }
 

@@ -9,18 +9,11 @@ namespace sigloc
 namespace
 {
 using namespace sigloc::test;
-using Arguments = std::vector<std::string>;
 
-const std::string kOffice =
-    (std::filesystem::path(SIGLOC_SHARE_FOLDER) / ".." / ".." / "maps" / "office.simplemap")
-        .string();
+const std::string kOffice = (kSources / "maps" / "office.simplemap").string();
 
-const std::string kOfficeLog =
-    (std::filesystem::path(SIGLOC_SHARE_FOLDER) / ".." / ".." / "rawlogs" / "office.rawlog")
-        .string();
-const std::string kOfficeTruth =
-    (std::filesystem::path(SIGLOC_SHARE_FOLDER) / ".." / ".." / "rawlogs" / "office-truth.txt")
-        .string();
+const std::string kOfficeLog = (kSources / "rawlogs" / "office.rawlog").string();
+const std::string kOfficeTruth = (kSources / "rawlogs" / "office-truth.txt").string();
 
 /// A call that must fail with one line on stderr that says `complaint`, and write nothing.
 struct Refusal

@@ -14,10 +14,8 @@ namespace
 {
 using namespace sigloc::test;
 using nlohmann::json;
-using Arguments = std::vector<std::string>;
 
-const std::filesystem::path kRoot = std::filesystem::path(SIGLOC_SHARE_FOLDER) / ".." / "..";
-const std::string kOffice = (kRoot / "maps" / "office.simplemap").string();
+const std::string kOffice = (kSources / "maps" / "office.simplemap").string();
 
 /// A small run of a sub-command; "LANDMARKS" stands for the folder of a small landmark log.
 struct SmallRun
@@ -83,8 +81,8 @@ TEST(EvalSummaryOfTrack, HoldsWhatDrivesAreJudgedBy)
   const TemporaryFolder folder;
   const json summary =
       summaryOf(folder, {"track", "--map", kOffice, "--rawlog",
-                         (kRoot / "rawlogs" / "office.rawlog").string(), "--ground-truth",
-                         (kRoot / "rawlogs" / "office-truth.txt").string(), "--starts", "2",
+                         (kSources / "rawlogs" / "office.rawlog").string(), "--ground-truth",
+                         (kSources / "rawlogs" / "office-truth.txt").string(), "--starts", "2",
                          "--travel", "4", "--kidnap", "--method", "signature"});
   const json& method = summary.at("methods").at("signature");
   EXPECT_EQ(method.at("queries"), 2);
@@ -172,7 +170,7 @@ void misplaceSecondRound(const std::filesystem::path& poses)
 TEST(EvalPictures, AreDrawnByEverySubCommandThatCanFail)
 {
   const TemporaryFolder folder;
-  const std::string log = (kRoot / "rawlogs" / "office.rawlog").string();
+  const std::string log = (kSources / "rawlogs" / "office.rawlog").string();
   const Arguments all[] = {
       // In a map that is said to be foreign every claim is wrong.
       {"track", "--map", kOffice, "--rawlog", log, "--foreign", "--starts", "2", "--travel", "4",

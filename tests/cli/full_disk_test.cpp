@@ -12,9 +12,6 @@ namespace
 {
 namespace fs = std::filesystem;
 using namespace sigloc::test;
-using Arguments = std::vector<std::string>;
-
-const fs::path kSources = fs::path(SIGLOC_SHARE_FOLDER) / ".." / "..";
 
 /// Runs a program whose files must not grow beyond so many bytes.
 CommandResult runLimited(const TemporaryFolder& folder, std::size_t bytes,

@@ -12,9 +12,6 @@ namespace
 {
 namespace fs = std::filesystem;
 using namespace sigloc::test;
-using Arguments = std::vector<std::string>;
-
-const fs::path kSources = fs::path(SIGLOC_SHARE_FOLDER) / ".." / "..";
 
 /// Runs a program that must leave every file as it is and name `name` in its one line.
 void expectUntouched(const TemporaryFolder& folder, const std::string& program,

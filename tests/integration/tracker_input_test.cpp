@@ -18,14 +18,7 @@ using testing::driveThrough;
 using testing::expectWellFormed;
 using testing::follow;
 using testing::isRight;
-using testing::MappedWorld;
-using testing::officeWorld;
-
-const MappedWorld& office()
-{
-  static const MappedWorld world(officeWorld(5), 5);
-  return world;
-}
+using testing::office;
 
 TEST(Tracker, TellsTheMapsCommonErrorOnce)
 {

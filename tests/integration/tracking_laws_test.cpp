@@ -20,17 +20,11 @@ using testing::driveThrough;
 using testing::expectWellFormed;
 using testing::follow;
 using testing::isRight;
+using testing::kOfficeSeed;
 using testing::MappedWorld;
+using testing::office;
 using testing::officeWorld;
 using testing::Outcome;
-
-constexpr std::uint64_t kOfficeSeed = 5;
-
-const MappedWorld& office()
-{
-  static const MappedWorld world(officeWorld(kOfficeSeed), kOfficeSeed);
-  return world;
-}
 
 TEST(Tracker, WakesUpInTwentyOffices)
 {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <Eigen/Dense>
 #include <optional>
 #include <vector>
@@ -14,6 +15,15 @@
 
 namespace sigloc::testing
 {
+constexpr std::uint64_t kOfficeSeed = 5;
+
+/// The office that the tracker's tests drive through.
+inline const MappedWorld& office()
+{
+  static const MappedWorld world(officeWorld(kOfficeSeed), kOfficeSeed);
+  return world;
+}
+
 inline std::vector<DriveStep> driveThrough(const World& world, double metres, std::uint64_t seed)
 {
   DriveOptions options;
