@@ -258,13 +258,18 @@ void DenseVerifier::polish(const DenseScan& scan, const DenseScan& balanced, Ran
                                  pose.pose + TPose2D(-kPolishShift, kPolishShift, -kPolishTurn),
                                  pose.pose + TPose2D(-kPolishShift, -kPolishShift, kPolishTurn)};
   refineAll(balanced, around, kPolishSteps, scan.size(), 0);
-  std::vector<double> explained;
-  for (const TPose2D& one : around) explained.push_back(likelihood(scan, one, scan.size()));
-  const auto most = std::max_element(explained.begin(), explained.end());
-  if (*most <= likelihood(scan, pose.pose, scan.size())) return;
+  const TPose2D* best = nullptr;
+  double most = likelihood(scan, pose.pose, scan.size());
+  for (const TPose2D& one : around)
+  {
+    const double explained = likelihood(scan, one, scan.size());
+    if (explained <= most) continue;
+    most = explained;
+    best = &one;
+  }
+  if (best == nullptr) return;
   RankedPose polished;
-  polished.pose = refine(balanced, around[static_cast<std::size_t>(most - explained.begin())],
-                         kSettleSteps, scan.size());
+  polished.pose = refine(balanced, *best, kSettleSteps, scan.size());
   polished.evidence = evaluate(scan, polished.pose);
   if (polished.evidence.score > pose.evidence.score) pose = polished;
 }
