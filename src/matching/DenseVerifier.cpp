@@ -37,10 +37,6 @@ constexpr int kFinalSteps = 2;
 constexpr std::size_t kSettled = 4;
 constexpr int kSettleSteps = 12;
 constexpr double kSettleLoss = 0.01;  // of the score, that settling may cost
-constexpr double kWellExplained = 0.98;  // score that no pose beside can beat by much
-constexpr double kPolishShift = 0.06;  // [m]
-constexpr double kPolishTurn = 0.015;  // [rad]
-constexpr int kPolishSteps = 4;
 constexpr double kDistinctDistance = 0.5;  // [m]
 constexpr double kApartDistance = 0.08;  // [m]
 constexpr double kDistinctAngle = 17.0 * M_PI / 180.0;  // [rad]
@@ -222,10 +218,6 @@ std::vector<RankedPose> DenseVerifier::rank(const DenseScan& scan,
   }
   poses.insert(poses.end(), before.begin(), before.end());
   keepDistinct(poses, max_ranked);
-
-  // 5. The winner is sought once more around where it settled.
-  if (!poses.empty()) polish(scan, balanced, poses.front());
-  keepDistinct(poses, max_ranked);
   return poses;
 }
 
@@ -245,33 +237,6 @@ void DenseVerifier::settle(const DenseScan& scan, const DenseScan& balanced, Ran
     if (settled.evidence.score < pose.evidence.score) settled.evidence = pose.evidence;
   }
   pose = settled;
-}
-
-/// Mapped walls are ragged, so that a refinement ends in one of several optima some centimetres
-/// apart. From the corners of a tetrahedron around the pose the others are reached, too.
-void DenseVerifier::polish(const DenseScan& scan, const DenseScan& balanced, RankedPose& pose) const
-{
-  if (pose.evidence.score > kWellExplained) return;
-  // In the robot's frame: turning the map must not change what is tried.
-  std::vector<TPose2D> around = {pose.pose + TPose2D(kPolishShift, kPolishShift, kPolishTurn),
-                                 pose.pose + TPose2D(kPolishShift, -kPolishShift, -kPolishTurn),
-                                 pose.pose + TPose2D(-kPolishShift, kPolishShift, -kPolishTurn),
-                                 pose.pose + TPose2D(-kPolishShift, -kPolishShift, kPolishTurn)};
-  refineAll(balanced, around, kPolishSteps, scan.size(), 0);
-  const TPose2D* best = nullptr;
-  double most = likelihood(scan, pose.pose, scan.size());
-  for (const TPose2D& one : around)
-  {
-    const double explained = likelihood(scan, one, scan.size());
-    if (explained <= most) continue;
-    most = explained;
-    best = &one;
-  }
-  if (best == nullptr) return;
-  RankedPose polished;
-  polished.pose = refine(balanced, *best, kSettleSteps, scan.size());
-  polished.evidence = evaluate(scan, polished.pose);
-  if (polished.evidence.score > pose.evidence.score) pose = polished;
 }
 
 std::vector<RankedPose> DenseVerifier::refineBest(const DenseScan& scan,

@@ -106,7 +106,6 @@ class DenseVerifier
   void refineAll(const DenseScan& scan, std::vector<mrpt::math::TPose2D>& poses, int steps,
                  std::size_t beams, float least) const;
   void settle(const DenseScan& scan, const DenseScan& balanced, RankedPose& pose) const;
-  void polish(const DenseScan& scan, const DenseScan& balanced, RankedPose& pose) const;
   DenseEvidence evaluate(const DenseScan& scan, const mrpt::math::TPose2D& pose,
                          std::size_t rays) const;
   double likelihood(const DenseScan& scan, const mrpt::math::TPose2D& pose,
