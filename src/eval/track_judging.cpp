@@ -11,7 +11,8 @@ namespace
 {
 using Steps = std::vector<TrackStepRecord>;
 
-/// Index of the first step from which the method stays confident to the end, where mapped.
+/// Index of the first confident step from which the method stays so to the end, where mapped. What
+/// follows where nothing is mapped settles nothing by itself.
 std::size_t settledAt(const Steps& steps)
 {
   std::size_t settled = steps.size();
@@ -19,6 +20,7 @@ std::size_t settledAt(const Steps& steps)
   {
     --settled;
   }
+  while (settled < steps.size() && !steps[settled].claim.confident) ++settled;
   return settled;
 }
 

@@ -62,6 +62,19 @@ TEST(TrackScoring, CountsWrongClaimsOffTheMappedLandApart)
       << trackTable(report);
 }
 
+TEST(TrackScoring, LandThatIsNotMappedSettlesNothing)
+{
+  TrackRun run;
+  run.steps = {stepOf(0, Claim::none), stepOf(1, Claim::none), stepOf(2, Claim::none)};
+  run.steps.back().mapped = false;
+  judgeRun(run);
+  EXPECT_FALSE(run.settled_after.has_value());
+  run.steps.push_back(stepOf(3, Claim::right));
+  judgeRun(run);
+  ASSERT_TRUE(run.settled_after);
+  EXPECT_EQ(run.settled_after->metres, 3.0);
+}
+
 TEST(TrackScoring, ARunThatNeverSettlesCostsItsWholeTime)
 {
   TrackRun run;
