@@ -150,7 +150,7 @@ void HypothesisTracker::State::followDensely(const std::optional<MotionIncrement
   if (!motion) travel = travelSeen(travel);
   goOn(travel);
   past.remember(scan, travelled);
-  set.follow(scan, travelled, travel);
+  set.follow(scan, travelled, travel, motion ? motion->mean.norm() : travel);
   set.weigh(travel, scan);
   if (wantsRelocation()) relocate(scene, scan);
   set.mergeAndPrune();
@@ -370,7 +370,8 @@ void HypothesisTracker::State::publish(const ObservedScene& scene)
   const TrackedHypothesis& first = belief.hypotheses.front();
   belief.reliability = reliability;
   const bool open = largestPositionSigma(first.pose) >= kMaxOpenSigma;
-  const bool confirmed = set.tracks.front().presence() >= options.confirmation;
+  const Track& track = set.tracks.front();
+  const bool confirmed = track.presence() + track.survival() >= options.confirmation;
   if (first.weight >= options.localized_probability && confirmed && !doubtful() && !open)
   {
     belief.verdict = Verdict::localized;

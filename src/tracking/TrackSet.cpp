@@ -29,6 +29,10 @@ constexpr double kMisfitMemory = 3.0;  // [m] of travel
 constexpr double kMisfitFloor = 0.03;  // share that even the right pose leaves unexplained
 constexpr double kUsualMisfit = 0.068;  // with its floor, of a pose that may be right or foreign
 constexpr double kFitSlope = 1.04;
+constexpr double kSurvival = 0.2;  // log-odds of a metre that a track has survived ...
+constexpr double kUsualLife = 10.0;  // [m] ... beyond what a wrong one often lasts, too,
+constexpr double kLongLife = 20.0;  // [m] up to here
+constexpr double kYoung = -0.5;  // log-odds of one that has not lasted so long
 constexpr double kMinFollowed = -8.0;
 constexpr double kMaxFollowed = 12.0;
 constexpr double kSure = 0.9;  // a relocation that overrules all tracks
@@ -84,6 +88,12 @@ double Track::presence() const
 {
   const double fit = misfit ? kFitSlope * std::log(kUsualMisfit / (*misfit + kMisfitFloor)) : 0.0;
   return confirmed + followed + fit;
+}
+
+double Track::survival() const
+{
+  if (!misfit) return 0;
+  return kYoung + kSurvival * (std::clamp(followed_way, kUsualLife, kLongLife) - kUsualLife);
 }
 
 double TrackSet::predict(const std::optional<MotionIncrement>& motion)
@@ -182,7 +192,7 @@ void TrackSet::updatePose(Track& track, const DenseScan& scan, const DenseVerifi
   track.score = track.evidence.score;
 }
 
-void TrackSet::follow(const DenseScan& scan, double travelled, double travel)
+void TrackSet::follow(const DenseScan& scan, double travelled, double travel, double driven)
 {
   // A robot that stands still sees new cells by noise alone.
   const double most = kMostNews * travel;
@@ -192,6 +202,7 @@ void TrackSet::follow(const DenseScan& scan, double travelled, double travel)
         std::min(most, track.on_the_way.add(scan, track.hypothesis.pose.mean, travelled));
     track.addFollowed(novelty * followedLogOdds(track.evidence));
     track.addMisfit(travel);
+    track.followed_way += driven;
   }
 }
 
@@ -304,6 +315,7 @@ void TrackSet::mergeAndPrune()
       into.id = std::min(into.id, track.hypothesis.id);
       same->confirmed = std::max(same->confirmed, track.confirmed);
       same->followed = std::max(same->followed, track.followed);
+      same->followed_way = std::max(same->followed_way, track.followed_way);
       into.age = std::max(into.age, track.hypothesis.age);
       same->found = same->found || track.found;
     }

@@ -49,6 +49,8 @@ struct Track
   double followed = 0;  // log-odds from how the map explained what came into view on the way
   SeenStructure on_the_way;  // what has come into view
   std::optional<double> misfit;  // of what is seen, known or new, lately; none without a field
+  double followed_way =
+      0;  // [m] that the robot has driven since the track began, turns not counted
   FeatureMemory features;  // in a map without a dense field
 
   /// Adds to `followed`, within its bounds.
@@ -59,6 +61,9 @@ struct Track
 
   /// Log-odds of standing in the map at all, eq. (8.22)
   double presence() const;
+
+  /// What is added to them for having been followed so far, eq. (8.25); 0 without a field.
+  double survival() const;
 
   /// Whether a relocation or the way has told enough not to give the track up for a look-alike.
   bool held() const { return std::max(confirmed, presence()) >= kHeld; }
@@ -91,8 +96,8 @@ class TrackSet
   void weigh(double travel, const DenseScan& scan);
 
   /// Adds to every track what the parts of the scan tell that came into view with the last `travel`
-  /// [m] of `travelled`. Eq. (8.21)
-  void follow(const DenseScan& scan, double travelled, double travel);
+  /// [m] of `travelled`, on which the robot moved by `driven` [m]. Eq. (8.21)
+  void follow(const DenseScan& scan, double travelled, double travel, double driven);
 
   /// Scales all weights so that they sum to one.
   void normalise();
