@@ -64,8 +64,9 @@ struct QuickLook;
 class QuickField;
 class SolidWalls;
 
-/// Judges poses by the dense field. Never searches: every pose comes from a proposal and is
-/// refined by at most 0.5 m and 10 degrees. Const and thread-safe. \cite algorithm section 6
+/// Judges poses by the dense field. Never searches: every pose comes from a proposal and is refined
+/// in a few stages, by at most 0.5 m and 10 degrees each. Const and thread-safe. \cite algorithm
+/// section 6
 class DenseVerifier
 {
  public:
