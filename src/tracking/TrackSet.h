@@ -49,8 +49,7 @@ struct Track
   double followed = 0;  // log-odds from how the map explained what came into view on the way
   SeenStructure on_the_way;  // what has come into view
   std::optional<double> misfit;  // of what is seen, known or new, lately; none without a field
-  double followed_way =
-      0;  // [m] that the robot has driven since the track began, turns not counted
+  double followed_way = 0;  // [m] driven since the track began
   FeatureMemory features;  // in a map without a dense field
 
   /// Adds to `followed`, within its bounds.
@@ -96,7 +95,7 @@ class TrackSet
   void weigh(double travel, const DenseScan& scan);
 
   /// Adds to every track what the parts of the scan tell that came into view with the last `travel`
-  /// [m] of `travelled`, on which the robot moved by `driven` [m]. Eq. (8.21)
+  /// [m] of `travelled`, on which the robot moved by `driven` [m]. Eq. (8.21), (8.25)
   void follow(const DenseScan& scan, double travelled, double travel, double driven);
 
   /// Scales all weights so that they sum to one.
