@@ -16,7 +16,8 @@ using mrpt::serialization::CArchive;
 
 namespace
 {
-constexpr std::uint8_t kVersion = 0;
+constexpr std::uint8_t kVersion = 1;
+constexpr std::uint8_t kVersionWithoutSums = 0;  // of where the hits were: in the middle of cells
 
 void write(const FeatureMerger::MergedSegment& segment, CArchive& out)
 {
@@ -66,33 +67,42 @@ std::vector<Item> readAll(CArchive& in)
   return items;
 }
 
-// The counts of a tile as three planes: hits, passes, looks.
+// The counts of a tile as three planes: hits, passes, looks; then the sums of where hits were.
 constexpr std::size_t kCells = std::tuple_size_v<decltype(BeamCounts::Tile::counts)>;
 using Planes = std::array<std::uint16_t, 3 * kCells>;
+using Sums = std::array<std::int32_t, 2 * kCells>;
 
 void writeTile(const CellIndex& name, const BeamCounts::Tile& tile, CArchive& out)
 {
   Planes planes{};
+  Sums sums{};
   for (std::size_t i = 0; i < kCells; ++i)
   {
     planes[i] = tile.counts[i].hits;
     planes[kCells + i] = tile.counts[i].passes;
     planes[2 * kCells + i] = tile.counts[i].looks;
+    sums[i] = tile.counts[i].sum_x;
+    sums[kCells + i] = tile.counts[i].sum_y;
   }
   out << name.x << name.y;
   out.WriteBufferFixEndianness(planes.data(), planes.size());
+  out.WriteBufferFixEndianness(sums.data(), sums.size());
 }
 
-BeamCounts::Tile readTile(CArchive& in)
+BeamCounts::Tile readTile(CArchive& in, bool with_sums)
 {
   Planes planes{};
+  Sums sums{};
   in.ReadBufferFixEndianness(planes.data(), planes.size());
+  if (with_sums) in.ReadBufferFixEndianness(sums.data(), sums.size());
   BeamCounts::Tile tile;
   for (std::size_t i = 0; i < kCells; ++i)
   {
     tile.counts[i].hits = planes[i];
     tile.counts[i].passes = planes[kCells + i];
     tile.counts[i].looks = planes[2 * kCells + i];
+    tile.counts[i].sum_x = sums[i];
+    tile.counts[i].sum_y = sums[kCells + i];
   }
   return tile;
 }
@@ -106,7 +116,7 @@ void writeCounts(const BeamCounts& counts, CArchive& out)
   for (const CellIndex& name : names) writeTile(name, counts.tile(name), out);
 }
 
-void readCounts(CArchive& in, BeamCounts& counts)
+void readCounts(CArchive& in, BeamCounts& counts, bool with_sums)
 {
   BeamCounts::Extent extent;
   in >> extent.low.x >> extent.low.y >> extent.high.x >> extent.high.y;
@@ -116,7 +126,7 @@ void readCounts(CArchive& in, BeamCounts& counts)
   {
     CellIndex name;
     in >> name.x >> name.y;
-    counts.restore(extent, name, readTile(in));
+    counts.restore(extent, name, readTile(in, with_sums));
   }
 }
 }  // namespace
@@ -140,7 +150,7 @@ MapBuilder readMapBuilder(CArchive& in, std::shared_ptr<const FeatureMap> base)
   auto segments = readAll<FeatureMerger::MergedSegment>(in);
   auto places = readAll<FeatureMerger::MergedPlace>(in);
   BeamCounts counts = builder.counts();
-  readCounts(in, counts);
+  readCounts(in, counts, version != kVersionWithoutSums);
   builder.restore(FeatureMerger(options, std::move(segments), std::move(places)),
                   std::move(counts));
   return builder;

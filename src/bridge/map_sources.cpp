@@ -28,7 +28,7 @@ namespace sigloc
 namespace
 {
 /// Raised whenever the same source and options give another map than before.
-constexpr int kBuildVersion = 7;
+constexpr int kBuildVersion = 8;
 
 enum class Format
 {

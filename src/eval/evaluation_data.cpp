@@ -128,15 +128,6 @@ void checkSources(const EvaluationSources& sources)
 }
 }  // namespace
 
-OccupancyRaster rasterOf(const DenseField& field)
-{
-  OccupancyRaster raster;
-  raster.frame = field.frame;
-  raster.cells.reserve(field.cells.size());
-  for (const DenseCell& cell : field.cells) raster.cells.push_back(cell.state);
-  return raster;
-}
-
 std::vector<std::size_t> evenlySpaced(std::size_t size, std::size_t count)
 {
   if (count == 0 || count > size) count = size;

@@ -84,6 +84,33 @@ std::size_t indexInTile(const CellIndex& cell)
   return static_cast<std::size_t>((cell.y & (kTile - 1)) * kTile + (cell.x & (kTile - 1)));
 }
 
+/// Where `p` lies in a cell along one axis, from its middle, in BeamCounts::kPlaceUnit.
+std::int32_t placeInCell(double p, double anchor, double resolution, std::int32_t cell)
+{
+  const double cells = (p - anchor) / resolution - cell - 0.5;
+  return static_cast<std::int32_t>(std::lround(cells / BeamCounts::kPlaceUnit));
+}
+
+/// True for counts that looks can lead to: every look that hit did so with a beam, in the cell.
+bool isPossible(const BeamCounts::Count& count)
+{
+  const double most = 0.5 / BeamCounts::kPlaceUnit * count.hits;
+  return count.looks <= count.hits && std::abs(count.sum_x) <= most &&
+         std::abs(count.sum_y) <= most;
+}
+
+/// Of a cell that was hit.
+WallHits hitsOf(const BeamCounts::Count& count)
+{
+  const auto mean = [&](std::int32_t sum)
+  {
+    const double units = sum * (BeamCounts::kPlaceUnit / WallHits::kUnit) / count.hits;
+    return static_cast<std::int8_t>(std::lround(units));
+  };
+  const auto weight = std::min<std::uint16_t>(count.looks, WallHits::kMostWeight);
+  return {mean(count.sum_x), mean(count.sum_y), static_cast<std::uint8_t>(weight)};
+}
+
 bool comesFirst(const CellIndex& a, const CellIndex& b)
 {
   return a.y != b.y ? a.y < b.y : a.x < b.x;
@@ -165,6 +192,11 @@ void BeamCounts::addBeam(const TPoint2D& origin, const TPoint2D& end, Cursor& cu
   cells_counted_ += static_cast<std::uint64_t>(std::max<std::int64_t>(steps, 0)) + 1;
   const CellIndex hit_cell = cellAt(end, anchor, resolution);
   Count& hit = count_of(hit_cell);
+  if (hit.hits < 65535)  // beyond, the mean stays
+  {
+    hit.sum_x += placeInCell(end.x, anchor.x, resolution, hit_cell.x);
+    hit.sum_y += placeInCell(end.y, anchor.y, resolution, hit_cell.y);
+  }
   increase(hit.hits);
   if (hit.last_look == look_) return;
   hit.last_look = look_;
@@ -215,11 +247,11 @@ bool BeamCounts::hitOftenAround(const CellIndex& cell, std::uint32_t min_looks) 
   return sum >= min_looks;
 }
 
-BeamCounts::TileStates BeamCounts::statesOf(const CellIndex& name, std::uint32_t min_looks) const
+BeamCounts::TileCells BeamCounts::cellsOf(const CellIndex& name, std::uint32_t min_looks) const
 {
-  TileStates states{};
+  TileCells cells;
   const auto tile = tiles_.find(keyOf(name));
-  if (tile == tiles_.end()) return states;
+  if (tile == tiles_.end()) return cells;
   const auto state_of = [&](const CellIndex& cell, const Count& count)
   {
     const bool wall =
@@ -233,10 +265,12 @@ BeamCounts::TileStates BeamCounts::statesOf(const CellIndex& name, std::uint32_t
   {
     for (std::int32_t x = 0; x < kTile; ++x, ++i)
     {
-      states[i] = state_of({name.x + x, name.y + y}, tile->second.counts[i]);
+      const Count& count = tile->second.counts[i];
+      cells.states[i] = state_of({name.x + x, name.y + y}, count);
+      if (isWall(cells.states[i])) cells.hits[i] = hitsOf(count);
     }
   }
-  return states;
+  return cells;
 }
 
 CellBox BeamCounts::box() const
@@ -261,18 +295,21 @@ RasterFrame BeamCounts::frameOf(const CellBox& box) const
 OccupancyRaster BeamCounts::raster(const CellBox& box, std::uint32_t min_looks) const
 {
   const RasterFrame frame = frameOf(box);
-  OccupancyRaster raster{frame, {}};
+  OccupancyRaster raster{frame, {}, {}};
   raster.cells.resize(static_cast<std::size_t>(frame.width) * frame.height);
+  raster.hits.resize(raster.cells.size());
   for (const CellIndex& name : tileNames())
   {
-    const TileStates states = statesOf(name, min_looks);
-    for (std::size_t i = 0; i < states.size(); ++i)
+    const TileCells tile = cellsOf(name, min_looks);
+    for (std::size_t i = 0; i < tile.states.size(); ++i)
     {
       const std::int64_t column = name.x - box.low.x + static_cast<std::int64_t>(i % kTile);
       const std::int64_t row = name.y - box.low.y + static_cast<std::int64_t>(i / kTile);
       // The tiles at the border reach beyond the frame.
       if (column < 0 || row < 0 || column >= frame.width || row >= frame.height) continue;
-      raster.cells[static_cast<std::size_t>(row * frame.width + column)] = states[i];
+      const auto k = static_cast<std::size_t>(row * frame.width + column);
+      raster.cells[k] = tile.states[i];
+      raster.hits[k] = tile.hits[i];
     }
   }
   return raster;
@@ -311,6 +348,10 @@ void BeamCounts::restore(const Extent& extent, const CellIndex& name, const Tile
   if (name.x % kTile != 0 || name.y % kTile != 0)
   {
     throw std::invalid_argument("BeamCounts: no such tile");
+  }
+  if (!std::all_of(tile.counts.begin(), tile.counts.end(), isPossible))
+  {
+    throw std::invalid_argument("BeamCounts: a cell's counts contradict each other");
   }
   extent_ = extent;
   const std::uint64_t key = keyOf(name);

@@ -17,9 +17,7 @@ using mrpt::math::TPoint2Df;
 
 namespace
 {
-constexpr double kRidgeRadius = 0.1;  // [m] of wall cells whose middle is a wall's ridge
-constexpr double kRidgeSigma = 0.1;  // [m], of their weights
-constexpr double kSolidWeight = 2.0;  // of a solid wall cell beside a wall cell
+constexpr double kRidgeRadius = 0.05;  // [m] of wall cells whose hits make a wall's ridge
 constexpr std::int32_t kNone = std::numeric_limits<std::int16_t>::max();
 
 /// The truncation radius [cells]: what fits both the distance byte and the offset bytes.
@@ -32,7 +30,7 @@ std::int32_t truncationRadius(double resolution)
 /// Half the width [cells] of the window in which a wall's ridge is sought.
 std::int32_t ridgeRadius(double resolution)
 {
-  return static_cast<std::int32_t>(std::lround(kRidgeRadius / resolution));
+  return std::max(1, static_cast<std::int32_t>(std::lround(kRidgeRadius / resolution)));
 }
 
 void checkRaster(const OccupancyRaster& raster)
@@ -43,6 +41,10 @@ void checkRaster(const OccupancyRaster& raster)
   if (count == 0 || raster.cells.size() != count)
   {
     throw std::invalid_argument("buildDenseField: cell count disagrees with the frame");
+  }
+  if (!raster.hits.empty() && raster.hits.size() != count)
+  {
+    throw std::invalid_argument("buildDenseField: the count of hits disagrees with the frame");
   }
 }
 
@@ -88,9 +90,9 @@ std::vector<std::int16_t> columnOffsets(const OccupancyRaster& raster, std::int3
   return offsets;
 }
 
-/// For every wall cell the vector [m] from its middle to the ridge of its wall, the centroid of the
-/// wall cells around: noise makes mapped walls several cells thick, and returns belong in the
-/// middle of them.
+/// For every wall cell the vector [m] from its middle to the ridge of its wall, the mean of where
+/// the wall cells around were hit: noise makes mapped walls several cells thick, and returns belong
+/// where most were. Eq. (6.12)
 std::vector<TPoint2Df> wallRidges(const OccupancyRaster& raster)
 {
   const double resolution = raster.frame.resolution;
@@ -99,30 +101,24 @@ std::vector<TPoint2Df> wallRidges(const OccupancyRaster& raster)
   const std::int32_t radius = ridgeRadius(resolution);
   const auto at = [&](std::int32_t x, std::int32_t y)
   { return static_cast<std::size_t>(y) * raster.frame.width + static_cast<std::size_t>(x); };
-  const double falloff = 0.5 * resolution * resolution / (kRidgeSigma * kRidgeSigma);
-  std::vector<double> weights;  // by squared distance [cells^2]
-  for (std::int32_t squared = 0; squared <= 2 * radius * radius; ++squared)
-  {
-    weights.push_back(std::exp(-falloff * squared));
-  }
   std::vector<TPoint2Df> ridges(raster.cells.size());
   for (std::int32_t y = 0; y < height; ++y)
   {
     for (std::int32_t x = 0; x < width; ++x)
     {
       if (!isWall(raster.cells[at(x, y)])) continue;
-      double sum = 0;
+      std::int32_t sum = 0;
       TPoint2D moment(0, 0);
       for (std::int32_t j = std::max(-radius, -y); j <= std::min(radius, height - 1 - y); ++j)
       {
         for (std::int32_t i = std::max(-radius, -x); i <= std::min(radius, width - 1 - x); ++i)
         {
-          const CellState state = raster.cells[at(x + i, y + j)];
-          if (!isWall(state)) continue;
-          const double weight = weights[static_cast<std::size_t>(i * i + j * j)] *
-                                (state == CellState::solid_wall ? kSolidWeight : 1.0);
-          sum += weight;
-          moment += TPoint2D(i, j) * weight;
+          const std::size_t beside = at(x + i, y + j);
+          if (!isWall(raster.cells[beside])) continue;
+          const WallHits hits = raster.hits.empty() ? WallHits{} : raster.hits[beside];
+          sum += hits.weight;
+          moment += TPoint2D(i + WallHits::kUnit * hits.x, j + WallHits::kUnit * hits.y) *
+                    static_cast<double>(hits.weight);
         }
       }
       ridges[at(x, y)] = TPoint2Df(moment * (resolution / sum));
@@ -247,5 +243,23 @@ DenseField buildDenseField(const OccupancyRaster& raster)
   }
   field.free_area = static_cast<double>(free_cells) * resolution * resolution;
   return field;
+}
+
+OccupancyRaster rasterOf(const DenseField& field)
+{
+  const double units = DenseField::kOffsetUnit / (field.frame.resolution * WallHits::kUnit);
+  const auto hit_byte = [&](std::int8_t offset)
+  { return static_cast<std::int8_t>(std::clamp(std::lround(offset * units), -127L, 127L)); };
+  OccupancyRaster raster;
+  raster.frame = field.frame;
+  raster.cells.reserve(field.cells.size());
+  raster.hits.resize(field.cells.size());
+  for (const DenseCell& cell : field.cells)
+  {
+    if (isWall(cell.state))
+      raster.hits[raster.cells.size()] = {hit_byte(cell.dx), hit_byte(cell.dy)};
+    raster.cells.push_back(cell.state);
+  }
+  return raster;
 }
 }  // namespace sigloc

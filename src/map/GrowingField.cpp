@@ -51,6 +51,7 @@ std::int32_t blockOf(std::int32_t cell)
 
 GrowingField::GrowingField(DenseField base)
     : field_(std::move(base)),
+      hits_(rasterOf(field_).hits),
       box_(boxOf(field_.frame, {0, 0})),
       tight_(box_),
       tight_frame_(field_.frame),
@@ -64,7 +65,9 @@ void GrowingField::update(BeamCounts& counts, std::uint32_t min_looks)
   if (field_.cells.empty())
   {
     counts.takeChangedTiles();
-    field_ = buildDenseField(counts.raster(counts.box(), min_looks));
+    OccupancyRaster raster = counts.raster(counts.box(), min_looks);
+    field_ = buildDenseField(raster);
+    hits_ = std::move(raster.hits);
     tight_ = box_ = counts.box();
     tight_frame_ = field_.frame;
     free_cells_ = freeCellsOf(field_);
@@ -76,7 +79,7 @@ void GrowingField::update(BeamCounts& counts, std::uint32_t min_looks)
   for (const CellIndex& name : counts.takeChangedTiles())
   {
     CellBox box{};
-    if (takeStates(name, counts.statesOf(name, min_looks), box)) changed.push_back(box);
+    if (takeCells(name, counts.cellsOf(name, min_looks), box)) changed.push_back(box);
   }
   solveAround(changed);
   const double r = field_.frame.resolution;
@@ -101,14 +104,17 @@ void GrowingField::growTo(const CellBox& wanted, const BeamCounts& counts)
   larger.frame = counts.frameOf(grown);
   larger.wall_cells = field_.wall_cells;
   larger.cells.resize(std::size_t{larger.frame.width} * larger.frame.height);
+  std::vector<WallHits> larger_hits(larger.cells.size());
   for (std::int32_t y = box_.low.y; y < box_.high.y; ++y)
   {
-    const DenseCell* row = &at(box_.low.x, y);
+    const std::size_t row = indexOf(box_.low.x, y);
     const std::size_t first = static_cast<std::size_t>(y - grown.low.y) * larger.frame.width +
                               static_cast<std::size_t>(box_.low.x - grown.low.x);
-    std::copy(row, row + box_.width(), larger.cells.begin() + static_cast<std::ptrdiff_t>(first));
+    std::copy_n(&field_.cells[row], box_.width(), &larger.cells[first]);
+    std::copy_n(&hits_[row], box_.width(), &larger_hits[first]);
   }
   field_ = std::move(larger);
+  hits_ = std::move(larger_hits);
   box_ = grown;
 }
 
@@ -121,9 +127,9 @@ void GrowingField::setState(DenseCell& cell, CellState state)
   cell.state = state;
 }
 
-/// Returns true, and the box of cells, when walls have come, gone or become solid.
-bool GrowingField::takeStates(const CellIndex& first, const BeamCounts::TileStates& states,
-                              CellBox& changed)
+/// Returns true, and the box of cells, when walls have come, gone or been hit elsewhere.
+bool GrowingField::takeCells(const CellIndex& first, const BeamCounts::TileCells& tile,
+                             CellBox& changed)
 {
   bool any = false;
   std::size_t i = 0;
@@ -132,12 +138,15 @@ bool GrowingField::takeStates(const CellIndex& first, const BeamCounts::TileStat
     for (std::int32_t x = first.x; x < first.x + BeamCounts::kTileCells; ++x, ++i)
     {
       // The tiles at the border reach beyond the field.
-      if (states[i] == CellState::unknown) continue;
-      DenseCell& cell = at(x, y);
-      if (cell.state == states[i]) continue;
-      const bool of_wall = isWall(cell.state) || isWall(states[i]);
-      setState(cell, states[i]);
-      if (!of_wall) continue;
+      if (tile.states[i] == CellState::unknown) continue;
+      const std::size_t k = indexOf(x, y);
+      DenseCell& cell = field_.cells[k];
+      if (cell.state == tile.states[i] && hits_[k] == tile.hits[i]) continue;
+      const bool moves =
+          isWall(cell.state) != isWall(tile.states[i]) || !(hits_[k] == tile.hits[i]);
+      setState(cell, tile.states[i]);
+      hits_[k] = tile.hits[i];
+      if (!moves) continue;
       const CellBox own{{x, y}, {x + 1, y + 1}};
       changed = any ? unionOf(changed, own) : own;
       any = true;
@@ -180,7 +189,7 @@ void GrowingField::solveAround(const std::vector<CellBox>& changed)
   }
 }
 
-/// Solves a box anew from the states in and around it.
+/// Solves a box anew from the walls in and around it.
 void GrowingField::solve(const CellBox& box)
 {
   const CellBox window = intersection(widened(box, fieldReach(field_.frame.resolution)), box_);
@@ -189,11 +198,13 @@ void GrowingField::solve(const CellBox& box)
   raster.frame.width = static_cast<std::uint32_t>(window.width());
   raster.frame.height = static_cast<std::uint32_t>(window.height());
   raster.cells.reserve(std::size_t{raster.frame.width} * raster.frame.height);
+  raster.hits.reserve(raster.cells.capacity());
   for (std::int32_t y = window.low.y; y < window.high.y; ++y)
   {
     for (std::int32_t x = window.low.x; x < window.high.x; ++x)
     {
-      raster.cells.push_back(at(x, y).state);
+      raster.cells.push_back(field_.cells[indexOf(x, y)].state);
+      raster.hits.push_back(hits_[indexOf(x, y)]);
     }
   }
   const DenseField solved = buildDenseField(raster);
@@ -203,7 +214,7 @@ void GrowingField::solve(const CellBox& box)
     const DenseCell* row =
         &solved.cells[static_cast<std::size_t>(y - window.low.y) * solved.frame.width +
                       static_cast<std::size_t>(box.low.x - window.low.x)];
-    std::copy(row, row + box.width(), &at(box.low.x, y));
+    std::copy_n(row, box.width(), &field_.cells[indexOf(box.low.x, y)]);
   }
 }
 

@@ -49,6 +49,18 @@ mrpt::maps::CMultiMetricMap multiMap(const mrpt::config::CConfigFileMemory& ini)
   maps.setListOfMaps(initializers);
   return maps;
 }
+
+/// The ridges of walls may differ: earlier versions put them elsewhere.
+void expectSameWalls(const DenseField& a, const DenseField& b)
+{
+  EXPECT_EQ(a.frame.origin, b.frame.origin);
+  ASSERT_EQ(a.cells.size(), b.cells.size());
+  for (std::size_t i = 0; i < a.cells.size(); ++i)
+  {
+    ASSERT_EQ(a.cells[i].state, b.cells[i].state);
+    ASSERT_EQ(a.cells[i].distance, b.cells[i].distance);
+  }
+}
 }  // namespace
 
 TEST(SignatureMap, LearnsARoomFromInsertedScans)
@@ -184,9 +196,32 @@ TEST(SignatureMap, ReadsItsFirstVersion)
   auto archive = mrpt::serialization::archiveFrom(file);
   SignatureMap map;
   archive >> map;
-  expectSameMap(*map.featureMap(), sampleMap(24, 18));
+  const FeatureMap expected = sampleMap(24, 18);
+  ASSERT_EQ(map.featureMap()->features().size(), expected.features().size());
+  for (std::size_t i = 0; i < expected.features().size(); ++i)
+  {
+    expectSameFeature(map.featureMap()->features()[i], expected.features()[i]);
+  }
+  expectSameWalls(*map.featureMap()->field(), *expected.field());
   EXPECT_EQ(map.insertion_options.building.merge_gap, 0.7);
   EXPECT_EQ(map.likelihood_options.points.max_points, 17U);
+}
+
+// What was learnt before it told where in its cells a wall was hit.
+TEST(SignatureMap, LearnsOnFromItsSecondVersion)
+{
+  mrpt::io::CFileGZInputStream file(SIGLOC_GOLDEN_FOLDER "/signature_map_v1.gz");
+  auto archive = mrpt::serialization::archiveFrom(file);
+  SignatureMap stored;
+  archive >> stored;
+  SignatureMap again(sampleMap(24, 18));
+  const auto insert = [](SignatureMap& into, double x) {
+    into.insertObservation(*roomScan({x, 0, 0.1}), CPose3D(x, 0, 0, 0.1, 0, 0));
+  };
+  for (const double x : {-1.5, -0.5, 0.5}) insert(again, x);
+  for (SignatureMap* each : {&stored, &again}) insert(*each, 1.5);
+  ASSERT_EQ(stored.featureMap()->features().size(), again.featureMap()->features().size());
+  expectSameWalls(*stored.featureMap()->field(), *again.featureMap()->field());
 }
 
 TEST(SignatureMap, AnswersBetweenInsertionsAsIfBuiltAtOnce)

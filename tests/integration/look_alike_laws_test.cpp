@@ -130,7 +130,7 @@ TEST(LookAlikes, IdenticalRastersGetIdenticalWeights)
   }
 }
 
-/// How many of twelve drives through one of two copies of the office end with both alive, where
+/// How many of fifty drives through one of two copies of the office end with both alive, where
 /// each relocation lists a single place, now in one copy, now in the other.
 int drivesWithBothAlive(const std::optional<MotionIncrement>& first_motion)
 {
@@ -141,7 +141,7 @@ int drivesWithBothAlive(const std::optional<MotionIncrement>& first_motion)
   DriveOptions twelve_metres;
   twelve_metres.metres = 12;
   int both_alive = 0;
-  for (std::uint64_t seed = 81; seed < 93; ++seed)
+  for (std::uint64_t seed = 81; seed < 131; ++seed)
   {
     HypothesisTracker tracker(matcher);
     const auto drive =
@@ -156,15 +156,15 @@ int drivesWithBothAlive(const std::optional<MotionIncrement>& first_motion)
     EXPECT_NE(tracker.belief().verdict, Verdict::localized);
     both_alive += found[1].weight > 0.1 ? 1 : 0;
   }
-  std::cout << "both copies are alive in " << both_alive << " of 12 drives\n";
+  std::cout << "both copies are alive in " << both_alive << " of 50 drives\n";
   return both_alive;
 }
 
 TEST(LookAlikes, APlaceFoundLateCountsAsIfItHadBeenFollowed)
 {
-  EXPECT_GE(drivesWithBothAlive(MotionIncrement{}), 4);
+  EXPECT_GE(drivesWithBothAlive(MotionIncrement{}), 15);  // counted from when it was found: 1
   // A log knows of no motion before its first scan.
-  EXPECT_GE(drivesWithBothAlive(std::nullopt), 4);
+  EXPECT_GE(drivesWithBothAlive(std::nullopt), 15);
 }
 /// Two copies of the office; the second lacks 0.3 m of every five metres.
 std::shared_ptr<const FeatureMap> oneFullOneStripped()
@@ -232,7 +232,7 @@ TEST(LookAlikes, FewReturnsTellLittleBetweenThem)
   double told_by_all = 0;
   double told_by_few = 0;
   int compared = 0;
-  for (std::uint64_t seed = 81; seed < 93; ++seed)
+  for (std::uint64_t seed = 81; seed < 131; ++seed)
   {
     const auto lead = [&](double metres, bool few)
     { return leadOfTheFullCopy(matcher, tracks_alone, seed, metres, few); };

@@ -37,6 +37,23 @@ OccupancyRaster randomRaster(std::uint32_t width, std::uint32_t height, double r
   return raster;
 }
 
+/// The same raster, its walls hit anywhere and any number of times.
+OccupancyRaster withRandomHits(OccupancyRaster raster, std::uint64_t seed)
+{
+  std::mt19937_64 random(seed);
+  std::uniform_int_distribution<int> place(-4, 4);
+  std::uniform_int_distribution<int> weight(1, WallHits::kMostWeight);
+  for (const CellState state : raster.cells)
+  {
+    raster.hits.emplace_back();
+    if (!isWall(state)) continue;
+    raster.hits.back() = {static_cast<std::int8_t>(place(random)),
+                          static_cast<std::int8_t>(place(random)),
+                          static_cast<std::uint8_t>(weight(random))};
+  }
+  return raster;
+}
+
 /// Distance in cells to the nearest wall cell, by looking at all of them; infinite without walls.
 double nearestByBruteForce(const OccupancyRaster& raster, int x, int y)
 {
@@ -50,25 +67,23 @@ double nearestByBruteForce(const OccupancyRaster& raster, int x, int y)
   return best;
 }
 
-/// The centroid of the wall cells within 0.1 m of wall cell (x, y), a square window, relative to
-/// its middle [m]; weights of 0.1 m, double for solid walls.
+/// The mean of where the wall cells within 0.05 m of wall cell (x, y), at least those beside it,
+/// were hit, a square window, relative to its middle [m].
 TPoint2D ridgeByBruteForce(const OccupancyRaster& raster, int x, int y)
 {
   const double resolution = raster.frame.resolution;
-  const int radius = static_cast<int>(std::lround(0.1 / resolution));
+  const int radius = std::max(1, static_cast<int>(std::lround(0.05 / resolution)));
   const int width = static_cast<int>(raster.frame.width);
   double sum = 0;
   TPoint2D moment(0, 0);
   for (int k = 0; k < static_cast<int>(raster.cells.size()); ++k)
   {
-    const CellState state = raster.cells[static_cast<std::size_t>(k)];
+    const auto cell = static_cast<std::size_t>(k);
     const TPoint2D d(k % width - x, k / width - y);
-    if (!isWall(state) || std::abs(d.x) > radius || std::abs(d.y) > radius) continue;
-    const double metres = d.norm() * resolution;
-    const double weight =
-        std::exp(-0.5 * metres * metres / 0.01) * (state == CellState::solid_wall ? 2.0 : 1.0);
-    sum += weight;
-    moment += d * (weight * resolution);
+    if (!isWall(raster.cells[cell]) || std::abs(d.x) > radius || std::abs(d.y) > radius) continue;
+    const WallHits hits = raster.hits.empty() ? WallHits{0, 0, 1} : raster.hits[cell];
+    sum += hits.weight;
+    moment += (d + TPoint2D(hits.x, hits.y) * 0.125) * (hits.weight * resolution);
   }
   return moment * (1.0 / sum);
 }
@@ -111,8 +126,8 @@ TEST(DenseField, EqualsBruteForceOnRandomRasters)
   std::uint64_t seed = 100;
   for (const RasterCase& c : cases)
   {
-    const OccupancyRaster raster =
-        randomRaster(c.width, c.height, c.resolution, c.wall_share, ++seed);
+    OccupancyRaster raster = randomRaster(c.width, c.height, c.resolution, c.wall_share, ++seed);
+    if (seed % 2 == 0) raster = withRandomHits(std::move(raster), seed);
     const DenseField field = buildDenseField(raster);
     ASSERT_EQ(field.cells.size(), raster.cells.size());
     const double radius =
@@ -166,6 +181,9 @@ TEST(DenseField, RefusesInconsistentRasters)
   raster.cells.pop_back();
   EXPECT_THROW(buildDenseField(raster), std::invalid_argument);
   EXPECT_THROW(buildDenseField({}), std::invalid_argument);
+  raster = withRandomHits(randomRaster(5, 5, 0.05, 0.1, 1), 1);
+  raster.hits.pop_back();
+  EXPECT_THROW(buildDenseField(raster), std::invalid_argument);
   for (const double resolution : {0.0, -1.0, 0.001, 2.0, std::nan("")})
   {
     raster = randomRaster(5, 5, 0.05, 0.1, 1);
@@ -288,6 +306,41 @@ TEST(RasterFromScans, HitCountsMakeWallSolidAndFree)
       options);
   EXPECT_EQ(stateAt(thin, 2.02, 0.01), CellState::wall);
   EXPECT_EQ(stateAt(thin, 4.02, 0.01), CellState::solid_wall);
+}
+
+TEST(RasterFromScans, TellsWhereInItsCellAWallWasHit)
+{
+  // In [2.00, 2.05) m: 5 mm before its middle on average, by two of three scans in the same place.
+  const OccupancyRaster raster =
+      rasterFromScans({singleBeam(2.010), singleBeam(2.010), singleBeam(2.040)});
+  const auto wall = std::find_if(raster.cells.begin(), raster.cells.end(), isWall);
+  ASSERT_NE(wall, raster.cells.end());
+  const WallHits hits = raster.hits[static_cast<std::size_t>(wall - raster.cells.begin())];
+  EXPECT_EQ(hits.x, -1);  // of 6.25 mm
+  EXPECT_EQ(hits.y, -4);  // the beam runs along the lower edge of a row
+  EXPECT_EQ(hits.weight, 3);
+}
+
+TEST(DenseField, LeadsToWhereAWallWasHit)
+{
+  // Walls along the raster, anywhere in their cells: the middle of a cell is up to 25 mm off.
+  for (const double at : {2.003, 2.015, 2.024, 2.036, 2.047})
+  {
+    LaserScan scan;
+    scan.first_angle = -0.6;
+    scan.angle_step = 0.002;
+    for (int i = 0; i <= 600; ++i)
+    {
+      scan.ranges.push_back(static_cast<float>(at / std::cos(scan.first_angle + 0.002 * i)));
+    }
+    scan.valid.assign(scan.ranges.size(), 1);
+    PosedScans look;
+    look.scans = {scan};
+    const DenseField field = buildDenseField(rasterFromScans({look, look}));
+    const DenseCell* cell = cellAt(field, {1.725, 0.025});  // the middle of one
+    ASSERT_NE(cell, nullptr);
+    EXPECT_NEAR(1.725 + cell->dx * DenseField::kOffsetUnit, at, 0.009) << at;
+  }
 }
 
 TEST(RasterFromScans, OneScanCountsOnceACell)

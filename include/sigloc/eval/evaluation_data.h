@@ -66,9 +66,6 @@ EvaluationMap readEvaluationMap(const std::filesystem::path& path);
 /// Returns the map data of posed scans, as `readEvaluationData` makes it.
 EvaluationMap evaluationMapFromScans(const std::vector<PosedScans>& scans);
 
-/// Returns the states of a field's cells.
-OccupancyRaster rasterOf(const DenseField& field);
-
 /// Returns `count` evenly spaced elements' indices of a list of `size`; all when count is 0.
 std::vector<std::size_t> evenlySpaced(std::size_t size, std::size_t count);
 }  // namespace sigloc

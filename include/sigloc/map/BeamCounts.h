@@ -45,7 +45,10 @@ class BeamCounts
     std::uint16_t hits = 0;  ///< beams that ended here; all counts saturate
     std::uint16_t passes = 0;  ///< beams that went on
     std::uint16_t looks = 0;  ///< that hit it
+    /// Of where the hits were, from the middle of the cell, in kPlaceUnit.
+    std::int32_t sum_x = 0, sum_y = 0;
   };
+  static constexpr double kPlaceUnit = 1.0 / 64;  ///< [cells]
   struct Tile
   {
     std::array<Count, static_cast<std::size_t>(kTileCells) * kTileCells> counts;
@@ -68,14 +71,18 @@ class BeamCounts
   void add(const PosedScans& look, double max_range);
 
   /// What is known of each cell of a tile by now, row by row; unknown where no tile is.
-  /// Eq. (6.1), (6.2)
-  using TileStates = std::array<CellState, static_cast<std::size_t>(kTileCells) * kTileCells>;
-  TileStates statesOf(const CellIndex& name, std::uint32_t min_looks) const;
+  /// Eq. (6.1), (6.2), (6.12)
+  struct TileCells
+  {
+    std::array<CellState, static_cast<std::size_t>(kTileCells) * kTileCells> states{};
+    std::array<WallHits, static_cast<std::size_t>(kTileCells) * kTileCells> hits{};  ///< of walls
+  };
+  TileCells cellsOf(const CellIndex& name, std::uint32_t min_looks) const;
 
   /// All that was counted, with a border. Not for an empty extent.
   CellBox box() const;
   RasterFrame frameOf(const CellBox& box) const;
-  /// The states of all cells of a box.
+  /// All cells of a box.
   OccupancyRaster raster(const CellBox& box, std::uint32_t min_looks) const;
 
   /// True when states may have changed since `takeChangedTiles` was called last.
@@ -92,7 +99,8 @@ class BeamCounts
   const Extent& extent() const { return extent_; }
   std::vector<CellIndex> tileNames() const;  ///< in order
   const Tile& tile(const CellIndex& name) const;
-  /// Puts stored counts in place. Throws std::invalid_argument for a name that no tile has.
+  /// Puts stored counts in place. Throws std::invalid_argument for a name that no tile has or
+  /// counts that no looks lead to.
   void restore(const Extent& extent, const CellIndex& name, const Tile& tile);
 
  private:

@@ -36,12 +36,29 @@ struct RasterFrame
   std::uint32_t height = 0;  ///< [cells]
 };
 
+/// Where the returns of mapping scans hit a wall cell. \cite algorithm eq. (6.12)
+struct WallHits
+{
+  static constexpr double kUnit = 0.125;  ///< [cells] per unit of x and y
+  static constexpr std::uint8_t kMostWeight = 7;
+  std::int8_t x = 0;  ///< their mean, from the middle of the cell
+  std::int8_t y = 0;
+  std::uint8_t weight = 1;  ///< beside other wall cells; 1 to kMostWeight
+};
+
+inline bool operator==(const WallHits& a, const WallHits& b)
+{
+  return a.x == b.x && a.y == b.y && a.weight == b.weight;
+}
+
 /// Occupancy as the dense field needs it: built from the hit counts of mapping scans, or filled by
 /// the bridge from an occupancy grid map.
 struct OccupancyRaster
 {
   RasterFrame frame;
   std::vector<CellState> cells;  ///< width * height
+  /// width * height, meaningful for wall cells; none: every wall is hit in the middle of its cells
+  std::vector<WallHits> hits;
 };
 
 /// One cell of the dense field, packed so that a look-up touches one cache line.
@@ -86,7 +103,12 @@ double truncationDistance(double resolution);
 /// is farther away along either axis.
 std::int32_t fieldReach(double resolution);
 
-/// Returns the dense field of a raster. Throws std::invalid_argument when the cell count disagrees
-/// with the frame, the resolution is not within [0.005 m, 1 m] or the raster is empty.
+/// Returns the dense field of a raster. Throws std::invalid_argument when the number of cells, or
+/// of hits if there are any, disagrees with the frame, the resolution is not within [0.005 m, 1 m]
+/// or the raster is empty. Eq. (6.3), (6.12)
 DenseField buildDenseField(const OccupancyRaster& raster);
+
+/// Returns the raster of a field, as far as the field tells: where the ridge of a wall cell lies
+/// stands for where it was hit.
+OccupancyRaster rasterOf(const DenseField& field);
 }  // namespace sigloc

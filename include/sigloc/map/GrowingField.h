@@ -34,17 +34,19 @@ class GrowingField
 
  private:
   void growTo(const CellBox& wanted, const BeamCounts& counts);
-  bool takeStates(const CellIndex& first, const BeamCounts::TileStates& states, CellBox& changed);
+  bool takeCells(const CellIndex& first, const BeamCounts::TileCells& tile, CellBox& changed);
   void setState(DenseCell& cell, CellState state);
   void solveAround(const std::vector<CellBox>& changed);
   void solve(const CellBox& box);
-  DenseCell& at(std::int32_t x, std::int32_t y)
+  /// Of a cell of the counts, in field_ and hits_.
+  std::size_t indexOf(std::int32_t x, std::int32_t y) const
   {
-    return field_.cells[static_cast<std::size_t>(y - box_.low.y) * field_.frame.width +
-                        static_cast<std::size_t>(x - box_.low.x)];
+    return static_cast<std::size_t>(y - box_.low.y) * field_.frame.width +
+           static_cast<std::size_t>(x - box_.low.x);
   }
 
   DenseField field_;
+  std::vector<WallHits> hits_;  // of field_'s cells
   CellBox box_;  // of field_, in cells of the counts
   CellBox tight_;  // without the cells to grow into
   RasterFrame tight_frame_;
