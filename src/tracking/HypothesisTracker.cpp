@@ -218,16 +218,17 @@ bool HypothesisTracker::State::suspicious() const
   if (set.tracks.empty()) return false;
   const Track& first = set.heaviest();
   if (by_features) return FeatureFollowing::doubts(first);
-  return first.hypothesis.age > 1 && first.score < first.mean_score - options.score_drop;
+  return first.hasFallenTo(first.score, options.score_drop);
 }
 
-/// Suspicion is allayed where a relocation finds no better place in the whole map: something stands
-/// in the way, or was moved.
+/// Suspicion is allayed where a relocation finds no better place in the whole map, or where less is
+/// explained only because something stands in the way.
 bool HypothesisTracker::State::doubtful() const
 {
   const Track& first = set.tracks.front();
   if (by_features && FeatureFollowing::contradicts(first)) return true;
-  return suspicious() && !first.found;
+  if (first.found || !suspicious()) return false;
+  return by_features || first.hasFallenTo(scoreOfUnhidden(first.evidence), options.score_drop);
 }
 
 /// At the start, after a sudden fall of the score, at a steady rate while several poses or none

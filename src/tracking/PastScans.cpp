@@ -87,7 +87,7 @@ std::vector<PastScans::Visit> PastScans::wayTo(const TPose2D& pose, std::uint64_
 
 /// Minus infinity where it is the rival's own way, or too light to be followed.
 double PastScans::logOddsAgainst(const std::vector<Visit>& rival, const TPose2D& pose,
-                                 const DenseVerifier& verifier) const
+                                 double evidence_distance, const DenseVerifier& verifier) const
 {
   constexpr double kNever = -std::numeric_limits<double>::infinity();
   const double least = std::log(options_.prune_weight);
@@ -100,10 +100,9 @@ double PastScans::logOddsAgainst(const std::vector<Visit>& rival, const TPose2D&
     if (isSamePlace(own.pose, rival[k].pose)) return kNever;
     // As in (8.5), but the first look counts in full, as the first relocation does.
     const bool is_first = k + 1 == rival.size();
-    const double travel =
-        is_first ? options_.evidence_distance : look.travelled - lookBack(k + 1).travelled;
+    const double travel = is_first ? evidence_distance : look.travelled - lookBack(k + 1).travelled;
     const double lead = own.log_likelihood - rival[k].log_likelihood;
-    sum += shareBetweenRivals(look.scan, travel, options_) *
+    sum += shareBetweenRivals(look.scan, travel, evidence_distance) *
            std::clamp(lead, -kMaxRelative, kMaxRelative);
     if (sum < least) return kNever;
   }
@@ -128,7 +127,8 @@ void PastScans::weighNewcomers(TrackSet& set, const DenseVerifier& verifier) con
   for (Track& track : set.tracks)
   {
     if (!is_new(track)) continue;
-    const double log_odds = logOddsAgainst(rival, track.hypothesis.pose.mean, verifier);
+    const double log_odds =
+        logOddsAgainst(rival, track.hypothesis.pose.mean, set.evidenceDistance(), verifier);
     double& weight = track.hypothesis.weight;
     weight = std::max(weight, heaviest.weight * std::exp(std::min(0.0, log_odds)));
   }

@@ -52,7 +52,7 @@ class PastScans
   std::vector<Visit> wayTo(const mrpt::math::TPose2D& pose, std::uint64_t since,
                            const DenseVerifier& verifier) const;
   double logOddsAgainst(const std::vector<Visit>& rival, const mrpt::math::TPose2D& pose,
-                        const DenseVerifier& verifier) const;
+                        double evidence_distance, const DenseVerifier& verifier) const;
   const Look& lookBack(std::size_t k) const { return looks_[looks_.size() - 1 - k]; }
 
   TrackerOptions options_;

@@ -26,6 +26,9 @@ constexpr double kSameAngle = 17.0 * M_PI / 180.0;
 constexpr double kMergeDistance = 0.3;  // [m]
 constexpr double kMergeAngle = 10.0 * M_PI / 180.0;
 constexpr double kMisfitMemory = 3.0;  // [m] of travel
+constexpr double kChangeMemory = 10.0;  // [m] of travel
+constexpr double kUsualChange = 0.02;  // share left unexplained that doubles the evidence distance
+constexpr double kMostChange = 1.5;  // of it
 constexpr double kMisfitFloor = 0.03;  // share that even the right pose leaves unexplained
 constexpr double kUsualMisfit = 0.068;  // with its floor, of a pose that may be right or foreign
 constexpr double kFitSlope = 1.04;
@@ -33,8 +36,12 @@ constexpr double kSurvival = 0.2;  // log-odds of a metre that a track has survi
 constexpr double kUsualLife = 10.0;  // [m] ... beyond what a wrong one often lasts, too,
 constexpr double kLongLife = 20.0;  // [m] up to here
 constexpr double kYoung = -0.5;  // log-odds of one that has not lasted so long
+constexpr double kFitSurvival = 0.3;  // further log-odds of a metre where the walls fit:
+constexpr double kChanceFit = 0.8;  // none for as much on walls as a wrong place may have,
+constexpr double kGoodFit = 0.9;  // all from here on
 constexpr double kMinFollowed = -8.0;
 constexpr double kMaxFollowed = 12.0;
+constexpr double kLeastKnown = 0.05;  // share of a scan in known land that tells of it
 constexpr double kSure = 0.9;  // a relocation that overrules all tracks
 constexpr double kMostNews = 4.0;  // views that a metre can bring
 constexpr double kScoreMemory = 0.9;  // of the running mean of the score, per step
@@ -54,12 +61,12 @@ bool heavier(const Track& a, const Track& b)
 }
 }  // namespace
 
-double shareBetweenRivals(const DenseScan& scan, double travel, const TrackerOptions& options)
+double shareBetweenRivals(const DenseScan& scan, double travel, double evidence_distance)
 {
   constexpr double kTelling = 60;  // returns
   const auto seen = std::count(scan.isolated.begin(), scan.isolated.end(), 0);
   return std::min(1.0, static_cast<double>(seen) / kTelling) *
-         std::min(1.0, travel / options.evidence_distance);
+         std::min(1.0, travel / evidence_distance);
 }
 
 bool isSamePlace(const TPose2D& a, const TPose2D& b)
@@ -82,6 +89,8 @@ void Track::addMisfit(double travel)
   const double now = unexplainedShare(evidence) + evidence.through_wall;
   const double fresh = misfit ? 1.0 - std::exp(-travel / kMisfitMemory) : 1.0;
   misfit = misfit.value_or(0) + fresh * (now - misfit.value_or(0));
+  const double known = std::max(kLeastKnown, 1.0 - evidence.unknown);
+  on_walls += fresh * (evidence.fine / known - on_walls);
 }
 
 double Track::presence() const
@@ -93,7 +102,9 @@ double Track::presence() const
 double Track::survival() const
 {
   if (!misfit) return 0;
-  return kYoung + kSurvival * (std::clamp(followed_way, kUsualLife, kLongLife) - kUsualLife);
+  const double fit = std::clamp((on_walls - kChanceFit) / (kGoodFit - kChanceFit), 0.0, 1.0);
+  return kYoung + (kSurvival + kFitSurvival * fit) *
+                      (std::clamp(followed_way, kUsualLife, kLongLife) - kUsualLife);
 }
 
 double TrackSet::predict(const std::optional<MotionIncrement>& motion)
@@ -217,8 +228,10 @@ void TrackSet::weigh(double travel, const DenseScan& scan)
       std::max_element(tracks.begin(), tracks.end(),
                        [](const Track& a, const Track& b) { return a.score < b.score; })
           ->score;
+  unexplained_ +=
+      (1.0 - std::exp(-travel / kChangeMemory)) * (std::max(0.0, 1.0 - best_score) - unexplained_);
   const double best = logLikelihoodOfScore(best_score);
-  const double between = shareBetweenRivals(scan, travel, options_);
+  const double between = shareBetweenRivals(scan, travel, evidenceDistance());
   for (Track& track : tracks)
   {
     const double behind = std::max(logLikelihoodOfScore(track.score) - best, -kMaxRelative);
@@ -234,6 +247,13 @@ void TrackSet::weigh(double travel, const DenseScan& scan)
       logLikelihoodOfScore(options_.lost_score) - logLikelihoodOfScore(most), -kMaxLost, kMaxLost);
   elsewhere *= std::exp(lost * for_lost);
   normalise();
+}
+
+/// In a place that has changed a moved chair speaks for the wrong one of two poses as long as it is
+/// in view: what scans say is independent over a longer distance.
+double TrackSet::evidenceDistance() const
+{
+  return options_.evidence_distance * (1.0 + std::min(kMostChange, unexplained_ / kUsualChange));
 }
 
 void TrackSet::normalise()

@@ -49,13 +49,15 @@ struct Track
   double followed = 0;  // log-odds from how the map explained what came into view on the way
   SeenStructure on_the_way;  // what has come into view
   std::optional<double> misfit;  // of what is seen, known or new, lately; none without a field
+  double on_walls = 0;  // mean fine likelihood of what is seen in known land, likewise
   double followed_way = 0;  // [m] driven since the track began
   FeatureMemory features;  // in a map without a dense field
 
   /// Adds to `followed`, within its bounds.
   void addFollowed(double log_odds);
 
-  /// Takes what the map leaves unexplained of the last scan into its mean over some travel [m].
+  /// Takes what the map explains of the last scan, and what not, into their means over some travel
+  /// [m].
   void addMisfit(double travel);
 
   /// Log-odds of standing in the map at all, eq. (8.22)
@@ -66,11 +68,17 @@ struct Track
 
   /// Whether a relocation or the way has told enough not to give the track up for a look-alike.
   bool held() const { return std::max(confirmed, presence()) >= kHeld; }
+
+  /// Whether the score `now` of the last scan is less by `drop` than the track's scores used to be.
+  bool hasFallenTo(double now, double drop) const
+  {
+    return hypothesis.age > 1 && now < mean_score - drop;
+  }
 };
 
 /// How much of what a scan says counts between rivals, in [0, 1], after `travel` [m] since the one
 /// before. Few returns tell little: half of a score may hang on three specks. Eq. (8.5)
-double shareBetweenRivals(const DenseScan& scan, double travel, const TrackerOptions& options);
+double shareBetweenRivals(const DenseScan& scan, double travel, double evidence_distance);
 
 /// True for a pose so near to a track that it is the track's.
 bool isSamePlace(const mrpt::math::TPose2D& a, const mrpt::math::TPose2D& b);
@@ -93,6 +101,9 @@ class TrackSet
 
   /// Weighs rivals against each other, the best against "somewhere else". Eq. (8.5), (8.6)
   void weigh(double travel, const DenseScan& scan);
+
+  /// Travel [m] after which another scan speaks for itself between rivals. Eq. (8.26)
+  double evidenceDistance() const;
 
   /// Adds to every track what the parts of the scan tell that came into view with the last `travel`
   /// [m] of `travelled`, on which the robot moved by `driven` [m]. Eq. (8.21), (8.25)
@@ -132,5 +143,6 @@ class TrackSet
 
   TrackerOptions options_;
   bool has_odometry_ = true;  // of the last prediction
+  double unexplained_ = 0;  // share that the best track has left unexplained, lately
 };
 }  // namespace sigloc

@@ -138,20 +138,21 @@ TEST(SimulatedTrack, FindsTheRobotThroughClutter)
 }
 
 // In corridors of look-alikes little comes into view that only this map explains: there a pose is
-// believed for how long it has been followed, eq. (8.25); without that 15 end right.
+// believed for how long it has been followed, eq. (8.25). What has moved speaks for a wrong one as
+// long as it is in view, eq. (8.26).
 TEST(SimulatedTrack, BelievesWhatItHasFollowedForLongAmongMovedFurniture)
 {
   SimulatedTrackOptions options;
   options.kinds = {WorldKind::corridor};
-  options.drives = 20;
-  options.drives_per_world = 10;
+  options.drives = 200;
+  options.drives_per_world = 2;
   options.travel = 20;
-  options.method.seed = 2;
+  options.method.seed = 501;
   options.moved_share = 0.5;
   options.threads = 2;
   const Outcome outcome = outcomeOf(options);
-  EXPECT_GE(outcome.right, 17U);
-  EXPECT_EQ(outcome.wrong, 0U);
+  EXPECT_GE(outcome.right, 168U);  // at the most 165 without what the fit adds in (8.25)
+  EXPECT_LE(outcome.wrong, 2U);  // 5 without (8.26)
 }
 
 TEST(SimulatedTrack, FollowsARobotWithoutOdometryThroughItsTurns)
@@ -199,7 +200,7 @@ Honesty honestyOf(const SimulatedTrackOptions& options)
 TEST(SimulatedTrack, ItsCovariancesAreHonest)
 {
   SimulatedTrackOptions options = smallOptions();
-  options.drives = 20;
+  options.drives = 24;
   options.drives_per_world = 1;  // the shift of a map is one draw
   options.travel = 8;
   options.threads = 2;
