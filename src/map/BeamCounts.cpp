@@ -95,8 +95,8 @@ std::int32_t placeInCell(double p, double anchor, double resolution, std::int32_
 bool isPossible(const BeamCounts::Count& count)
 {
   const double most = 0.5 / BeamCounts::kPlaceUnit * count.hits;
-  return count.looks <= count.hits && std::abs(count.sum_x) <= most &&
-         std::abs(count.sum_y) <= most;
+  return count.looks <= count.hits && std::abs(static_cast<double>(count.sum_x)) <= most &&
+         std::abs(static_cast<double>(count.sum_y)) <= most;
 }
 
 /// Of a cell that was hit.

@@ -46,6 +46,11 @@ void checkRaster(const OccupancyRaster& raster)
   {
     throw std::invalid_argument("buildDenseField: the count of hits disagrees with the frame");
   }
+  if (std::any_of(raster.hits.begin(), raster.hits.end(),
+                  [](const WallHits& hits) { return hits.weight == 0; }))
+  {
+    throw std::invalid_argument("buildDenseField: hits without weight");
+  }
 }
 
 std::int8_t offsetByte(double metres)

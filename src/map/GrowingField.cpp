@@ -42,6 +42,11 @@ CellBox boxOf(const RasterFrame& frame, const CellIndex& low)
            low.y + static_cast<std::int32_t>(frame.height)}};
 }
 
+bool isWithin(const CellBox& box, std::int32_t x, std::int32_t y)
+{
+  return x >= box.low.x && x < box.high.x && y >= box.low.y && y < box.high.y;
+}
+
 /// Rounds down, for negative numbers too.
 std::int32_t blockOf(std::int32_t cell)
 {
@@ -138,7 +143,7 @@ bool GrowingField::takeCells(const CellIndex& first, const BeamCounts::TileCells
     for (std::int32_t x = first.x; x < first.x + BeamCounts::kTileCells; ++x, ++i)
     {
       // The tiles at the border reach beyond the field.
-      if (tile.states[i] == CellState::unknown) continue;
+      if (tile.states[i] == CellState::unknown || !isWithin(box_, x, y)) continue;
       const std::size_t k = indexOf(x, y);
       DenseCell& cell = field_.cells[k];
       if (cell.state == tile.states[i] && hits_[k] == tile.hits[i]) continue;

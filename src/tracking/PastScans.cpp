@@ -98,7 +98,7 @@ double PastScans::logOddsAgainst(const std::vector<Visit>& rival, const TPose2D&
     const Look& look = lookBack(k);
     const Visit own = way.visit(look);
     if (isSamePlace(own.pose, rival[k].pose)) return kNever;
-    // As in (8.5), but the first look counts in full, as the first relocation does.
+    // As (8.5) would now; but the first look counts in full, as the first relocation does.
     const bool is_first = k + 1 == rival.size();
     const double travel = is_first ? evidence_distance : look.travelled - lookBack(k + 1).travelled;
     const double lead = own.log_likelihood - rival[k].log_likelihood;

@@ -182,6 +182,8 @@ TEST(DenseField, RefusesInconsistentRasters)
   EXPECT_THROW(buildDenseField(raster), std::invalid_argument);
   EXPECT_THROW(buildDenseField({}), std::invalid_argument);
   raster = withRandomHits(randomRaster(5, 5, 0.05, 0.1, 1), 1);
+  raster.hits.back().weight = 0;
+  EXPECT_THROW(buildDenseField(raster), std::invalid_argument);
   raster.hits.pop_back();
   EXPECT_THROW(buildDenseField(raster), std::invalid_argument);
   for (const double resolution : {0.0, -1.0, 0.001, 2.0, std::nan("")})

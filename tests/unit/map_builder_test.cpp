@@ -153,7 +153,7 @@ TEST(MapBuilder, ALookCostsWhatItSees)
   }
   const std::size_t map_cells = builder.map().field()->cells.size();
   for (const std::uint64_t round : work) EXPECT_LT(round, 21 * map_cells / 4);
-  // Every look moves the walls it sees by a little; it costs no more than when they were new.
+  // Every look moves the walls it sees by a little; it costs about what it did when they were new.
   EXPECT_LT(work.back(), 1.25 * static_cast<double>(work.front()));
 }
 
@@ -183,4 +183,24 @@ TEST(MapBuilder, IsEmptyUntilSomethingIsSeen)
   EXPECT_TRUE(builder.empty());
   EXPECT_EQ(builder.field(), nullptr);
   EXPECT_TRUE(builder.map().empty());
+}
+
+TEST(BeamCounts, RefuseStoredCountsThatNoLooksLeadTo)
+{
+  BeamCounts::Extent extent;
+  extent.add({0, 0});
+  const auto restore = [&](const BeamCounts::Count& count)
+  {
+    BeamCounts::Tile tile;
+    tile.counts[5] = count;
+    BeamCounts(0.05).restore(extent, {0, 0}, tile);
+  };
+  restore({0, 2, 1, 2, 64, -64});
+  constexpr std::int32_t kLeast = std::numeric_limits<std::int32_t>::min();
+  for (const BeamCounts::Count& impossible :
+       {BeamCounts::Count{0, 1, 0, 2, 0, 0}, BeamCounts::Count{0, 0, 0, 0, 1, 0},
+        BeamCounts::Count{0, 2, 1, 2, 65, 0}, BeamCounts::Count{0, 2, 1, 2, 0, kLeast}})
+  {
+    EXPECT_THROW(restore(impossible), std::invalid_argument);
+  }
 }

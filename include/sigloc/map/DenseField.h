@@ -104,8 +104,8 @@ double truncationDistance(double resolution);
 std::int32_t fieldReach(double resolution);
 
 /// Returns the dense field of a raster. Throws std::invalid_argument when the number of cells, or
-/// of hits if there are any, disagrees with the frame, the resolution is not within [0.005 m, 1 m]
-/// or the raster is empty. Eq. (6.3), (6.12)
+/// of hits if there are any, disagrees with the frame, hits weigh nothing, the resolution is not
+/// within [0.005 m, 1 m] or the raster is empty. Eq. (6.3), (6.12)
 DenseField buildDenseField(const OccupancyRaster& raster);
 
 /// Returns the raster of a field, as far as the field tells: where the ridge of a wall cell lies

@@ -12,7 +12,8 @@ namespace sigloc
 {
 /// The dense field over counts that grow, perhaps on top of a field that was there before: only the
 /// surroundings of walls that changed are solved again, so that a look costs what it saw, however
-/// large the map. Equal, cell by cell, to `buildDenseField` of the whole raster.
+/// large the map. Equal, cell by cell, to `buildDenseField` of the whole raster; on top of a field,
+/// that of its `rasterOf` where anything has changed, and the field itself elsewhere.
 class GrowingField
 {
  public:
