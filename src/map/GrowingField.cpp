@@ -52,6 +52,42 @@ std::int32_t blockOf(std::int32_t cell)
 {
   return cell >= 0 ? cell / kBlock : -((kBlock - 1 - cell) / kBlock);
 }
+
+/// Covers cells, each once, by boxes: rows of neighbours, and rows of one width on top of each
+/// other.
+std::vector<CellBox> boxesOf(std::vector<CellIndex> cells)
+{
+  const auto order = [](const CellIndex& c) { return std::make_pair(c.y, c.x); };
+  const auto before = [&](const CellIndex& a, const CellIndex& b) { return order(a) < order(b); };
+  const auto same = [&](const CellIndex& a, const CellIndex& b) { return order(a) == order(b); };
+  std::sort(cells.begin(), cells.end(), before);
+  cells.erase(std::unique(cells.begin(), cells.end(), same), cells.end());
+  std::vector<CellBox> boxes;
+  for (std::size_t i = 0; i < cells.size();)
+  {
+    const CellIndex first = cells[i];
+    std::int32_t count = 0;
+    while (i < cells.size() && same(cells[i], {first.x + count, first.y}))
+    {
+      ++count;
+      ++i;
+    }
+    const CellBox row{first, {first.x + count, first.y + 1}};
+    const auto below = std::find_if(
+        boxes.begin(), boxes.end(),
+        [&](const CellBox& box)
+        { return box.high.y == row.low.y && box.low.x == row.low.x && box.high.x == row.high.x; });
+    if (below == boxes.end())
+    {
+      boxes.push_back(row);
+    }
+    else
+    {
+      ++below->high.y;
+    }
+  }
+  return boxes;
+}
 }  // namespace
 
 GrowingField::GrowingField(DenseField base)
@@ -160,11 +196,12 @@ bool GrowingField::takeCells(const CellIndex& first, const BeamCounts::TileCells
   return any;
 }
 
-/// Solves the blocks that a change reaches, those beside each other in one go.
+/// Solves the blocks that a change reaches, those beside each other in one go: each box that is
+/// solved costs a margin around it, too.
 void GrowingField::solveAround(const std::vector<CellBox>& changed)
 {
   const std::int32_t reach = fieldReach(field_.frame.resolution);
-  std::vector<std::pair<std::int32_t, std::int32_t>> blocks;  // row, column
+  std::vector<CellIndex> blocks;
   for (const CellBox& box : changed)
   {
     const CellBox reached = intersection(widened(box, reach), box_);
@@ -172,25 +209,15 @@ void GrowingField::solveAround(const std::vector<CellBox>& changed)
     {
       for (std::int32_t x = blockOf(reached.low.x); x <= blockOf(reached.high.x - 1); ++x)
       {
-        blocks.emplace_back(y, x);
+        blocks.push_back({x, y});
       }
     }
   }
-  std::sort(blocks.begin(), blocks.end());
-  blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
-  for (std::size_t i = 0; i < blocks.size();)
+  for (const CellBox& box : boxesOf(std::move(blocks)))
   {
-    std::size_t next = i + 1;
-    const std::int32_t row = blocks[i].first;
-    const std::int32_t column = blocks[i].second;
-    const auto follows = [&](std::size_t k)
-    { return blocks[k] == std::make_pair(row, column + static_cast<std::int32_t>(k - i)); };
-    while (next < blocks.size() && follows(next)) ++next;
-    const std::int32_t count = static_cast<std::int32_t>(next - i);
-    const CellBox run{{column * kBlock, row * kBlock},
-                      {(column + count) * kBlock, (row + 1) * kBlock}};
-    solve(intersection(run, box_));
-    i = next;
+    const CellBox cells{{box.low.x * kBlock, box.low.y * kBlock},
+                        {box.high.x * kBlock, box.high.y * kBlock}};
+    solve(intersection(cells, box_));
   }
 }
 

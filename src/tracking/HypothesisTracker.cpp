@@ -332,7 +332,7 @@ Track HypothesisTracker::State::startAt(const RelocationResult& result, std::siz
                                kMinConfirmed, kMaxConfirmed);
   fresh.evidence = matcher->verifier()->evaluate(scan, candidate.pose.mean);
   fresh.addFollowed(kUnfollowed + view * followedLogOdds(fresh.evidence));
-  fresh.addMisfit(0);
+  fresh.addFit(0);
   return fresh;
 }
 

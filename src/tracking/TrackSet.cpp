@@ -84,7 +84,7 @@ void Track::addFollowed(double log_odds)
   followed = std::clamp(followed + log_odds, kMinFollowed, kMaxFollowed);
 }
 
-void Track::addMisfit(double travel)
+void Track::addFit(double travel)
 {
   const double now = unexplainedShare(evidence) + evidence.through_wall;
   const double fresh = misfit ? 1.0 - std::exp(-travel / kMisfitMemory) : 1.0;
@@ -212,7 +212,7 @@ void TrackSet::follow(const DenseScan& scan, double travelled, double travel, do
     const double novelty =
         std::min(most, track.on_the_way.add(scan, track.hypothesis.pose.mean, travelled));
     track.addFollowed(novelty * followedLogOdds(track.evidence));
-    track.addMisfit(travel);
+    track.addFit(travel);
     track.followed_way += driven;
   }
 }

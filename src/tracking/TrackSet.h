@@ -58,7 +58,7 @@ struct Track
 
   /// Takes what the map explains of the last scan, and what not, into their means over some travel
   /// [m].
-  void addMisfit(double travel);
+  void addFit(double travel);
 
   /// Log-odds of standing in the map at all, eq. (8.22)
   double presence() const;
@@ -77,7 +77,8 @@ struct Track
 };
 
 /// How much of what a scan says counts between rivals, in [0, 1], after `travel` [m] since the one
-/// before. Few returns tell little: half of a score may hang on three specks. Eq. (8.5)
+/// before, a scan being news after `evidence_distance` [m]. Few returns tell little: half of a
+/// score may hang on three specks. Eq. (8.5)
 double shareBetweenRivals(const DenseScan& scan, double travel, double evidence_distance);
 
 /// True for a pose so near to a track that it is the track's.

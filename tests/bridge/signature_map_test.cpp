@@ -50,6 +50,20 @@ mrpt::maps::CMultiMetricMap multiMap(const mrpt::config::CConfigFileMemory& ini)
   return maps;
 }
 
+/// Tells fields apart by the offsets of their cells (FNV-1a).
+std::uint32_t offsetDigest(const DenseField& field)
+{
+  std::uint32_t digest = 2166136261U;
+  for (const DenseCell& cell : field.cells)
+  {
+    for (const std::int8_t byte : {cell.dx, cell.dy})
+    {
+      digest = (digest ^ static_cast<std::uint8_t>(byte)) * 16777619U;
+    }
+  }
+  return digest;
+}
+
 /// The ridges of walls may differ by 0.1 m: earlier versions put them elsewhere.
 void expectSameWalls(const DenseField& a, const DenseField& b)
 {
@@ -205,6 +219,7 @@ TEST(SignatureMap, ReadsItsFirstVersion)
     expectSameFeature(map.featureMap()->features()[i], expected.features()[i]);
   }
   expectSameWalls(*map.featureMap()->field(), *expected.field());
+  EXPECT_EQ(offsetDigest(*map.featureMap()->field()), 3603488099U) << "as that version made them";
   EXPECT_EQ(map.insertion_options.building.merge_gap, 0.7);
   EXPECT_EQ(map.likelihood_options.points.max_points, 17U);
 }

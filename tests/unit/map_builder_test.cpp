@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 #include <limits>
 #include <random>
 #include <stdexcept>
@@ -152,9 +153,12 @@ TEST(MapBuilder, ALookCostsWhatItSees)
     before = now;
   }
   const std::size_t map_cells = builder.map().field()->cells.size();
-  for (const std::uint64_t round : work) EXPECT_LT(round, 21 * map_cells / 4);
-  // Every look moves the walls it sees by a little; it costs about what it did when they were new.
+  for (const std::uint64_t round : work) EXPECT_LT(round, 21 * map_cells / 6);
+  // Every look moves the walls it sees by a little: it never costs much more than when they were
+  // new.
   EXPECT_LT(work.back(), 1.25 * static_cast<double>(work.front()));
+  std::cout << "cells of the first round " << work.front() << ", of the last " << work.back()
+            << ", of a round of the whole map " << 21 * map_cells << "\n";
 }
 
 TEST(MapBuilder, TakesNothingInFromALookThatItRefuses)

@@ -85,7 +85,7 @@ class BeamCounts
   /// All cells of a box.
   OccupancyRaster raster(const CellBox& box, std::uint32_t min_looks) const;
 
-  /// True when states may have changed since `takeChangedTiles` was called last.
+  /// True when cells may have changed since `takeChangedTiles` was called last.
   bool changed() const { return !changed_.empty(); }
   /// Lower left cells of the tiles in which they may have, in order.
   std::vector<CellIndex> takeChangedTiles();
