@@ -165,6 +165,16 @@ SIGLOC_WIDE_VECTORS PullSums informationAt(const CellView& cells, const DenseSca
   }
   return sums;
 }
+
+/// What a return that lies on a wall tells of the robot's place along the wall's normal [1/m^2].
+double informationOfReturn(const DenseScan& scan)
+{
+  constexpr double kRangeSigma = 0.05;  // [m], of a return against the raster
+  constexpr double kIndependentBeams = 40;  // neighbouring beams are correlated
+  const double tempering = std::min(1.0, kIndependentBeams / static_cast<double>(scan.size() + 1));
+  return tempering / (kRangeSigma * kRangeSigma);
+}
+
 /// The pose after a step in the robot frame.
 TPose2D movedBy(const TPose2D& pose, const Placement& place, const std::array<double, 3>& move)
 {
@@ -249,17 +259,14 @@ void DenseVerifier::refineAll(const DenseScan& scan, std::vector<TPose2D>& poses
 mrpt::math::CMatrixDouble33 DenseVerifier::covarianceAt(const DenseScan& scan,
                                                         const TPose2D& pose) const
 {
-  constexpr double kRangeSigma = 0.05;  // [m], of a return against the raster
   constexpr double kOpenSigma = 5.0;  // [m], of a direction that nothing fixes
-  constexpr double kIndependentBeams = 40;  // neighbouring beams are correlated
   const PullSums sums = informationAt(CellView(field_), scan, Placement(pose));
   Eigen::Matrix3f in_robot;
   in_robot << sums.xx, sums.xy, sums.xt, sums.xy, sums.yy, sums.yt, sums.xt, sums.yt, sums.tt;
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   turn.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(pose.phi).toRotationMatrix();
   Eigen::Matrix3d information = turn * in_robot.cast<double>() * turn.transpose();
-  const double tempering = std::min(1.0, kIndependentBeams / static_cast<double>(scan.size() + 1));
-  information *= tempering / (kRangeSigma * kRangeSigma);
+  information *= informationOfReturn(scan);
   information(0, 0) += 1.0 / (kOpenSigma * kOpenSigma);
   information(1, 1) += 1.0 / (kOpenSigma * kOpenSigma);
   information(2, 2) += 1.0 / (0.2 * 0.2);
@@ -270,5 +277,34 @@ mrpt::math::CMatrixDouble33 DenseVerifier::covarianceAt(const DenseScan& scan,
     for (int c = 0; c < 3; ++c) out(r, c) = 0.5 * (covariance(r, c) + covariance(c, r));
   }
   return out;
+}
+
+/// Returns on no wall in particular, and what was moved and now stands where something else did,
+/// seem to fix a pose along a corridor. What they tell must show in the fit.
+mrpt::math::CMatrixDouble33 DenseVerifier::testedCovarianceAt(const DenseScan& scan,
+                                                              const TPose2D& pose) const
+{
+  constexpr double kMove = 0.12;  // [m], the fine sigma
+  constexpr double kUntestedSigma = 0.1;  // [m], where the fit does not suffer at all
+  const double loss_of_return = 1.0 - std::exp(-0.5);  // of one that such a move takes off its wall
+  mrpt::math::CMatrixDouble33 covariance = covarianceAt(scan, pose);
+  const Eigen::Matrix2d position = covariance.asEigen().topLeftCorner<2, 2>();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(position);
+  const double widest = axes.eigenvalues()[1];
+  const Eigen::Vector2d along = axes.eigenvectors().col(1);
+  const auto fit_after = [&](double move) {
+    return fineLikelihood(scan, {pose.x + move * along[0], pose.y + move * along[1], pose.phi});
+  };
+  const double loss = fit_after(0) - std::max(fit_after(kMove), fit_after(-kMove));
+  const double telling = std::max(0.0, loss / loss_of_return);
+  const double variance =
+      1.0 / (telling * informationOfReturn(scan) + 1.0 / (kUntestedSigma * kUntestedSigma));
+  if (variance <= widest) return covariance;
+  const Eigen::Matrix2d more = (variance - widest) * along * along.transpose();
+  for (int r = 0; r < 2; ++r)
+  {
+    for (int c = 0; c < 2; ++c) covariance(r, c) += more(r, c);
+  }
+  return covariance;
 }
 }  // namespace sigloc

@@ -40,9 +40,10 @@ constexpr double kSettleLoss = 0.01;  // of the score, that settling may cost
 constexpr double kDistinctDistance = 0.5;  // [m]
 constexpr double kApartDistance = 0.08;  // [m]
 constexpr double kDistinctAngle = 17.0 * M_PI / 180.0;  // [rad]
-constexpr std::size_t kRayBeams = 64;  // beams tested for passing through walls
+constexpr std::size_t kRayBeams = SolidWalls::kRays;  // beams tested for passing through walls
 constexpr std::size_t kFinalRays = 24;  // of them, for a pose that may still be no contender
 constexpr double kFreeMargin = 0.4;  // [m] from any wall that makes an end in free space count
+constexpr auto kFarFromWall = static_cast<std::uint8_t>(kFreeMargin / DenseField::kDistanceUnit);
 constexpr double kThroughPenalty = 0.5;
 constexpr double kFreePenalty = 0.5;
 
@@ -141,7 +142,6 @@ struct EndSums
 SIGLOC_WIDE_VECTORS EndSums sumsOfEnds(const DenseField& field, const DenseScan& scan,
                                        const Placement& place, std::size_t count)
 {
-  constexpr auto kFarFromWall = static_cast<std::uint8_t>(kFreeMargin / DenseField::kDistanceUnit);
   const CellView cells(field);
   const LikelihoodTable& fine = fineTable();
   const LikelihoodTable& coarse = coarseTable();
@@ -278,6 +278,39 @@ double DenseVerifier::likelihood(const DenseScan& scan, const TPose2D& pose,
   const std::size_t count = std::min(beams, scan.size());
   const EndSums sums = sumsOfEnds(field_, scan, Placement(pose), count);
   return 0.5 * static_cast<double>(sums.fine + sums.coarse) / static_cast<double>(count);
+}
+
+/// Sum over the returns.
+double DenseVerifier::fineLikelihood(const DenseScan& scan, const TPose2D& pose) const
+{
+  return static_cast<double>(sumsOfEnds(field_, scan, Placement(pose), scan.size()).fine);
+}
+
+std::vector<float> DenseVerifier::explainedReturns(const DenseScan& scan, const TPose2D& pose) const
+{
+  constexpr auto kFree = static_cast<float>(kFreePenalty);
+  constexpr auto kThrough = static_cast<float>(kThroughPenalty);
+  const CellView cells(field_);
+  const Placement place(pose);
+  const LikelihoodTable& fine = fineTable();
+  const LikelihoodTable& coarse = coarseTable();
+  const std::uint64_t through = solid_walls_->throughBits(scan, pose, kRayBeams);
+  std::vector<float> explained(scan.size());
+  CellView::Block block;
+  for (std::size_t first = 0; first < scan.size(); first += CellView::Block::kSize)
+  {
+    const std::size_t size = std::min(CellView::Block::kSize, scan.size() - first);
+    block.fill(cells, place, &scan.x[first], &scan.y[first], size);
+    for (std::size_t i = 0; i < size; ++i)
+    {
+      const std::uint8_t distance = block.distance(i);
+      const bool in_free = distance > kFarFromWall && block.state(i) == CellState::free;
+      float share = 0.5F * (fine[distance] + coarse[distance]) - (in_free ? kFree : 0.0F);
+      if (first + i < kRayBeams && (through >> (first + i) & 1U) != 0) share -= kThrough;
+      explained[first + i] = std::max(0.0F, share);
+    }
+  }
+  return explained;
 }
 
 DenseEvidence DenseVerifier::evaluate(const DenseScan& scan, const TPose2D& pose) const

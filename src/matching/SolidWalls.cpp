@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bitset>
 #include <cmath>
 
 #include "CellView.h"
@@ -56,7 +57,7 @@ void spreadRings(std::vector<std::uint8_t>& rings, std::uint32_t width, std::uin
   }
 }
 
-constexpr std::size_t kRays = 64;  // at a time
+constexpr std::size_t kRays = SolidWalls::kRays;
 
 /// In cells of the frame, from its origin.
 struct Rays
@@ -168,15 +169,23 @@ double SolidWalls::throughShare(const DenseScan& scan, const TPose2D& pose, std:
   std::size_t crossed = 0;
   for (std::size_t first = 0; first < count; first += kRays)
   {
-    crossed += crossings(scan, place, first, std::min(kRays, count - first));
+    const std::uint64_t bits = crossings(scan, place, first, std::min(kRays, count - first));
+    crossed += std::bitset<kRays>(bits).count();
   }
   return static_cast<double>(crossed) / static_cast<double>(count);
 }
 
-/// How many of the beams meet a solid wall. They advance eight at a time, and the eights in turns:
-/// a ray's next look-up waits for its last, those of different rays don't wait for each other.
-SIGLOC_WIDE_VECTORS std::size_t SolidWalls::crossings(const DenseScan& scan, const Placement& place,
-                                                      std::size_t first, std::size_t count) const
+std::uint64_t SolidWalls::throughBits(const DenseScan& scan, const TPose2D& pose,
+                                      std::size_t beams) const
+{
+  return crossings(scan, Placement(pose), 0, std::min({beams, kRays, scan.size()}));
+}
+
+/// Which of the beams meet a solid wall. They advance eight at a time, and the eights in turns: a
+/// ray's next look-up waits for its last, those of different rays don't wait for each other.
+SIGLOC_WIDE_VECTORS std::uint64_t SolidWalls::crossings(const DenseScan& scan,
+                                                        const Placement& place, std::size_t first,
+                                                        std::size_t count) const
 {
   struct Eight
   {
@@ -194,7 +203,7 @@ SIGLOC_WIDE_VECTORS std::size_t SolidWalls::crossings(const DenseScan& scan, con
     loadWide(&rays.length[i], kWideFloats, length);
     eights[advancing++] = {i, start, start < length};
   }
-  WideInt crossed{};
+  std::array<WideInt, kRays / kWideFloats> crossed{};  // all bits of those that do
   while (advancing > 0)
   {
     std::size_t kept = 0;
@@ -208,7 +217,7 @@ SIGLOC_WIDE_VECTORS std::size_t SolidWalls::crossings(const DenseScan& scan, con
       lookAround(frame_, clear_rings_.data(), rays, eight.first, eight.along, rings, clear);
       loadWide(&rays.length[eight.first], kWideFloats, length);
       eight.along += clear;
-      crossed -= eight.under_way & (rings == 0);
+      crossed[eight.first / kWideFloats] |= eight.under_way & (rings == 0);
       // A ray so far away that a step is lost in rounding gets no farther.
       eight.under_way &= (rings != 0) & (eight.along < length) & (eight.along > before);
       eights[kept] = eight;
@@ -216,8 +225,12 @@ SIGLOC_WIDE_VECTORS std::size_t SolidWalls::crossings(const DenseScan& scan, con
     }
     advancing = kept;
   }
-  std::size_t sum = 0;
-  for (std::size_t i = 0; i < kWideFloats; ++i) sum += static_cast<std::size_t>(crossed[i]);
-  return sum;
+  std::uint64_t bits = 0;
+  for (std::size_t i = 0; i < rays.count; ++i)
+  {
+    const bool meets = crossed[i / kWideFloats][i % kWideFloats] != 0;
+    bits |= static_cast<std::uint64_t>(meets) << i;
+  }
+  return bits;
 }
 }  // namespace sigloc

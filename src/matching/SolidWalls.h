@@ -17,6 +17,8 @@ struct Placement;
 class SolidWalls
 {
  public:
+  static constexpr std::size_t kRays = 64;  ///< beams that are followed at a time
+
   explicit SolidWalls(const DenseField& field);
 
   /// Returns the share of the first `beams` of a scan that pass a solid wall more than 0.4 m before
@@ -24,9 +26,13 @@ class SolidWalls
   double throughShare(const DenseScan& scan, const mrpt::math::TPose2D& pose,
                       std::size_t beams) const;
 
+  /// Tells of the first `beams` <= kRays which ones do: bit i is set for the i-th.
+  std::uint64_t throughBits(const DenseScan& scan, const mrpt::math::TPose2D& pose,
+                            std::size_t beams) const;
+
  private:
-  std::size_t crossings(const DenseScan& scan, const Placement& place, std::size_t first,
-                        std::size_t count) const;
+  std::uint64_t crossings(const DenseScan& scan, const Placement& place, std::size_t first,
+                          std::size_t count) const;
 
   RasterFrame frame_;
   /// Rings of cells around each one that hold no solid wall, 0: it holds one itself. One more at

@@ -151,7 +151,7 @@ void HypothesisTracker::State::followDensely(const std::optional<MotionIncrement
   goOn(travel);
   past.remember(scan, travelled);
   set.follow(scan, travelled, travel, motion ? motion->mean.norm() : travel);
-  set.weigh(travel, scan);
+  set.weigh(scan, *matcher->verifier(), travelled, travel);
   if (wantsRelocation()) relocate(scene, scan);
   set.mergeAndPrune();
   judgeFirst(scan);
@@ -333,6 +333,7 @@ Track HypothesisTracker::State::startAt(const RelocationResult& result, std::siz
   fresh.evidence = matcher->verifier()->evaluate(scan, candidate.pose.mean);
   fresh.addFollowed(kUnfollowed + view * followedLogOdds(fresh.evidence));
   fresh.addFit(0);
+  set.showTo(fresh, scan, *matcher->verifier(), travelled);
   return fresh;
 }
 

@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "GroundView.h"
 #include "sigloc/geometry/GaussianPose.h"
 #include "sigloc/matching/DenseVerifier.h"
 #include "TrackSet.h"
@@ -30,13 +31,15 @@ class PastScans
   void remember(const DenseScan& scan, double travelled);
 
   /// Gives the tracks that started with this step the weight they would have if they had been
-  /// followed as long as the heaviest of the others, at most its own. \cite algorithm eq. (8.24)
+  /// followed as long as the heaviest of the others, at most its own. One that shares its way up to
+  /// a slip takes over what is known of it. \cite algorithm eq. (8.24)
   void weighNewcomers(TrackSet& set, const DenseVerifier& verifier) const;
 
  private:
   struct Look
   {
     DenseScan scan;
+    GroundView view;
     mrpt::math::TPose2D odometry;  // where the robot stood, by odometry alone
     double travelled;  // [m]
     std::uint64_t step;
@@ -45,14 +48,22 @@ class PastScans
   struct Visit
   {
     mrpt::math::TPose2D pose;
-    double log_likelihood;
+    double log_likelihood;  // of its score
+    double unexplained;  // cells of the ground more than at the look that came later
+    double detour;  // log-odds against the step from there
   };
   class WayBack;
+  /// What the way says of a newcomer.
+  struct WaySays
+  {
+    double log_odds;  // against the heaviest track; minus infinity: nothing for it
+    bool branched = false;  // the two ways are one before a slip
+  };
 
   std::vector<Visit> wayTo(const mrpt::math::TPose2D& pose, std::uint64_t since,
                            const DenseVerifier& verifier) const;
-  double logOddsAgainst(const std::vector<Visit>& rival, const mrpt::math::TPose2D& pose,
-                        double evidence_distance, const DenseVerifier& verifier) const;
+  WaySays compareWith(const std::vector<Visit>& rival, const mrpt::math::TPose2D& pose,
+                      double cost_of_unexplained, const DenseVerifier& verifier) const;
   const Look& lookBack(std::size_t k) const { return looks_[looks_.size() - 1 - k]; }
 
   TrackerOptions options_;

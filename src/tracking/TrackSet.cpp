@@ -25,23 +25,9 @@ constexpr double kSameDistance = 0.5;  // [m], a proposal this near to a track c
 constexpr double kSameAngle = 17.0 * M_PI / 180.0;
 constexpr double kMergeDistance = 0.3;  // [m]
 constexpr double kMergeAngle = 10.0 * M_PI / 180.0;
-constexpr double kMisfitMemory = 3.0;  // [m] of travel
 constexpr double kChangeMemory = 10.0;  // [m] of travel
-constexpr double kUsualChange = 0.02;  // share left unexplained that doubles the evidence distance
-constexpr double kMostChange = 1.5;  // of it
-constexpr double kMisfitFloor = 0.03;  // share that even the right pose leaves unexplained
-constexpr double kUsualMisfit = 0.068;  // with its floor, of a pose that may be right or foreign
-constexpr double kFitSlope = 1.04;
-constexpr double kSurvival = 0.2;  // log-odds of a metre that a track has survived ...
-constexpr double kUsualLife = 10.0;  // [m] ... beyond what a wrong one often lasts, too,
-constexpr double kLongLife = 20.0;  // [m] up to here
-constexpr double kYoung = -0.5;  // log-odds of one that has not lasted so long
-constexpr double kFitSurvival = 0.3;  // further log-odds of a metre where the walls fit:
-constexpr double kChanceFit = 0.8;  // none for as much on walls as a wrong place may have,
-constexpr double kGoodFit = 0.9;  // all from here on
-constexpr double kMinFollowed = -8.0;
-constexpr double kMaxFollowed = 12.0;
-constexpr double kLeastKnown = 0.05;  // share of a scan in known land that tells of it
+constexpr double kLeastChange = 0.02;  // share of what is mapped that even a map of today has wrong
+constexpr double kMostChange = 0.45;
 constexpr double kSure = 0.9;  // a relocation that overrules all tracks
 constexpr double kMostNews = 4.0;  // views that a metre can bring
 constexpr double kScoreMemory = 0.9;  // of the running mean of the score, per step
@@ -61,12 +47,13 @@ bool heavier(const Track& a, const Track& b)
 }
 }  // namespace
 
-double shareBetweenRivals(const DenseScan& scan, double travel, double evidence_distance)
+double shareBetweenRivals(const DenseScan& scan, double travel, const TrackerOptions& options)
 {
   constexpr double kTelling = 60;  // returns
+  constexpr double kBold = 0.7;  // of the distance: another judge must agree
   const auto seen = std::count(scan.isolated.begin(), scan.isolated.end(), 0);
   return std::min(1.0, static_cast<double>(seen) / kTelling) *
-         std::min(1.0, travel / evidence_distance);
+         std::min(1.0, travel / (kBold * options.evidence_distance));
 }
 
 bool isSamePlace(const TPose2D& a, const TPose2D& b)
@@ -77,34 +64,6 @@ bool isSamePlace(const TPose2D& a, const TPose2D& b)
 bool wouldMerge(const TPose2D& a, const TPose2D& b)
 {
   return coincide(a, b, kMergeDistance, kMergeAngle);
-}
-
-void Track::addFollowed(double log_odds)
-{
-  followed = std::clamp(followed + log_odds, kMinFollowed, kMaxFollowed);
-}
-
-void Track::addFit(double travel)
-{
-  const double now = unexplainedShare(evidence) + evidence.through_wall;
-  const double fresh = misfit ? 1.0 - std::exp(-travel / kMisfitMemory) : 1.0;
-  misfit = misfit.value_or(0) + fresh * (now - misfit.value_or(0));
-  const double known = std::max(kLeastKnown, 1.0 - evidence.unknown);
-  on_walls += fresh * (evidence.fine / known - on_walls);
-}
-
-double Track::presence() const
-{
-  const double fit = misfit ? kFitSlope * std::log(kUsualMisfit / (*misfit + kMisfitFloor)) : 0.0;
-  return confirmed + followed + fit;
-}
-
-double Track::survival() const
-{
-  if (!misfit) return 0;
-  const double fit = std::clamp((on_walls - kChanceFit) / (kGoodFit - kChanceFit), 0.0, 1.0);
-  return kYoung + (kSurvival + kFitSurvival * fit) *
-                      (std::clamp(followed_way, kUsualLife, kLongLife) - kUsualLife);
 }
 
 double TrackSet::predict(const std::optional<MotionIncrement>& motion)
@@ -124,6 +83,8 @@ double TrackSet::predict(const std::optional<MotionIncrement>& motion)
     increment.covariance(1, 1) = increment.covariance(0, 0);
     increment.covariance(2, 2) = options_.free_turn_sigma * options_.free_turn_sigma;
   }
+  if (motion) ground_ = ground_ + motion->mean;
+  if (!motion && !tracks.empty()) left_ = heaviest().hypothesis.pose.mean;
   const double travel = motion ? travelOf(increment.mean, options_) : options_.lost_distance;
   for (Track& track : tracks)
   {
@@ -137,6 +98,8 @@ double TrackSet::predict(const std::optional<MotionIncrement>& motion)
 void TrackSet::update(const DenseScan& scan, const DenseVerifier& verifier)
 {
   for (Track& track : tracks) updatePose(track, scan, verifier);
+  if (has_odometry_ || tracks.empty()) return;
+  ground_ = ground_ + (heaviest().hypothesis.pose.mean - left_);
 }
 
 /// Without odometry the robot may have turned or driven farther than a refinement reaches: along a
@@ -177,13 +140,13 @@ TPose2D TrackSet::searchedPose(const TPose2D& predicted, const DenseScan& scan,
 /// the prediction excludes is taken only when it explains the scan clearly better: odometry slips.
 void TrackSet::updatePose(Track& track, const DenseScan& scan, const DenseVerifier& verifier) const
 {
-  constexpr double kClearlyBetter = 0.15;  // of the score
+  constexpr double kClearlyBetter = 0.3;  // of the score
   GaussianPose& pose = track.hypothesis.pose;
   const DenseEvidence predicted = verifier.evaluate(scan, pose.mean);
   GaussianPose measured;
   measured.mean = has_odometry_ ? verifier.refine(scan, pose.mean, kUpdateSteps, scan.size())
                                 : searchedPose(pose.mean, scan, verifier);
-  measured.covariance = verifier.covarianceAt(scan, measured.mean);
+  measured.covariance = verifier.testedCovarianceAt(scan, measured.mean);
   for (int r = 0; r < 3; ++r)
   {
     for (int c = 0; c < 3; ++c) measured.covariance(r, c) *= kCorrelation;
@@ -217,11 +180,10 @@ void TrackSet::follow(const DenseScan& scan, double travelled, double travel, do
   }
 }
 
-/// Rivals are weighed against each other by how well each explains the scan, per distance driven:
-/// the errors of map and scan stay the same for a stretch. Against "somewhere else" the best of
-/// them is weighed by its score alone, and sooner; a track that is held is not given up for what
-/// ends before mapped walls, because something may hide them.
-void TrackSet::weigh(double travel, const DenseScan& scan)
+/// Against "somewhere else" the best track is weighed by its score alone, and at once; one that is
+/// held is not given up for what ends before mapped walls, because something may hide them.
+void TrackSet::weigh(const DenseScan& scan, const DenseVerifier& verifier, double travelled,
+                     double travel)
 {
   if (tracks.empty()) return;
   const double best_score =
@@ -230,13 +192,7 @@ void TrackSet::weigh(double travel, const DenseScan& scan)
           ->score;
   unexplained_ +=
       (1.0 - std::exp(-travel / kChangeMemory)) * (std::max(0.0, 1.0 - best_score) - unexplained_);
-  const double best = logLikelihoodOfScore(best_score);
-  const double between = shareBetweenRivals(scan, travel, evidenceDistance());
-  for (Track& track : tracks)
-  {
-    const double behind = std::max(logLikelihoodOfScore(track.score) - best, -kMaxRelative);
-    track.hypothesis.weight *= std::exp(between * behind);
-  }
+  weighRivals(scan, verifier, travelled, travel, best_score);
   const double lost = std::min(1.0, travel / options_.lost_distance);
   double most = -1;
   for (const Track& track : tracks)
@@ -249,11 +205,45 @@ void TrackSet::weigh(double travel, const DenseScan& scan)
   normalise();
 }
 
-/// In a place that has changed a moved chair speaks for the wrong one of two poses as long as it is
-/// in view: what scans say is independent over a longer distance.
-double TrackSet::evidenceDistance() const
+/// The errors of map and scan stay the same for a stretch, and so does what has changed since the
+/// place was mapped: scores count per distance, and each piece of the ground but once.
+void TrackSet::weighRivals(const DenseScan& scan, const DenseVerifier& verifier, double travelled,
+                           double travel, double best_score)
 {
-  return options_.evidence_distance * (1.0 + std::min(kMostChange, unexplained_ / kUsualChange));
+  const GroundView view = viewOf(scan, ground_);
+  std::vector<double> unexplained;
+  for (Track& track : tracks)
+  {
+    const auto explained = verifier.explainedReturns(scan, track.hypothesis.pose.mean);
+    unexplained.push_back(track.explained.look(view, explained, travelled));
+  }
+  const double least = *std::min_element(unexplained.begin(), unexplained.end());
+  const double best = logLikelihoodOfScore(best_score);
+  const double share = shareBetweenRivals(scan, travel, options_);
+  for (std::size_t k = 0; k < tracks.size(); ++k)
+  {
+    RivalEvidence& behind = tracks[k].behind;
+    const double before = behind.told();
+    const double lead = logLikelihoodOfScore(tracks[k].score) - best;
+    behind.by_score += share * std::max(lead, -kMaxRelative);
+    behind.by_ground -= std::min(kMaxRelative, costOfUnexplained() * (unexplained[k] - least));
+    tracks[k].hypothesis.weight *= std::exp(behind.told() - before);
+  }
+}
+
+void TrackSet::showTo(Track& track, const DenseScan& scan, const DenseVerifier& verifier,
+                      double travelled) const
+{
+  track.explained.look(viewOf(scan, ground_),
+                       verifier.explainedReturns(scan, track.hypothesis.pose.mean), travelled);
+}
+
+/// Where the best of all has been leaving things unexplained, the place has changed since it was
+/// mapped, and the right pose must be expected to fail now and then.
+double TrackSet::costOfUnexplained() const
+{
+  const double changed = std::min(kMostChange, kLeastChange + unexplained_);
+  return std::log((1.0 - changed) / changed);
 }
 
 void TrackSet::normalise()

@@ -8,78 +8,17 @@
 #include <optional>
 #include <vector>
 
-#include "SeenStructure.h"
 #include "sigloc/geometry/GaussianPose.h"
 #include "sigloc/matching/DenseVerifier.h"
 #include "sigloc/tracking/Belief.h"
 #include "sigloc/tracking/HypothesisTracker.h"
-#include "sigloc/tracking/MapCorrelation.h"
+#include "Track.h"
 
 namespace sigloc
 {
-// Bounds of what one relocation or one unit of travel can tell, in log-odds; with a dense field and
-// without. Section 8 of docs/algorithm.md gives them where they are used.
-constexpr double kMaxRelative = 3.0;  // between rivals
-constexpr double kMaxLost = 3.0;  // for "somewhere else"
-constexpr double kMaxConfirmed = 12.0;  // what was confirmed long ago can still be lost
-constexpr double kMinConfirmed = -1.0;  // what look-alikes hid for long can still be confirmed
-constexpr double kMaxAgainst = 2.0;  // against a track, a metre
-constexpr double kHeld = 4.0;  // from which on a track is not given up for a look-alike
-constexpr double kFarBetter = 4.0;  // by which a place must beat what is held
-
-/// What a track remembers of the mapped features it was paired with.
-struct FeatureMemory
-{
-  MapCorrelation correlation;
-  std::size_t paired = 0;  // in the last step
-  double fresh_share = 0;  // of them, those that were not seen on the last stretch
-  double doubt = 0;  // log-odds lately lost against clutter, at most 0, eq. (8.20)
-};
-
-/// A hypothesis with what the tracker remembers of it.
-struct Track
-{
-  TrackedHypothesis hypothesis;
-  double score = 0;  // of the last scan
-  DenseEvidence evidence;  // of the last scan
-  double mean_score = 0;  // running mean
-  bool found = false;  // best of the whole map by this step's relocation
-  double confirmed = 0;  // log-odds that relocations, each blind to the track, have given it
-  SeenStructure seen;  // what that evidence rests on
-  double followed = 0;  // log-odds from how the map explained what came into view on the way
-  SeenStructure on_the_way;  // what has come into view
-  std::optional<double> misfit;  // of what is seen, known or new, lately; none without a field
-  double on_walls = 0;  // mean fine likelihood of what is seen in known land, likewise
-  double followed_way = 0;  // [m] driven since the track began
-  FeatureMemory features;  // in a map without a dense field
-
-  /// Adds to `followed`, within its bounds.
-  void addFollowed(double log_odds);
-
-  /// Takes what the map explains of the last scan, and what not, into their means over some travel
-  /// [m].
-  void addFit(double travel);
-
-  /// Log-odds of standing in the map at all, eq. (8.22)
-  double presence() const;
-
-  /// What is added to them for having been followed so far, eq. (8.25); 0 without a field.
-  double survival() const;
-
-  /// Whether a relocation or the way has told enough not to give the track up for a look-alike.
-  bool held() const { return std::max(confirmed, presence()) >= kHeld; }
-
-  /// Whether the score `now` of the last scan is less by `drop` than the track's scores used to be.
-  bool hasFallenTo(double now, double drop) const
-  {
-    return hypothesis.age > 1 && now < mean_score - drop;
-  }
-};
-
-/// How much of what a scan says counts between rivals, in [0, 1], after `travel` [m] since the one
-/// before, a scan being news after `evidence_distance` [m]. Few returns tell little: half of a
-/// score may hang on three specks. Eq. (8.5)
-double shareBetweenRivals(const DenseScan& scan, double travel, double evidence_distance);
+/// How much of what a scan's score says counts between rivals, in [0, 1], after `travel` [m] since
+/// the one before. Few returns tell little: half of a score may hang on three specks. Eq. (8.5)
+double shareBetweenRivals(const DenseScan& scan, double travel, const TrackerOptions& options);
 
 /// True for a pose so near to a track that it is the track's.
 bool isSamePlace(const mrpt::math::TPose2D& a, const mrpt::math::TPose2D& b);
@@ -100,11 +39,17 @@ class TrackSet
   /// Refines every track by the returns and scores it. Eq. (8.3), (8.4)
   void update(const DenseScan& scan, const DenseVerifier& verifier);
 
-  /// Weighs rivals against each other, the best against "somewhere else". Eq. (8.5), (8.6)
-  void weigh(double travel, const DenseScan& scan);
+  /// Weighs rivals against each other, the best against "somewhere else", by a scan after
+  /// `travelled` [m] in all, `travel` [m] since the one before. Eq. (8.5), (8.6)
+  void weigh(const DenseScan& scan, const DenseVerifier& verifier, double travelled, double travel);
 
-  /// Travel [m] after which another scan speaks for itself between rivals. Eq. (8.26)
-  double evidenceDistance() const;
+  /// Lets a track that starts with the last scan look at it, which is no news to it any more.
+  void showTo(Track& track, const DenseScan& scan, const DenseVerifier& verifier,
+              double travelled) const;
+
+  /// Log-odds that a cell of the ground left unexplained costs against a rival that explains it.
+  /// Eq. (8.26)
+  double costOfUnexplained() const;
 
   /// Adds to every track what the parts of the scan tell that came into view with the last `travel`
   /// [m] of `travelled`, on which the robot moved by `driven` [m]. Eq. (8.21), (8.25)
@@ -138,12 +83,17 @@ class TrackSet
   double elsewhere = 1;
 
  private:
+  void weighRivals(const DenseScan& scan, const DenseVerifier& verifier, double travelled,
+                   double travel, double best_score);
   void updatePose(Track& track, const DenseScan& scan, const DenseVerifier& verifier) const;
   mrpt::math::TPose2D searchedPose(const mrpt::math::TPose2D& predicted, const DenseScan& scan,
                                    const DenseVerifier& verifier) const;
 
   TrackerOptions options_;
   bool has_odometry_ = true;  // of the last prediction
+  mrpt::math::TPose2D
+      ground_;  // the robot's pose, by odometry alone; without, by the heaviest track
+  mrpt::math::TPose2D left_;  // the heaviest track's before the last prediction
   double unexplained_ = 0;  // share that the best track has left unexplained, lately
 };
 }  // namespace sigloc

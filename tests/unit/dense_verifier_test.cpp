@@ -181,5 +181,103 @@ TEST(DenseVerifier, LoneReturnsInFreeSpaceSayNothing)
   for (std::size_t i = 0; i < hidden.beams.size() / 2; ++i) hidden.beams[i].point *= 0.5;
   EXPECT_GT(verifier.evaluate(makeDenseScan(hidden, 400), pose).in_free, 0.4);
 }
+TEST(DenseVerifier, WhatReturnsExplainMakesUpTheScore)
+{
+  const Room room;
+  const DenseVerifier verifier(room.field());
+  const TPose2D truth(3.0, 3.5, 0.4);
+  const DenseScan scan = makeDenseScan(room.scene(truth, 9), 180);
+  const auto mean_at = [&](const TPose2D& pose)
+  {
+    const std::vector<float> explained = verifier.explainedReturns(scan, pose);
+    EXPECT_EQ(explained.size(), scan.size());
+    double sum = 0;
+    for (const float share : explained)
+    {
+      EXPECT_GE(share, 0.0F);
+      EXPECT_LE(share, 1.0F);
+      sum += static_cast<double>(share);
+    }
+    return sum / static_cast<double>(scan.size());
+  };
+  // One in nine ends in free space: the score takes half of it off again, a single return has no
+  // less to give than nothing. Specks are left out of the score's mean.
+  EXPECT_NEAR(mean_at(truth), 8.0 / 9.0, 0.03);
+  const TPose2D elsewhere(7.5, 3.5, 0.4);
+  EXPECT_LT(mean_at(elsewhere), 0.6);
+  EXPECT_GE(mean_at(elsewhere), verifier.evaluate(scan, elsewhere).score - 0.02);
+}
+
+/// A corridor of 40 m x 2 m.
+DenseField corridorField()
+{
+  OccupancyRaster raster;
+  raster.frame = {{0, 0}, 0.05, 800, 60};
+  for (int y = 0; y < 60; ++y)
+  {
+    for (int x = 0; x < 800; ++x)
+    {
+      const bool inside = y > 10 && y < 50;
+      const bool edge = y >= 8 && y <= 52;
+      raster.cells.push_back(inside ? CellState::free
+                             : edge ? CellState::solid_wall
+                                    : CellState::unknown);
+    }
+  }
+  return buildDenseField(raster);
+}
+
+/// Returns of both walls within `reach` [m] to either side of a robot in the middle. Only the left
+/// wall is told with them: those of the other seem to fix the pose both ways.
+ObservedScene betweenTwoWalls(double reach)
+{
+  ObservedScene scene;
+  scene.sensor_origins = {{0, 0}};
+  Feature left;
+  left.type = FeatureType::segment;
+  left.position = {0, 1};
+  left.direction = -M_PI / 2;
+  left.size = 2 * reach;
+  scene.features = {left};
+  for (double x = -reach; x < reach; x += 0.1)
+  {
+    scene.beams.push_back({{x, 1.0}, 0});
+    scene.beams.push_back({{x, -1.0}, 0});
+  }
+  return scene;
+}
+
+TEST(DenseVerifier, ABareCorridorFixesNoPoseAlongIt)
+{
+  const DenseField field = corridorField();
+  const DenseVerifier verifier(field);
+  const DenseScan scan = makeDenseScan(betweenTwoWalls(4), 180);
+  for (const double heading : {0.0, M_PI})
+  {
+    const TPose2D pose(20, 1.5, heading);
+    EXPECT_LT(std::sqrt(verifier.covarianceAt(scan, pose)(0, 0)), 0.03);
+    const auto tested = verifier.testedCovarianceAt(scan, pose);
+    EXPECT_GT(std::sqrt(tested(0, 0)), 0.09);
+    EXPECT_NEAR(tested(1, 1), verifier.covarianceAt(scan, pose)(1, 1), 1e-6);
+    EXPECT_EQ(tested(2, 2), verifier.covarianceAt(scan, pose)(2, 2));
+  }
+}
+
+TEST(DenseVerifier, WhatTheFitBearsOutStaysAsItIs)
+{
+  const Room room;
+  const DenseVerifier verifier(room.field());
+  for (const TPose2D& truth : {TPose2D(3, 3.5, 0.4), TPose2D(2.2, 6.5, -1.2), TPose2D(6, 2, 3.0)})
+  {
+    const DenseScan scan = makeDenseScan(room.scene(truth), 180);
+    const auto plain = verifier.covarianceAt(scan, truth);
+    const auto tested = verifier.testedCovarianceAt(scan, truth);
+    for (int axis = 0; axis < 2; ++axis)
+    {
+      EXPECT_GE(tested(axis, axis), plain(axis, axis));
+      EXPECT_LT(tested(axis, axis), 4.0 * plain(axis, axis));
+    }
+  }
+}
 }  // namespace
 }  // namespace sigloc

@@ -93,10 +93,19 @@ class DenseVerifier
   /// Returns the full evidence for a pose. \cite algorithm eq. (6.8)
   DenseEvidence evaluate(const DenseScan& scan, const mrpt::math::TPose2D& pose) const;
 
+  /// Returns how far the map explains each return of the scan, in [0, 1]: its part of the score
+  /// (6.8), where of beams that pass walls only those of the 64 first returns count.
+  std::vector<float> explainedReturns(const DenseScan& scan, const mrpt::math::TPose2D& pose) const;
+
   /// Returns the 3x3 covariance of a refined pose [m^2, m rad, rad^2]: the returns' information
   /// of 0.05 m each, tempered; the map's own error is not in it. \cite algorithm eq. (6.9)
   mrpt::math::CMatrixDouble33 covarianceAt(const DenseScan& scan,
                                            const mrpt::math::TPose2D& pose) const;
+
+  /// Returns the same, wider in the direction that is least known as far as the fit does not suffer
+  /// from a move that way. \cite algorithm eq. (6.13)
+  mrpt::math::CMatrixDouble33 testedCovarianceAt(const DenseScan& scan,
+                                                 const mrpt::math::TPose2D& pose) const;
 
   const DenseField& field() const { return field_; }
 
@@ -111,6 +120,7 @@ class DenseVerifier
                          std::size_t rays) const;
   double likelihood(const DenseScan& scan, const mrpt::math::TPose2D& pose,
                     std::size_t beams) const;
+  double fineLikelihood(const DenseScan& scan, const mrpt::math::TPose2D& pose) const;
 
   const DenseField& field_;
   std::unique_ptr<const QuickField> quick_;

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "GroundView.h"
+
+namespace sigloc
+{
+/// How much of what it has seen a hypothesis leaves unexplained, each cell of the ground counting
+/// once however often it is looked at: a chair that has been moved speaks for the wrong one of two
+/// places as long as it is in view, but it is one chair. Cells are those of the ground that
+/// odometry tells: what one holds is the same thing for all hypotheses. \cite algorithm eq. (8.5)
+class ExplainedStructure
+{
+ public:
+  /// Takes a view in, of which the hypothesis explains each return by a share in [0, 1], after
+  /// `travelled` [m] in all. Returns by how many cells what is left unexplained has grown; less
+  /// than 0 where a better look explains more. What was seen longer than 10 m ago is news again.
+  double look(const GroundView& view, const std::vector<float>& explained, double travelled);
+
+ private:
+  struct Cell
+  {
+    float explained = 0;  // sum over returns
+    float returns = 0;
+    double last_seen = 0;  // travelled [m]
+
+    /// In [0, 1]; few returns tell little.
+    double unexplained() const;
+  };
+  void forget(double travelled);
+
+  std::unordered_map<std::uint64_t, Cell> cells_;
+  double tidied_ = 0;  // travelled [m] when cells were last forgotten
+};
+}  // namespace sigloc

@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mrpt/math/TPose2D.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "sigloc/matching/DenseVerifier.h"
+
+namespace sigloc
+{
+/// Where a scan's returns end, as cells of 0.5 m of the frame that the robot's pose is given in.
+struct GroundView
+{
+  static constexpr std::uint32_t kNowhere = 0xFFFFFFFF;
+
+  std::vector<std::uint64_t> cells;  ///< every cell once, ascending
+  std::vector<std::uint32_t> cell_of;  ///< a return's, index into cells; kNowhere if isolated
+};
+
+GroundView viewOf(const DenseScan& scan, const mrpt::math::TPose2D& frame_from_robot);
+}  // namespace sigloc
