@@ -20,6 +20,7 @@ class ExplainedStructure
   /// Takes a view in, of which the hypothesis explains each return by a share in [0, 1], after
   /// `travelled` [m] in all. Returns by how many cells what is left unexplained has grown; less
   /// than 0 where a better look explains more. What was seen longer than 10 m ago is news again.
+  /// `travelled` counts from any start, also below 0, and never falls.
   double look(const GroundView& view, const std::vector<float>& explained, double travelled);
 
  private:

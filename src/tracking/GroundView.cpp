@@ -13,10 +13,13 @@ constexpr double kCell = 0.5;  // [m]
 
 std::uint64_t cellAt(double x, double y)
 {
-  const auto column = static_cast<std::int32_t>(std::floor(x / kCell));
-  const auto row = static_cast<std::int32_t>(std::floor(y / kCell));
-  return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(column)) << 32U) |
-         static_cast<std::uint32_t>(row);
+  const auto at = [](double along)
+  {
+    constexpr double kFarthest = 1e9;  // [cells]; nobody drives so far, but an int must hold it
+    return static_cast<std::int32_t>(std::clamp(std::floor(along / kCell), -kFarthest, kFarthest));
+  };
+  return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(at(x))) << 32U) |
+         static_cast<std::uint32_t>(at(y));
 }
 }  // namespace
 

@@ -104,7 +104,7 @@ PastScans::WaySays PastScans::compareWith(const std::vector<Visit>& rival, const
     const Visit own = way.visit(look);
     if (isSamePlace(own.pose, rival[k].pose))
     {
-      return sum.told() > kBranches ? WaySays{sum.told() - kBranches, true} : kNothing;
+      return sum.told() > kBranches ? WaySays{0, true} : kNothing;
     }
     // The first look counts in full, as the first relocation does.
     const bool is_first = k + 1 == rival.size();

@@ -33,9 +33,10 @@ struct FeatureMemory
   double doubt = 0;  // log-odds lately lost against clutter, at most 0, eq. (8.20)
 };
 
-/// Log-odds of a track against its best rival, as two judges see them that err in different ways:
-/// `by_score` hears every scan again after a while, and a chair that was moved as long as it is in
-/// view; `by_ground` hears each piece of the ground once. The milder counts. Eq. (8.5)
+/// Log-odds that a track has lost to the best of each look since it began, as two judges see it
+/// that err in different ways: `by_score` hears every scan again after a while, and a chair that
+/// was moved as long as it is in view; `by_ground` hears each piece of the ground once. The smaller
+/// loss is what the track has paid. Eq. (8.5)
 struct RivalEvidence
 {
   double by_score = 0;
@@ -60,7 +61,7 @@ struct Track
   double on_walls = 0;  // mean fine likelihood of what is seen in known land, likewise
   double followed_way = 0;  // [m] driven since the track began
   ExplainedStructure explained;  // how it explains what is seen, each thing once
-  RivalEvidence behind;  // the best of its rivals, since it began
+  RivalEvidence behind;  // its rivals
   FeatureMemory features;  // in a map without a dense field
 
   /// Adds to `followed`, within its bounds.

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -10,7 +9,6 @@
 
 #include "sigloc/geometry/GaussianPose.h"
 #include "sigloc/matching/DenseVerifier.h"
-#include "sigloc/tracking/Belief.h"
 #include "sigloc/tracking/HypothesisTracker.h"
 #include "Track.h"
 
@@ -91,8 +89,8 @@ class TrackSet
 
   TrackerOptions options_;
   bool has_odometry_ = true;  // of the last prediction
-  mrpt::math::TPose2D
-      ground_;  // the robot's pose, by odometry alone; without, by the heaviest track
+  // The robot's pose by odometry alone; without odometry, by the heaviest track.
+  mrpt::math::TPose2D ground_;
   mrpt::math::TPose2D left_;  // the heaviest track's before the last prediction
   double unexplained_ = 0;  // share that the best track has left unexplained, lately
 };

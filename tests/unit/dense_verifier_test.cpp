@@ -181,6 +181,7 @@ TEST(DenseVerifier, LoneReturnsInFreeSpaceSayNothing)
   for (std::size_t i = 0; i < hidden.beams.size() / 2; ++i) hidden.beams[i].point *= 0.5;
   EXPECT_GT(verifier.evaluate(makeDenseScan(hidden, 400), pose).in_free, 0.4);
 }
+
 TEST(DenseVerifier, WhatReturnsExplainMakesUpTheScore)
 {
   const Room room;

@@ -41,7 +41,7 @@ struct TrackerOptions
                       "[-] lighter hypotheses are given up, their weight goes elsewhere"});
     visit(OptionField{
         "evidence_distance", &O::evidence_distance, 0.01, 100.0,
-        "[m] travel after which a scan is fresh evidence between rivals, where the map fits"});
+        "[m] travel after which a scan is fresh evidence; between rivals seven tenths of it"});
     visit(OptionField{"evidence_turn", &O::evidence_turn, 0.01, 100.0,
                       "[rad] turn that counts as much as the distance"});
     visit(OptionField{"lost_distance", &O::lost_distance, 0.01, 100.0,

@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ExplainedStructure.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace sigloc
+{
+namespace
+{
+/// Three returns in each of a wall's cells of 0.5 m, `cells` of them along x, and one that is
+/// isolated, behind the robot.
+DenseScan wallAhead(int cells)
+{
+  DenseScan scan;
+  for (int k = 0; k < 3 * cells; ++k)
+  {
+    scan.x.push_back(0.1F + static_cast<float>(k) / 6.0F);
+    scan.y.push_back(2.1F);
+    scan.isolated.push_back(0);
+  }
+  scan.x.push_back(-3.0F);
+  scan.y.push_back(0.0F);
+  scan.isolated.push_back(1);
+  return scan;
+}
+
+std::vector<float> allExplained(const DenseScan& scan, float share)
+{
+  return std::vector<float>(scan.size(), share);
+}
+
+TEST(GroundView, HasEveryCellOnceAndNoneForWhatIsIsolated)
+{
+  const DenseScan scan = wallAhead(4);
+  for (const double heading : {0.0, 0.5 * M_PI, M_PI})
+  {
+    const GroundView view = viewOf(scan, {7, -3, heading});
+    ASSERT_EQ(view.cell_of.size(), scan.size());
+    EXPECT_EQ(view.cell_of.back(), GroundView::kNowhere);
+    for (std::size_t i = 0; i + 1 < scan.size(); ++i) EXPECT_LT(view.cell_of[i], view.cells.size());
+    for (std::size_t k = 1; k < view.cells.size(); ++k)
+    {
+      EXPECT_LT(view.cells[k - 1], view.cells[k]);
+    }
+  }
+  EXPECT_EQ(viewOf(scan, {0, 0, 0}).cells.size(), 4U);
+}
+
+TEST(GroundView, HoldsWhatIsFartherThanAnyRobotDrives)
+{
+  const DenseScan scan = wallAhead(4);
+  EXPECT_FALSE(viewOf(scan, {1e200, -1e200, 0}).cells.empty());
+}
+
+TEST(ExplainedStructure, CountsEachThingOnceHoweverOftenItIsSeen)
+{
+  const DenseScan scan = wallAhead(4);
+  const GroundView view = viewOf(scan, {0, 0, 0});
+  ExplainedStructure structure;
+  EXPECT_NEAR(structure.look(view, allExplained(scan, 0.25F), 0), 4 * 0.75, 1e-6);
+  for (int k = 1; k < 50; ++k)
+  {
+    EXPECT_NEAR(structure.look(view, allExplained(scan, 0.25F), 0.1 * k), 0, 1e-6);
+  }
+}
+
+TEST(ExplainedStructure, ABetterLookTakesBackAndFewReturnsTellLittle)
+{
+  const DenseScan scan = wallAhead(4);
+  const GroundView view = viewOf(scan, {0, 0, 0});
+  ExplainedStructure structure;
+  const double first = structure.look(view, allExplained(scan, 0), 0);
+  EXPECT_NEAR(first, 4, 1e-6);
+  EXPECT_NEAR(structure.look(view, allExplained(scan, 1), 1), -2, 1e-6);
+
+  DenseScan single = wallAhead(1);
+  for (auto* column : {&single.x, &single.y}) column->erase(column->begin(), column->begin() + 2);
+  single.isolated.erase(single.isolated.begin(), single.isolated.begin() + 2);
+  ExplainedStructure other;
+  EXPECT_NEAR(other.look(viewOf(single, {0, 0, 0}), allExplained(single, 0), 0), 1.0 / 3.0, 1e-6);
+}
+
+TEST(ExplainedStructure, WhatWasSeenLongAgoIsNewsAgain)
+{
+  const DenseScan scan = wallAhead(4);
+  const GroundView view = viewOf(scan, {0, 0, 0});
+  for (const double start : {0.0, 100.0, -30.0})
+  {
+    ExplainedStructure structure;
+    EXPECT_NEAR(structure.look(view, allExplained(scan, 0.5F), start), 2, 1e-6);
+    EXPECT_NEAR(structure.look(view, allExplained(scan, 0.5F), start + 9.9), 0, 1e-6);
+    EXPECT_NEAR(structure.look(view, allExplained(scan, 0.5F), start + 20.1), 2, 1e-6);
+  }
+}
+}  // namespace
+}  // namespace sigloc
