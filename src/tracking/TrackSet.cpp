@@ -76,15 +76,15 @@ double TrackSet::predict(const std::optional<MotionIncrement>& motion)
     increment.covariance(0, 0) += kMinSigma * kMinSigma;
     increment.covariance(1, 1) += kMinSigma * kMinSigma;
     increment.covariance(2, 2) += kMinTurnSigma * kMinTurnSigma;
+    ground_ = ground_ + motion->mean;
   }
   else
   {
     increment.covariance(0, 0) = options_.free_motion_sigma * options_.free_motion_sigma;
     increment.covariance(1, 1) = increment.covariance(0, 0);
     increment.covariance(2, 2) = options_.free_turn_sigma * options_.free_turn_sigma;
+    if (!tracks.empty()) left_ = heaviest().hypothesis.pose.mean;
   }
-  if (motion) ground_ = ground_ + motion->mean;
-  if (!motion && !tracks.empty()) left_ = heaviest().hypothesis.pose.mean;
   const double travel = motion ? travelOf(increment.mean, options_) : options_.lost_distance;
   for (Track& track : tracks)
   {
