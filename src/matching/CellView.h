@@ -94,7 +94,19 @@ class CellView
     std::int32_t dy(std::size_t i) const { return static_cast<std::int32_t>(packed[i] << 8) >> 24; }
     CellState state(std::size_t i) const { return static_cast<CellState>(packed[i] >> 24); }
 
+    /// From the ridge of the nearest wall to the point [m], where `distance` is not 255.
+    float offsetX(std::size_t i, float resolution) const
+    {
+      return fx[i] * resolution - static_cast<float>(dx(i)) * kOffsetUnit;
+    }
+    float offsetY(std::size_t i, float resolution) const
+    {
+      return fy[i] * resolution - static_cast<float>(dy(i)) * kOffsetUnit;
+    }
+
    private:
+    static constexpr auto kOffsetUnit = static_cast<float>(DenseField::kOffsetUnit);
+
     /// One look-up in memory; the members are taken apart for several points at once.
     static std::uint32_t pack(const DenseCell& cell)
     {

@@ -110,12 +110,11 @@ struct PullSums
 void offsetsFromRidge(const CellView::Block& block, float resolution, const Placement& place,
                       std::size_t count, float robust_sigma, Floats& weight, Floats& ex, Floats& ey)
 {
-  constexpr auto kUnit = static_cast<float>(DenseField::kOffsetUnit);
   const float inverse_square = 1.0F / (robust_sigma * robust_sigma);
   for (std::size_t i = 0; i < count; ++i)
   {
-    const float mx = block.fx[i] * resolution - static_cast<float>(block.dx(i)) * kUnit;
-    const float my = block.fy[i] * resolution - static_cast<float>(block.dy(i)) * kUnit;
+    const float mx = block.offsetX(i, resolution);
+    const float my = block.offsetY(i, resolution);
     const float reached = block.distance(i) != 255 ? 1.0F : 0.0F;
     weight[i] = reached / (1.0F + (mx * mx + my * my) * inverse_square);
     ex[i] = place.c * mx + place.s * my;

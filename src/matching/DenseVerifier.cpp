@@ -47,6 +47,17 @@ constexpr auto kFarFromWall = static_cast<std::uint8_t>(kFreeMargin / DenseField
 constexpr double kThroughPenalty = 0.5;
 constexpr double kFreePenalty = 0.5;
 
+/// Of a return by its distance from the ridge of the nearest wall.
+float sharpLikelihood(const CellView::Block& block, std::size_t i, float resolution)
+{
+  constexpr float kSharpSigma = 0.06F;  // [m]
+  constexpr float kSlope = -0.5F / (kSharpSigma * kSharpSigma);
+  if (block.distance(i) == 255) return 0;
+  const float x = block.offsetX(i, resolution);
+  const float y = block.offsetY(i, resolution);
+  return std::exp(kSlope * (x * x + y * y));
+}
+
 bool distinct(const TPose2D& a, const TPose2D& b, double distance)
 {
   return std::hypot(a.x - b.x, a.y - b.y) > distance ||
@@ -288,6 +299,7 @@ double DenseVerifier::fineLikelihood(const DenseScan& scan, const TPose2D& pose)
 
 std::vector<float> DenseVerifier::explainedReturns(const DenseScan& scan, const TPose2D& pose) const
 {
+  constexpr float kSharpShare = 0.35F;
   constexpr auto kFree = static_cast<float>(kFreePenalty);
   constexpr auto kThrough = static_cast<float>(kThroughPenalty);
   const CellView cells(field_);
@@ -305,7 +317,9 @@ std::vector<float> DenseVerifier::explainedReturns(const DenseScan& scan, const 
     {
       const std::uint8_t distance = block.distance(i);
       const bool in_free = distance > kFarFromWall && block.state(i) == CellState::free;
-      float share = 0.5F * (fine[distance] + coarse[distance]) - (in_free ? kFree : 0.0F);
+      const float blunt = 0.5F * (fine[distance] + coarse[distance]);
+      const float sharp = sharpLikelihood(block, i, cells.resolution());
+      float share = blunt + kSharpShare * (sharp - blunt) - (in_free ? kFree : 0.0F);
       if (first + i < kRayBeams && (through >> (first + i) & 1U) != 0) share -= kThrough;
       explained[first + i] = std::max(0.0F, share);
     }

@@ -13,11 +13,14 @@ constexpr float kFullView = 3;  // returns that show what a cell holds
 constexpr double kMemory = 10.0;  // [m] of travel
 }  // namespace
 
+double ExplainedStructure::Cell::seen() const
+{
+  return static_cast<double>(std::min(1.0F, returns / kFullView));
+}
+
 double ExplainedStructure::Cell::unexplained() const
 {
-  return returns > 0 ? static_cast<double>(std::min(1.0F, returns / kFullView) *
-                                           (1.0F - explained / returns))
-                     : 0.0;
+  return returns > 0 ? seen() * (1.0 - static_cast<double>(explained / returns)) : 0.0;
 }
 
 double ExplainedStructure::look(const GroundView& view, const std::vector<float>& explained,
@@ -32,18 +35,19 @@ double ExplainedStructure::look(const GroundView& view, const std::vector<float>
     look.explained += explained[i];
     look.returns += 1;
   }
-  double grown = 0;
+  const double unexplained_before = unexplained_;
   for (std::size_t k = 0; k < looks.size(); ++k)
   {
     Cell& cell = cells_[view.cells[k]];
     if (travelled - cell.last_seen > kMemory) cell = {};
-    const double before = cell.unexplained();
+    const Cell before = cell;
     cell.explained += looks[k].explained;
     cell.returns += looks[k].returns;
     cell.last_seen = travelled;
-    grown += cell.unexplained() - before;
+    unexplained_ += cell.unexplained() - before.unexplained();
+    seen_ += cell.seen() - before.seen();
   }
-  return grown;
+  return unexplained_ - unexplained_before;
 }
 
 /// Now and then; a cell that is seen again is forgotten in time anyway.

@@ -23,6 +23,15 @@ class ExplainedStructure
   /// `travelled` counts from any start, also below 0, and never falls.
   double look(const GroundView& view, const std::vector<float>& explained, double travelled);
 
+  /// How many cells all looks so far have left unexplained; what was news again counts again.
+  double unexplained() const { return unexplained_; }
+
+  /// Takes that back to 0; what has been seen stays seen.
+  void countAnew() { seen_ = unexplained_ = 0; }
+
+  /// The share of what was seen, in [0, 1]; 0 before anything was. \cite algorithm eq. (8.25)
+  double unexplainedShare() const { return seen_ > 0 ? unexplained_ / seen_ : 0; }
+
  private:
   struct Cell
   {
@@ -31,11 +40,14 @@ class ExplainedStructure
     double last_seen = 0;  // travelled [m]
 
     /// In [0, 1]; few returns tell little.
+    double seen() const;
     double unexplained() const;
   };
   void forget(double travelled);
 
   std::unordered_map<std::uint64_t, Cell> cells_;
+  double unexplained_ = 0;  // [cells], by all looks
+  double seen_ = 0;
   double tidied_ = 0;  // travelled [m] when cells were last forgotten
 };
 }  // namespace sigloc

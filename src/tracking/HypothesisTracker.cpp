@@ -19,7 +19,6 @@
 
 namespace sigloc
 {
-
 namespace
 {
 constexpr std::size_t kUpdateBeams = 180;  // a track is updated with
@@ -258,7 +257,8 @@ void HypothesisTracker::State::relocate(const ObservedScene& scene, const DenseS
   confirm(result, scan, fresh_share);
   weighElsewhere(result, fresh_share);
   set.dealOut(result, [&](std::size_t k) { return startAt(result, k, scan); });
-  past.weighNewcomers(set, *matcher->verifier());
+  set.weighFirstLook();
+  past.weighNewcomers(set, scan, *matcher->verifier(), travelled);
 }
 
 /// Evidence for a track counts as far as it rests on structure that is new to the track: another

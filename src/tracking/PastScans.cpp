@@ -6,7 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <functional>
+#include <utility>
 
 #include "sigloc/matching/weighing.h"
 
@@ -42,9 +43,10 @@ class PastScans::WayBack
     const double off = std::hypot(pose_.x - told.x, pose_.y - told.y) / kWaySigma;
     const double turned = wrapToPi(pose_.phi - told.phi) / kWayTurnSigma;
     const double detour = std::min(kMaxRelative, 0.5 * (off * off + turned * turned));
-    const auto explained = verifier_.explainedReturns(look.scan, pose_);
-    return {pose_, logLikelihoodOfScore(verifier_.evaluate(look.scan, pose_).score),
-            explained_.look(look.view, explained, -look.travelled), detour};
+    auto explained = verifier_.explainedReturns(look.scan, pose_);
+    const double unexplained = explained_.look(look.view, explained, -look.travelled);
+    return {pose_, logLikelihoodOfScore(verifier_.evaluate(look.scan, pose_).score), unexplained,
+            detour, std::move(explained)};
   }
 
  private:
@@ -89,22 +91,25 @@ std::vector<PastScans::Visit> PastScans::wayTo(const TPose2D& pose, std::uint64_
   return visits;
 }
 
-/// As (8.5) would have, as far back as the two ways differ.
-PastScans::WaySays PastScans::compareWith(const std::vector<Visit>& rival, const TPose2D& pose,
-                                          double cost_of_unexplained,
-                                          const DenseVerifier& verifier) const
+/// As (8.5) would have, as far back as the two ways differ; nothing where nothing speaks for the
+/// newcomer.
+std::optional<PastScans::WaySays> PastScans::compareWith(const std::vector<Visit>& rival,
+                                                         const TPose2D& pose,
+                                                         double cost_of_unexplained,
+                                                         const DenseVerifier& verifier) const
 {
-  constexpr WaySays kNothing = {-std::numeric_limits<double>::infinity()};
   const double least = std::log(options_.prune_weight);
   WayBack way(pose, odometry_, verifier);
+  std::vector<Visit> visits;
   RivalEvidence sum;
   for (std::size_t k = 0; k < rival.size(); ++k)
   {
     const Look& look = lookBack(k);
-    const Visit own = way.visit(look);
+    const Visit& own = visits.emplace_back(way.visit(look));
     if (isSamePlace(own.pose, rival[k].pose))
     {
-      return sum.told() > kBranches ? WaySays{0, true} : kNothing;
+      if (sum.told() <= kBranches) return {};
+      return WaySays{{}, true, {}};
     }
     // The first look counts in full, as the first relocation does.
     const bool is_first = k + 1 == rival.size();
@@ -116,34 +121,55 @@ PastScans::WaySays PastScans::compareWith(const std::vector<Visit>& rival, const
                     bounded(own.log_likelihood - rival[k].log_likelihood - detour);
     sum.by_ground += bounded(cost_of_unexplained * (rival[k].unexplained - own.unexplained)) -
                      std::min(1.0, travel / options_.evidence_distance) * detour;
-    if (sum.told() < least) return kNothing;
+    if (sum.told() < least) return {};
   }
-  return {sum.told()};
+  return WaySays{sum, false, rememberedOf(visits)};
 }
 
-void PastScans::weighNewcomers(TrackSet& set, const DenseVerifier& verifier) const
+/// What a track that had come this way would remember; the sums count from now on.
+ExplainedStructure PastScans::rememberedOf(const std::vector<Visit>& way) const
 {
-  const auto is_new = [](const Track& track) { return track.hypothesis.age == 0; };
-  const auto lighter = [&](const Track& a, const Track& b)
+  ExplainedStructure explained;
+  for (std::size_t k = way.size(); k-- > 0;)
   {
-    if (is_new(a) != is_new(b)) return is_new(a);
+    explained.look(lookBack(k).view, way[k].explained, lookBack(k).travelled);
+  }
+  explained.countAnew();
+  return explained;
+}
+
+void PastScans::weighNewcomers(TrackSet& set, const DenseScan& scan, const DenseVerifier& verifier,
+                               double travelled) const
+{
+  const auto lighter = [](const Track& a, const Track& b)
+  {
+    if (a.isNew() != b.isNew()) return a.isNew();
     return a.hypothesis.weight < b.hypothesis.weight;
   };
-  if (std::none_of(set.tracks.begin(), set.tracks.end(), is_new)) return;
+  if (std::none_of(set.tracks.begin(), set.tracks.end(), std::mem_fn(&Track::isNew))) return;
   const Track parent = *std::max_element(set.tracks.begin(), set.tracks.end(), lighter);
   const TrackedHypothesis& heaviest = parent.hypothesis;
   const std::uint64_t born = step_ - heaviest.age;
-  if (heaviest.age == 0 || born < known_since_) return;
+  if (parent.isNew() || born < known_since_) return;
   const std::vector<Visit> rival = wayTo(heaviest.pose.mean, born, verifier);
   if (rival.empty()) return;
   for (Track& track : set.tracks)
   {
-    if (!is_new(track)) continue;
-    const WaySays way =
-        compareWith(rival, track.hypothesis.pose.mean, set.costOfUnexplained(), verifier);
-    if (way.branched) track.inherit(parent);
+    if (!track.isNew()) continue;
+    auto way = compareWith(rival, track.hypothesis.pose.mean, set.costOfUnexplained(), verifier);
+    if (!way) continue;
+    track.behind = parent.behind + way->sum;
+    if (way->branched)
+    {
+      track.inherit(parent);
+    }
+    else
+    {
+      track.explained = std::move(way->explained);
+      set.showTo(track, scan, verifier, travelled);
+    }
     double& weight = track.hypothesis.weight;
-    weight = std::max(weight, heaviest.weight * std::exp(std::min(0.0, way.log_odds)));
+    weight = std::max(weight, heaviest.weight * std::exp(std::min(0.0, way->sum.told())));
   }
   set.normaliseTracks();
 }

@@ -32,8 +32,10 @@ class PastScans
 
   /// Gives the tracks that started with this step the weight they would have if they had been
   /// followed as long as the heaviest of the others, at most its own. One that shares its way up to
-  /// a slip takes over what is known of it. \cite algorithm eq. (8.24)
-  void weighNewcomers(TrackSet& set, const DenseVerifier& verifier) const;
+  /// a slip takes over what is known of it. `scan` is the last one, after `travelled` [m] in all.
+  /// \cite algorithm eq. (8.24)
+  void weighNewcomers(TrackSet& set, const DenseScan& scan, const DenseVerifier& verifier,
+                      double travelled) const;
 
  private:
   struct Look
@@ -51,19 +53,24 @@ class PastScans
     double log_likelihood;  // of its score
     double unexplained;  // cells of the ground more than at the look that came later
     double detour;  // log-odds against the step from there
+    std::vector<float> explained;  // each return's share
   };
   class WayBack;
   /// What the way says of a newcomer.
   struct WaySays
   {
-    double log_odds;  // against the heaviest track; minus infinity: nothing for it
+    RivalEvidence sum;  // against the heaviest track
     bool branched = false;  // the two ways are one before a slip
+    ExplainedStructure
+        explained;  // what it would remember, the last look left out; not if branched
   };
 
   std::vector<Visit> wayTo(const mrpt::math::TPose2D& pose, std::uint64_t since,
                            const DenseVerifier& verifier) const;
-  WaySays compareWith(const std::vector<Visit>& rival, const mrpt::math::TPose2D& pose,
-                      double cost_of_unexplained, const DenseVerifier& verifier) const;
+  std::optional<WaySays> compareWith(const std::vector<Visit>& rival,
+                                     const mrpt::math::TPose2D& pose, double cost_of_unexplained,
+                                     const DenseVerifier& verifier) const;
+  ExplainedStructure rememberedOf(const std::vector<Visit>& way) const;
   const Look& lookBack(std::size_t k) const { return looks_[looks_.size() - 1 - k]; }
 
   TrackerOptions options_;

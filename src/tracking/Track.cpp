@@ -14,16 +14,14 @@ constexpr double kMisfitMemory = 3.0;  // [m] of travel
 constexpr double kMisfitFloor = 0.03;  // share that even the right pose leaves unexplained
 constexpr double kUsualMisfit = 0.068;  // with its floor, of a pose that may be right or foreign
 constexpr double kFitSlope = 1.04;
-constexpr double kSurvival = 0.2;  // log-odds of a metre that a track has survived ...
+constexpr double kSurvival = 0.65;  // log-odds of a metre that a track has survived ...
 constexpr double kUsualLife = 10.0;  // [m] ... beyond what a wrong one often lasts, too,
-constexpr double kLongLife = 20.0;  // [m] up to here
+constexpr double kLongLife = 20.0;  // [m] up to here,
+constexpr double kMuchUnexplained = 0.2;  // none where as much of the ground was unexplained,
+constexpr double kLittleUnexplained = 0.15;  // all from here on
 constexpr double kYoung = -0.5;  // log-odds of one that has not lasted so long
-constexpr double kFitSurvival = 0.3;  // further log-odds of a metre where the walls fit:
-constexpr double kChanceFit = 0.8;  // none for as much on walls as a wrong place may have,
-constexpr double kGoodFit = 0.9;  // all from here on
 constexpr double kMinFollowed = -8.0;
 constexpr double kMaxFollowed = 12.0;
-constexpr double kLeastKnown = 0.05;  // share of a scan in known land that tells of it
 }  // namespace
 
 void Track::addFollowed(double log_odds)
@@ -36,8 +34,6 @@ void Track::addFit(double travel)
   const double now = unexplainedShare(evidence) + evidence.through_wall;
   const double fresh = misfit ? 1.0 - std::exp(-travel / kMisfitMemory) : 1.0;
   misfit = misfit.value_or(0) + fresh * (now - misfit.value_or(0));
-  const double known = std::max(kLeastKnown, 1.0 - evidence.unknown);
-  on_walls += fresh * (evidence.fine / known - on_walls);
 }
 
 void Track::inherit(const Track& parent)
@@ -59,8 +55,9 @@ double Track::presence() const
 double Track::survival() const
 {
   if (!misfit) return 0;
-  const double fit = std::clamp((on_walls - kChanceFit) / (kGoodFit - kChanceFit), 0.0, 1.0);
-  return kYoung + (kSurvival + kFitSurvival * fit) *
-                      (std::clamp(followed_way, kUsualLife, kLongLife) - kUsualLife);
+  const double told = std::clamp(
+      (kMuchUnexplained - explained.unexplainedShare()) / (kMuchUnexplained - kLittleUnexplained),
+      0.0, 1.0);
+  return kYoung + kSurvival * told * (std::clamp(followed_way, kUsualLife, kLongLife) - kUsualLife);
 }
 }  // namespace sigloc

@@ -33,8 +33,8 @@ struct FeatureMemory
   double doubt = 0;  // log-odds lately lost against clutter, at most 0, eq. (8.20)
 };
 
-/// Log-odds that a track has lost to the best of each look since it began, as two judges see it
-/// that err in different ways: `by_score` hears every scan again after a while, and a chair that
+/// Log-odds that a track has lost to the best of each look, the first included, as two judges see
+/// it that err in different ways: `by_score` hears every scan again after a while, and a chair that
 /// was moved as long as it is in view; `by_ground` hears each piece of the ground once. The smaller
 /// loss is what the track has paid. Eq. (8.5)
 struct RivalEvidence
@@ -43,6 +43,10 @@ struct RivalEvidence
   double by_ground = 0;
 
   double told() const { return std::max(by_score, by_ground); }
+  RivalEvidence operator+(const RivalEvidence& other) const
+  {
+    return {by_score + other.by_score, by_ground + other.by_ground};
+  }
 };
 
 /// A hypothesis with what the tracker remembers of it.
@@ -51,6 +55,7 @@ struct Track
   TrackedHypothesis hypothesis;
   double score = 0;  // of the last scan
   DenseEvidence evidence;  // of the last scan
+  mrpt::math::TPose2D judged_at;  // where it explains that best, near the hypothesis
   double mean_score = 0;  // running mean
   bool found = false;  // best of the whole map by this step's relocation
   double confirmed = 0;  // log-odds that relocations, each blind to the track, have given it
@@ -58,17 +63,18 @@ struct Track
   double followed = 0;  // log-odds from how the map explained what came into view on the way
   SeenStructure on_the_way;  // what has come into view
   std::optional<double> misfit;  // of what is seen, known or new, lately; none without a field
-  double on_walls = 0;  // mean fine likelihood of what is seen in known land, likewise
   double followed_way = 0;  // [m] driven since the track began
   ExplainedStructure explained;  // how it explains what is seen, each thing once
   RivalEvidence behind;  // its rivals
   FeatureMemory features;  // in a map without a dense field
 
+  /// True of a track that this step's relocation has started.
+  bool isNew() const { return hypothesis.age == 0; }
+
   /// Adds to `followed`, within its bounds.
   void addFollowed(double log_odds);
 
-  /// Takes what the map explains of the last scan, and what not, into their means over some travel
-  /// [m].
+  /// Takes what the map leaves unexplained of the last scan into its mean over some travel [m].
   void addFit(double travel);
 
   /// Takes over what is known of the track that it branched off.

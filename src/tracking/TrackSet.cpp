@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <utility>
 
 #include "sigloc/geometry/pose_fusion.h"
@@ -28,6 +30,8 @@ constexpr double kMergeAngle = 10.0 * M_PI / 180.0;
 constexpr double kChangeMemory = 10.0;  // [m] of travel
 constexpr double kLeastChange = 0.02;  // share of what is mapped that even a map of today has wrong
 constexpr double kMostChange = 0.45;
+constexpr double kTellsOfCell =
+    0.7;  // of what a cell tells, where the ones beside it tell the same
 constexpr double kSure = 0.9;  // a relocation that overrules all tracks
 constexpr double kMostNews = 4.0;  // views that a metre can bring
 constexpr double kScoreMemory = 0.9;  // of the running mean of the score, per step
@@ -153,15 +157,22 @@ void TrackSet::updatePose(Track& track, const DenseScan& scan, const DenseVerifi
   }
   const DenseEvidence found = verifier.evaluate(scan, measured.mean);
   track.evidence = predicted;
+  track.judged_at = pose.mean;
   if (squaredMahalanobisDistance(pose, measured) < kUpdateGate)
   {
     pose = fusePoses(pose, measured);
-    if (found.score > predicted.score) track.evidence = found;
+    track.judged_at = pose.mean;
+    if (found.score > predicted.score)
+    {
+      track.evidence = found;
+      track.judged_at = measured.mean;
+    }
   }
   else if (found.score > predicted.score + kClearlyBetter)
   {
     pose = measured;
     track.evidence = found;
+    track.judged_at = measured.mean;
   }
   track.score = track.evidence.score;
 }
@@ -214,7 +225,7 @@ void TrackSet::weighRivals(const DenseScan& scan, const DenseVerifier& verifier,
   std::vector<double> unexplained;
   for (Track& track : tracks)
   {
-    const auto explained = verifier.explainedReturns(scan, track.hypothesis.pose.mean);
+    const auto explained = verifier.explainedReturns(scan, track.judged_at);
     unexplained.push_back(track.explained.look(view, explained, travelled));
   }
   const double least = *std::min_element(unexplained.begin(), unexplained.end());
@@ -238,12 +249,44 @@ void TrackSet::showTo(Track& track, const DenseScan& scan, const DenseVerifier& 
                        verifier.explainedReturns(scan, track.hypothesis.pose.mean), travelled);
 }
 
+void TrackSet::weighFirstLook()
+{
+  double dealt = 0;
+  double most = 0;
+  double least = std::numeric_limits<double>::infinity();
+  double best_score = 0;
+  for (const Track& track : tracks)
+  {
+    if (!track.isNew()) continue;
+    dealt += track.hypothesis.weight;
+    most = std::max(most, track.hypothesis.weight);
+    least = std::min(least, track.explained.unexplained());
+    best_score = std::max(best_score, track.score);
+  }
+  if (most <= 0) return;
+  const bool all_new = std::all_of(tracks.begin(), tracks.end(), std::mem_fn(&Track::isNew));
+  if (all_new) unexplained_ = std::max(0.0, 1.0 - best_score);
+  double told = 0;
+  for (Track& track : tracks)
+  {
+    if (!track.isNew()) continue;
+    track.behind.by_score = std::log(track.hypothesis.weight / most);
+    track.behind.by_ground = -costOfUnexplained() * (track.explained.unexplained() - least);
+    track.hypothesis.weight = std::exp(track.behind.told());
+    told += track.hypothesis.weight;
+  }
+  for (Track& track : tracks)
+  {
+    if (track.isNew()) track.hypothesis.weight *= dealt / told;
+  }
+}
+
 /// Where the best of all has been leaving things unexplained, the place has changed since it was
 /// mapped, and the right pose must be expected to fail now and then.
 double TrackSet::costOfUnexplained() const
 {
   const double changed = std::min(kMostChange, kLeastChange + unexplained_);
-  return std::log((1.0 - changed) / changed);
+  return kTellsOfCell * std::log((1.0 - changed) / changed);
 }
 
 void TrackSet::normalise()

@@ -45,6 +45,10 @@ class TrackSet
   void showTo(Track& track, const DenseScan& scan, const DenseVerifier& verifier,
               double travelled) const;
 
+  /// Lets the ground, too, weigh those against each other that the last relocation has started; it
+  /// told them apart by their scores. Eq. (8.27)
+  void weighFirstLook();
+
   /// Log-odds that a cell of the ground left unexplained costs against a rival that explains it.
   /// Eq. (8.26)
   double costOfUnexplained() const;

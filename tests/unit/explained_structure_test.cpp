@@ -96,5 +96,21 @@ TEST(ExplainedStructure, WhatWasSeenLongAgoIsNewsAgain)
     EXPECT_NEAR(structure.look(view, allExplained(scan, 0.5F), start + 20.1), 2, 1e-6);
   }
 }
+TEST(ExplainedStructure, TellsTheShareOfAllItHasSeen)
+{
+  const DenseScan scan = wallAhead(4);
+  ExplainedStructure structure;
+  EXPECT_EQ(structure.unexplainedShare(), 0);
+  structure.look(viewOf(scan, {0, 0, 0}), allExplained(scan, 1), 0);
+  EXPECT_NEAR(structure.unexplainedShare(), 0, 1e-6);
+  structure.look(viewOf(scan, {50, 0, 0}), allExplained(scan, 0), 5);
+  EXPECT_NEAR(structure.unexplainedShare(), 0.5, 1e-6);
+  structure.look(viewOf(scan, {50, 0, 0}), allExplained(scan, 0), 6);
+  EXPECT_NEAR(structure.unexplainedShare(), 0.5, 1e-6) << "seen before";
+  structure.look(viewOf(scan, {50, 0, 0}), allExplained(scan, 0), 30);
+  EXPECT_NEAR(structure.unexplained(), 8, 1e-6) << "what was long ago is news again, ...";
+  EXPECT_NEAR(structure.unexplainedShare(), 8.0 / 12.0, 1e-6)
+      << "and what was seen then still counts";
+}
 }  // namespace
 }  // namespace sigloc

@@ -93,8 +93,9 @@ class DenseVerifier
   /// Returns the full evidence for a pose. \cite algorithm eq. (6.8)
   DenseEvidence evaluate(const DenseScan& scan, const mrpt::math::TPose2D& pose) const;
 
-  /// Returns how far the map explains each return of the scan, in [0, 1]: its part of the score
-  /// (6.8), where of beams that pass walls only those of the 64 first returns count.
+  /// Returns how far the map explains each return of the scan, in [0, 1]: as the score (6.8) does,
+  /// but with a sharper eye for where a wall is; of beams that pass walls only those of the 64
+  /// first returns count. \cite algorithm eq. (8.26)
   std::vector<float> explainedReturns(const DenseScan& scan, const mrpt::math::TPose2D& pose) const;
 
   /// Returns the 3x3 covariance of a refined pose [m^2, m rad, rad^2]: the returns' information

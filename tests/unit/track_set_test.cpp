@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TrackSet.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace sigloc
+{
+namespace
+{
+/// A track that a relocation has just started, of a score and with as many cells of the ground
+/// left unexplained.
+Track newcomer(double weight, double score, double unexplained_cells)
+{
+  constexpr std::size_t kCells = 10;
+  DenseScan scan;
+  for (std::size_t k = 0; k < 3 * kCells; ++k)
+  {
+    scan.x.push_back(0.1F + static_cast<float>(k) / 6.0F);
+    scan.y.push_back(2.1F);
+    scan.isolated.push_back(0);
+  }
+  Track track;
+  track.hypothesis.weight = weight;
+  track.score = score;
+  const auto share = static_cast<float>(1.0 - unexplained_cells / static_cast<double>(kCells));
+  track.explained.look(viewOf(scan, {0, 0, 0}), std::vector<float>(scan.size(), share), 0);
+  return track;
+}
+
+TrackSet setOf(const std::vector<Track>& tracks)
+{
+  TrackSet set{TrackerOptions{}};
+  set.tracks = tracks;
+  set.elsewhere = 0;
+  return set;
+}
+
+TEST(WeighFirstLook, TheMilderOfScoreAndGroundCounts)
+{
+  // Behind by score 9 : 1, by ground hardly; behind by both, by the ground less; by both, more.
+  TrackSet set = setOf({newcomer(0.81, 1, 0), newcomer(0.09, 0.9, 0.2), newcomer(0.09, 0.9, 0.5),
+                        newcomer(0.01, 0.8, 6)});
+  set.weighFirstLook();
+  const double cost = set.costOfUnexplained();
+  const double first = set.tracks[0].hypothesis.weight;
+  EXPECT_NEAR(set.tracks[1].hypothesis.weight / first, std::exp(-0.2 * cost), 1e-6);
+  EXPECT_NEAR(set.tracks[2].hypothesis.weight / first, std::exp(-0.5 * cost), 1e-6);
+  EXPECT_NEAR(set.tracks[3].hypothesis.weight / first, 0.01 / 0.81, 1e-6);
+  double sum = 0;
+  for (const Track& track : set.tracks) sum += track.hypothesis.weight;
+  EXPECT_NEAR(sum, 1.0, 1e-9);
+}
+
+TEST(WeighFirstLook, RemembersWhatTheOtherJudgeSaid)
+{
+  TrackSet set = setOf({newcomer(0.5, 1, 0), newcomer(0.5, 1, 4)});
+  set.weighFirstLook();
+  EXPECT_NEAR(set.tracks[1].hypothesis.weight, 0.5, 1e-9);
+  EXPECT_NEAR(set.tracks[1].behind.by_score, 0, 1e-9);
+  EXPECT_NEAR(set.tracks[1].behind.by_ground, -4 * set.costOfUnexplained(), 1e-5);
+}
+
+TEST(WeighFirstLook, LeavesTracksAloneThatAreOlder)
+{
+  TrackSet set = setOf({newcomer(0.6, 1, 0), newcomer(0.3, 0.9, 0.1), newcomer(0.1, 0.8, 0)});
+  set.tracks[0].hypothesis.age = 7;
+  const double cost = set.costOfUnexplained();
+  set.weighFirstLook();
+  EXPECT_EQ(set.tracks[0].hypothesis.weight, 0.6);
+  EXPECT_EQ(set.tracks[0].behind.by_ground, 0);
+  EXPECT_NEAR(set.tracks[1].hypothesis.weight + set.tracks[2].hypothesis.weight, 0.4, 1e-9);
+  EXPECT_EQ(set.costOfUnexplained(), cost) << "what the place has changed is told by older tracks";
+}
+
+TEST(WeighFirstLook, ExpectsChangeWhereTheBestExplainsLittle)
+{
+  const auto cost_after = [](double score)
+  {
+    TrackSet set = setOf({newcomer(1, score, 0)});
+    set.weighFirstLook();
+    EXPECT_EQ(set.tracks[0].hypothesis.weight, 1);
+    return set.costOfUnexplained();
+  };
+  EXPECT_GT(cost_after(1.0), cost_after(0.9));
+  EXPECT_GT(cost_after(0.9), cost_after(0.7));
+  EXPECT_GT(cost_after(0.1), 0);
+}
+
+TEST(WeighFirstLook, NoTracksAreNoTrouble)
+{
+  TrackSet set = setOf({});
+  set.weighFirstLook();
+  EXPECT_TRUE(set.tracks.empty());
+  set.tracks = {newcomer(0, 1, 0)};
+  set.weighFirstLook();
+  EXPECT_EQ(set.tracks[0].hypothesis.weight, 0);
+}
+}  // namespace
+}  // namespace sigloc
