@@ -147,7 +147,7 @@ void PastScans::weighNewcomers(TrackSet& set, const DenseScan& scan, const Dense
     return a.hypothesis.weight < b.hypothesis.weight;
   };
   if (std::none_of(set.tracks.begin(), set.tracks.end(), std::mem_fn(&Track::isNew))) return;
-  const Track parent = *std::max_element(set.tracks.begin(), set.tracks.end(), lighter);
+  const Track& parent = *std::max_element(set.tracks.begin(), set.tracks.end(), lighter);
   const TrackedHypothesis& heaviest = parent.hypothesis;
   const std::uint64_t born = step_ - heaviest.age;
   if (parent.isNew() || born < known_since_) return;

@@ -61,8 +61,7 @@ class PastScans
   {
     RivalEvidence sum;  // against the heaviest track
     bool branched = false;  // the two ways are one before a slip
-    ExplainedStructure
-        explained;  // what it would remember, the last look left out; not if branched
+    ExplainedStructure explained;  // what it would remember, but of the last scan; not if branched
   };
 
   std::vector<Visit> wayTo(const mrpt::math::TPose2D& pose, std::uint64_t since,

@@ -55,7 +55,7 @@ struct Track
   TrackedHypothesis hypothesis;
   double score = 0;  // of the last scan
   DenseEvidence evidence;  // of the last scan
-  mrpt::math::TPose2D judged_at;  // where it explains that best, near the hypothesis
+  mrpt::math::TPose2D judged_at;  // where the ground of that is judged, near the hypothesis
   double mean_score = 0;  // running mean
   bool found = false;  // best of the whole map by this step's relocation
   double confirmed = 0;  // log-odds that relocations, each blind to the track, have given it

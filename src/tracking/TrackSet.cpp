@@ -30,8 +30,7 @@ constexpr double kMergeAngle = 10.0 * M_PI / 180.0;
 constexpr double kChangeMemory = 10.0;  // [m] of travel
 constexpr double kLeastChange = 0.02;  // share of what is mapped that even a map of today has wrong
 constexpr double kMostChange = 0.45;
-constexpr double kTellsOfCell =
-    0.7;  // of what a cell tells, where the ones beside it tell the same
+constexpr double kTellsOfCell = 0.7;  // a cell's own share: those beside it tell much the same
 constexpr double kSure = 0.9;  // a relocation that overrules all tracks
 constexpr double kMostNews = 4.0;  // views that a metre can bring
 constexpr double kScoreMemory = 0.9;  // of the running mean of the score, per step
@@ -102,8 +101,11 @@ double TrackSet::predict(const std::optional<MotionIncrement>& motion)
 void TrackSet::update(const DenseScan& scan, const DenseVerifier& verifier)
 {
   for (Track& track : tracks) updatePose(track, scan, verifier);
-  if (has_odometry_ || tracks.empty()) return;
-  ground_ = ground_ + (heaviest().hypothesis.pose.mean - left_);
+  if (!has_odometry_ && !tracks.empty())
+  {
+    ground_ = ground_ + (heaviest().hypothesis.pose.mean - left_);
+  }
+  view_ = viewOf(scan, ground_);
 }
 
 /// Without odometry the robot may have turned or driven farther than a refinement reaches: along a
@@ -156,24 +158,13 @@ void TrackSet::updatePose(Track& track, const DenseScan& scan, const DenseVerifi
     for (int c = 0; c < 3; ++c) measured.covariance(r, c) *= kCorrelation;
   }
   const DenseEvidence found = verifier.evaluate(scan, measured.mean);
-  track.evidence = predicted;
-  track.judged_at = pose.mean;
-  if (squaredMahalanobisDistance(pose, measured) < kUpdateGate)
-  {
-    pose = fusePoses(pose, measured);
-    track.judged_at = pose.mean;
-    if (found.score > predicted.score)
-    {
-      track.evidence = found;
-      track.judged_at = measured.mean;
-    }
-  }
-  else if (found.score > predicted.score + kClearlyBetter)
-  {
-    pose = measured;
-    track.evidence = found;
-    track.judged_at = measured.mean;
-  }
+  const bool agrees = squaredMahalanobisDistance(pose, measured) < kUpdateGate;
+  const bool slipped = !agrees && found.score > predicted.score + kClearlyBetter;
+  if (agrees) pose = fusePoses(pose, measured);
+  if (slipped) pose = measured;
+  const bool at_measured = slipped || (agrees && found.score > predicted.score);
+  track.evidence = at_measured ? found : predicted;
+  track.judged_at = at_measured ? measured.mean : pose.mean;
   track.score = track.evidence.score;
 }
 
@@ -221,12 +212,11 @@ void TrackSet::weigh(const DenseScan& scan, const DenseVerifier& verifier, doubl
 void TrackSet::weighRivals(const DenseScan& scan, const DenseVerifier& verifier, double travelled,
                            double travel, double best_score)
 {
-  const GroundView view = viewOf(scan, ground_);
   std::vector<double> unexplained;
   for (Track& track : tracks)
   {
     const auto explained = verifier.explainedReturns(scan, track.judged_at);
-    unexplained.push_back(track.explained.look(view, explained, travelled));
+    unexplained.push_back(track.explained.look(view_, explained, travelled));
   }
   const double least = *std::min_element(unexplained.begin(), unexplained.end());
   const double best = logLikelihoodOfScore(best_score);
@@ -245,8 +235,8 @@ void TrackSet::weighRivals(const DenseScan& scan, const DenseVerifier& verifier,
 void TrackSet::showTo(Track& track, const DenseScan& scan, const DenseVerifier& verifier,
                       double travelled) const
 {
-  track.explained.look(viewOf(scan, ground_),
-                       verifier.explainedReturns(scan, track.hypothesis.pose.mean), travelled);
+  const auto explained = verifier.explainedReturns(scan, track.hypothesis.pose.mean);
+  track.explained.look(view_, explained, travelled);
 }
 
 void TrackSet::weighFirstLook()
@@ -264,6 +254,7 @@ void TrackSet::weighFirstLook()
     best_score = std::max(best_score, track.score);
   }
   if (most <= 0) return;
+  // Waking up, or after all was lost: what has changed is not known from earlier looks.
   const bool all_new = std::all_of(tracks.begin(), tracks.end(), std::mem_fn(&Track::isNew));
   if (all_new) unexplained_ = std::max(0.0, 1.0 - best_score);
   double told = 0;

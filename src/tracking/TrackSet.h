@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "GroundView.h"
 #include "sigloc/geometry/GaussianPose.h"
 #include "sigloc/matching/DenseVerifier.h"
 #include "sigloc/tracking/HypothesisTracker.h"
@@ -34,7 +35,8 @@ class TrackSet
   /// Moves every track by the odometry; returns the travel [m], turns included. Eq. (8.1), (8.2)
   double predict(const std::optional<MotionIncrement>& motion);
 
-  /// Refines every track by the returns and scores it. Eq. (8.3), (8.4)
+  /// Refines every track by the returns and scores it; every scan comes here first. Eq. (8.3),
+  /// (8.4)
   void update(const DenseScan& scan, const DenseVerifier& verifier);
 
   /// Weighs rivals against each other, the best against "somewhere else", by a scan after
@@ -96,6 +98,7 @@ class TrackSet
   // The robot's pose by odometry alone; without odometry, by the heaviest track.
   mrpt::math::TPose2D ground_;
   mrpt::math::TPose2D left_;  // the heaviest track's before the last prediction
+  GroundView view_;  // of the last scan, from there
   double unexplained_ = 0;  // share that the best track has left unexplained, lately
 };
 }  // namespace sigloc
