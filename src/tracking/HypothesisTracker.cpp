@@ -372,8 +372,8 @@ void HypothesisTracker::State::publish(const ObservedScene& scene)
   const TrackedHypothesis& first = belief.hypotheses.front();
   belief.reliability = reliability;
   const bool open = largestPositionSigma(first.pose) >= kMaxOpenSigma;
-  const Track& track = set.tracks.front();
-  const bool confirmed = track.presence() + track.survival() >= options.confirmation;
+  const double next = set.tracks.size() > 1 ? set.tracks[1].hypothesis.weight : 0.0;
+  const bool confirmed = set.tracks.front().standing(next) >= options.confirmation;
   if (first.weight >= options.localized_probability && confirmed && !doubtful() && !open)
   {
     belief.verdict = Verdict::localized;

@@ -19,7 +19,10 @@ constexpr double kUsualLife = 10.0;  // [m] ... beyond what a wrong one often la
 constexpr double kLongLife = 20.0;  // [m] up to here,
 constexpr double kMuchUnexplained = 0.2;  // none where as much of the ground was unexplained,
 constexpr double kLittleUnexplained = 0.15;  // all from here on
-constexpr double kYoung = -0.5;  // log-odds of one that has not lasted so long
+constexpr double kOfRival = 0.6;  // of the log-odds of a rival ...
+constexpr double kNoRival = 1e-4;  // ... against one of this weight
+constexpr double kOfLoss = 0.2;  // of what was lost to rivals ...
+constexpr double kUsualLoss = 4.0;  // ... beyond what the right one loses, too
 constexpr double kMinFollowed = -8.0;
 constexpr double kMaxFollowed = 12.0;
 }  // namespace
@@ -52,12 +55,16 @@ double Track::presence() const
   return confirmed + followed + fit;
 }
 
-double Track::survival() const
+double Track::standing(double next) const
 {
-  if (!misfit) return 0;
+  if (!misfit) return presence();
   const double told = std::clamp(
       (kMuchUnexplained - explained.unexplainedShare()) / (kMuchUnexplained - kLittleUnexplained),
       0.0, 1.0);
-  return kYoung + kSurvival * told * (std::clamp(followed_way, kUsualLife, kLongLife) - kUsualLife);
+  const double survived =
+      kSurvival * told * (std::clamp(followed_way, kUsualLife, kLongLife) - kUsualLife);
+  const double contested = kOfRival * std::log(std::max(1.0, next / kNoRival)) +
+                           kOfLoss * std::max(0.0, -behind.told() - kUsualLoss);
+  return presence() + survived - contested;
 }
 }  // namespace sigloc

@@ -83,8 +83,9 @@ struct Track
   /// Log-odds of standing in the map at all, eq. (8.22)
   double presence() const;
 
-  /// What is added to them for having been followed so far, eq. (8.25); 0 without a field.
-  double survival() const;
+  /// The same for a claim, which with a field also asks how long the track has been followed,
+  /// eq. (8.25), and how far rivals contest it, of which the next has the weight `next`, eq. (8.28)
+  double standing(double next) const;
 
   /// Whether a relocation or the way has told enough not to give the track up for a look-alike.
   bool held() const { return std::max(confirmed, presence()) >= kHeld; }

@@ -29,12 +29,13 @@ constexpr double kMergeDistance = 0.3;  // [m]
 constexpr double kMergeAngle = 10.0 * M_PI / 180.0;
 constexpr double kChangeMemory = 10.0;  // [m] of travel
 constexpr double kLeastChange = 0.02;  // share of what is mapped that even a map of today has wrong
-constexpr double kMostChange = 0.45;
+constexpr double kMostChange = 0.3;
 constexpr double kTellsOfCell = 0.7;  // a cell's own share: those beside it tell much the same
 constexpr double kSure = 0.9;  // a relocation that overrules all tracks
 constexpr double kMostNews = 4.0;  // views that a metre can bring
 constexpr double kScoreMemory = 0.9;  // of the running mean of the score, per step
 constexpr double kCorrelation = 4.0;  // scans of neighbouring steps share their errors
+constexpr double kLeastFit = 0.2;  // score below which a pose is measured no worse
 constexpr double kMinSigma = 0.005;  // [m], floor of a step's motion
 constexpr double kMinTurnSigma = 0.002;  // [rad]
 
@@ -152,12 +153,11 @@ void TrackSet::updatePose(Track& track, const DenseScan& scan, const DenseVerifi
   GaussianPose measured;
   measured.mean = has_odometry_ ? verifier.refine(scan, pose.mean, kUpdateSteps, scan.size())
                                 : searchedPose(pose.mean, scan, verifier);
-  measured.covariance = verifier.testedCovarianceAt(scan, measured.mean);
-  for (int r = 0; r < 3; ++r)
-  {
-    for (int c = 0; c < 3; ++c) measured.covariance(r, c) *= kCorrelation;
-  }
   const DenseEvidence found = verifier.evaluate(scan, measured.mean);
+  measured.covariance = verifier.testedCovarianceAt(scan, measured.mean);
+  // What the map does not explain has moved, and draws the pose towards where it was.
+  const double fit = std::max(kLeastFit, found.score);
+  measured.covariance *= kCorrelation / (fit * fit);
   const bool agrees = squaredMahalanobisDistance(pose, measured) < kUpdateGate;
   const bool slipped = !agrees && found.score > predicted.score + kClearlyBetter;
   if (agrees) pose = fusePoses(pose, measured);

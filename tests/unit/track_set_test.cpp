@@ -7,6 +7,8 @@
 #include <cmath>
 #include <vector>
 
+#include "sigloc/matching/DenseVerifier.h"
+
 namespace sigloc
 {
 namespace
@@ -37,6 +39,75 @@ TrackSet setOf(const std::vector<Track>& tracks)
   set.tracks = tracks;
   set.elsewhere = 0;
   return set;
+}
+
+/// A closed room of 8 m x 6 m.
+DenseField room()
+{
+  OccupancyRaster raster;
+  raster.frame = {{0, 0}, 0.05, 200, 160};
+  for (int y = 0; y < 160; ++y)
+  {
+    for (int x = 0; x < 200; ++x)
+    {
+      const bool inside = x >= 20 && x < 180 && y >= 20 && y < 140;
+      const bool edge = x >= 18 && x < 182 && y >= 18 && y < 142;
+      raster.cells.push_back(inside ? CellState::free
+                             : edge ? CellState::solid_wall
+                                    : CellState::unknown);
+    }
+  }
+  return buildDenseField(raster);
+}
+
+/// From its middle; of every wall, `unmapped` of ten neighbouring returns end 2 m before it.
+ObservedScene lookAround(int unmapped)
+{
+  ObservedScene scene;
+  scene.sensor_origins = {{0, 0}};
+  const auto add = [&](int k, double x, double y)
+  {
+    const double before = k % 10 < unmapped ? 2.0 / std::hypot(x, y) : 0.0;
+    scene.beams.push_back({{x * (1 - before), y * (1 - before)}, 0});
+  };
+  for (int k = -38; k < 38; ++k)
+  {
+    add(k + 40, 0.1 * k, 3.025);
+    add(k + 40, 0.1 * k, -3.025);
+  }
+  for (int k = -28; k < 28; ++k)
+  {
+    add(k + 30, 4.025, 0.1 * k);
+    add(k + 30, -4.025, 0.1 * k);
+  }
+  return scene;
+}
+
+TEST(TrackSetUpdate, AScanThatFitsBadlySaysLessOfThePose)
+{
+  const DenseField field = room();
+  const DenseVerifier verifier(field);
+  // How far a track that odometry has taken 0.1 m too far is drawn back.
+  const auto drawn_back = [&](int unmapped)
+  {
+    TrackSet set{TrackerOptions{}};
+    set.tracks.resize(1);
+    GaussianPose& pose = set.tracks[0].hypothesis.pose;
+    pose.mean = {5.0, 4.0, 0};
+    pose.covariance = mrpt::math::CMatrixDouble33::Zero();
+    pose.covariance(0, 0) = pose.covariance(1, 1) = 0.03 * 0.03;
+    pose.covariance(2, 2) = 0.01 * 0.01;
+    MotionIncrement motion;
+    motion.mean = {0.1, 0, 0};
+    motion.covariance = mrpt::math::CMatrixDouble33::Zero();
+    set.predict(motion);
+    set.update(makeDenseScan(lookAround(unmapped), 180), verifier);
+    return 5.1 - set.tracks[0].hypothesis.pose.mean.x;
+  };
+  const double well = drawn_back(0);
+  EXPECT_GT(well, 0.05);
+  EXPECT_LT(drawn_back(4), 0.6 * well);
+  EXPECT_GT(drawn_back(4), 0);
 }
 
 TEST(WeighFirstLook, TheMilderOfScoreAndGroundCounts)
