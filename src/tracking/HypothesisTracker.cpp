@@ -251,9 +251,7 @@ void HypothesisTracker::State::relocate(const ObservedScene& scene, const DenseS
   const double fresh_share = freshShare();
   haveRelocated();
 
-  Track* best =
-      result.candidates.empty() ? nullptr : set.trackAt(result.candidates.front().pose.mean);
-  if (best != nullptr) best->found = true;
+  set.countFound(result);
   confirm(result, scan, fresh_share);
   weighElsewhere(result, fresh_share);
   set.dealOut(result, [&](std::size_t k) { return startAt(result, k, scan); });

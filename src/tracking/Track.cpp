@@ -23,6 +23,10 @@ constexpr double kOfRival = 0.6;  // of the log-odds of a rival ...
 constexpr double kNoRival = 1e-4;  // ... against one of this weight
 constexpr double kOfLoss = 0.2;  // of what was lost to rivals ...
 constexpr double kUsualLoss = 4.0;  // ... beyond what the right one loses, too
+constexpr double kOfMissed = 2.0;  // log-odds where relocations find other places instead,
+constexpr std::size_t kFewRelocations = 4;
+constexpr double kOftenFound = 0.5;  // share of them from which on nothing,
+constexpr double kSeldomFound = 0.3;  // up to which all is taken
 constexpr double kMinFollowed = -8.0;
 constexpr double kMaxFollowed = 12.0;
 }  // namespace
@@ -55,6 +59,13 @@ double Track::presence() const
   return confirmed + followed + fit;
 }
 
+double Track::missed() const
+{
+  if (relocations < kFewRelocations) return 0;
+  const double found_share = static_cast<double>(times_found) / static_cast<double>(relocations);
+  return std::clamp((kOftenFound - found_share) / (kOftenFound - kSeldomFound), 0.0, 1.0);
+}
+
 double Track::standing(double next) const
 {
   if (!misfit) return presence();
@@ -64,7 +75,8 @@ double Track::standing(double next) const
   const double survived =
       kSurvival * told * (std::clamp(followed_way, kUsualLife, kLongLife) - kUsualLife);
   const double contested = kOfRival * std::log(std::max(1.0, next / kNoRival)) +
-                           kOfLoss * std::max(0.0, -behind.told() - kUsualLoss);
+                           kOfLoss * std::max(0.0, -behind.told() - kUsualLoss) +
+                           kOfMissed * missed();
   return presence() + survived - contested;
 }
 }  // namespace sigloc

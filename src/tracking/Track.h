@@ -58,6 +58,8 @@ struct Track
   mrpt::math::TPose2D judged_at;  // where the ground of that is judged, near the hypothesis
   double mean_score = 0;  // running mean
   bool found = false;  // best of the whole map by this step's relocation
+  std::size_t relocations = 0;  // since the track began; not counted without a field
+  std::size_t times_found = 0;  // best of the whole map by so many of them
   double confirmed = 0;  // log-odds that relocations, each blind to the track, have given it
   SeenStructure seen;  // what that evidence rests on
   double followed = 0;  // log-odds from how the map explained what came into view on the way
@@ -70,6 +72,14 @@ struct Track
 
   /// True of a track that this step's relocation has started.
   bool isNew() const { return hypothesis.age == 0; }
+
+  /// Notes a relocation: whether it found the track best of the whole map.
+  void noteRelocation(bool found_best)
+  {
+    found = found_best;
+    ++relocations;
+    if (found_best) ++times_found;
+  }
 
   /// Adds to `followed`, within its bounds.
   void addFollowed(double log_odds);
@@ -84,8 +94,11 @@ struct Track
   double presence() const;
 
   /// The same for a claim, which with a field also asks how long the track has been followed,
-  /// eq. (8.25), and how far rivals contest it, of which the next has the weight `next`, eq. (8.28)
+  /// eq. (8.25), and how far other places contest it, eq. (8.28); the next has the weight `next`.
   double standing(double next) const;
+
+  /// How far relocations have found other places instead, in [0, 1]; few tell nothing.
+  double missed() const;
 
   /// Whether a relocation or the way has told enough not to give the track up for a look-alike.
   bool held() const { return std::max(confirmed, presence()) >= kHeld; }

@@ -304,6 +304,13 @@ Track* TrackSet::trackAt(const TPose2D& pose)
   return nullptr;
 }
 
+void TrackSet::countFound(const RelocationResult& result)
+{
+  const Track* best =
+      result.candidates.empty() ? nullptr : trackAt(result.candidates.front().pose.mean);
+  for (Track& track : tracks) track.noteRelocation(&track == best);
+}
+
 void TrackSet::weighElsewhere(const RelocationResult& result, double here, bool beaten,
                               double fresh_share)
 {

@@ -65,6 +65,9 @@ class TrackSet
   /// Scales those of the tracks alone, which must not all be zero, and leaves "somewhere else".
   void normaliseTracks();
 
+  /// Tells the tracks which of them a relocation has found best of the whole map.
+  void countFound(const RelocationResult& result);
+
   /// Moves the weight of "somewhere else" by what a relocation that is `fresh_share` news says for
   /// the tracks, `here` in log-odds, while none is held that the relocation's best place without a
   /// track beats by far (`beaten`). Eq. (8.8)

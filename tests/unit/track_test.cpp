@@ -44,6 +44,23 @@ TEST(TrackStanding, WhatWasLeftOverStandsLessThanWhatWasFound)
   EXPECT_NEAR(found - track.standing(0), 0.2 * 5, 1e-9);
 }
 
+TEST(TrackStanding, RelocationsThatFindOtherPlacesTakeFromIt)
+{
+  const auto standing_after = [](int found, int missed)
+  {
+    Track track = followed();
+    for (int k = 0; k < found; ++k) track.noteRelocation(true);
+    for (int k = 0; k < missed; ++k) track.noteRelocation(false);
+    return track.standing(0);
+  };
+  const double before = followed().standing(0);
+  EXPECT_EQ(standing_after(0, 3), before) << "three may all be chance";
+  EXPECT_EQ(standing_after(5, 5), before);
+  EXPECT_NEAR(standing_after(2, 3), before - 1, 1e-9);
+  EXPECT_NEAR(standing_after(3, 7), before - 2, 1e-9);
+  EXPECT_NEAR(standing_after(0, 40), before - 2, 1e-9);
+}
+
 TEST(TrackStanding, LastingIsEvidenceWhereTheGroundIsExplained)
 {
   Track track = followed();
