@@ -155,8 +155,9 @@ void TrackSet::updatePose(Track& track, const DenseScan& scan, const DenseVerifi
                                 : searchedPose(pose.mean, scan, verifier);
   const DenseEvidence found = verifier.evaluate(scan, measured.mean);
   measured.covariance = verifier.testedCovarianceAt(scan, measured.mean);
-  // What the map does not explain has moved, and draws the pose towards where it was.
-  const double fit = std::max(kLeastFit, found.score);
+  // What the map does not explain has moved, and draws the pose towards where it was; odometry, if
+  // there is any, knows better.
+  const double fit = has_odometry_ ? std::max(kLeastFit, found.score) : 1.0;
   measured.covariance *= kCorrelation / (fit * fit);
   const bool agrees = squaredMahalanobisDistance(pose, measured) < kUpdateGate;
   const bool slipped = !agrees && found.score > predicted.score + kClearlyBetter;

@@ -158,7 +158,8 @@ TEST(WeighFirstLook, ExpectsChangeWhereTheBestExplainsLittle)
   };
   EXPECT_GT(cost_after(1.0), cost_after(0.9));
   EXPECT_GT(cost_after(0.9), cost_after(0.7));
-  EXPECT_GT(cost_after(0.1), 0);
+  EXPECT_NEAR(cost_after(0.1), 0.7 * std::log(0.7 / 0.3), 1e-9) << "clutter counts as change, too";
+  EXPECT_EQ(cost_after(0.6), cost_after(0.1));
 }
 
 TEST(WeighFirstLook, NoTracksAreNoTrouble)

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 namespace sigloc
 {
@@ -71,6 +72,27 @@ TEST(TrackStanding, LastingIsEvidenceWhereTheGroundIsExplained)
   EXPECT_NEAR(track.standing(0) - young, 6.5, 1e-9);
   track.followed_way = 100;
   EXPECT_NEAR(track.standing(0) - young, 6.5, 1e-9);
+}
+
+TEST(TrackStanding, LastingTellsNothingWhereMuchOfTheGroundIsUnexplained)
+{
+  const auto survived = [](float explained_share)
+  {
+    DenseScan scan;
+    for (int k = 0; k < 30; ++k)
+    {
+      scan.x.push_back(0.1F + static_cast<float>(k) / 6.0F);
+      scan.y.push_back(2.1F);
+      scan.isolated.push_back(0);
+    }
+    Track track = followed();
+    track.followed_way = 20;
+    track.explained.look(viewOf(scan, {0, 0, 0}), std::vector<float>(30, explained_share), 0);
+    return track.standing(0) - track.presence();
+  };
+  EXPECT_NEAR(survived(0.9F), 6.5, 1e-6);
+  EXPECT_NEAR(survived(0.825F), 3.25, 1e-4);
+  EXPECT_NEAR(survived(0.75F), 0, 1e-6);
 }
 
 TEST(TrackStanding, WithoutADenseFieldPresenceIsAll)
