@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <unordered_map>
 #include <vector>
@@ -30,7 +31,10 @@ class ExplainedStructure
   void countAnew() { seen_ = unexplained_ = 0; }
 
   /// The share of what was seen, in [0, 1]; 0 before anything was. \cite algorithm eq. (8.25)
-  double unexplainedShare() const { return seen_ > 0 ? unexplained_ / seen_ : 0; }
+  double unexplainedShare() const
+  {
+    return seen_ > 0 ? std::clamp(unexplained_ / seen_, 0.0, 1.0) : 0.0;
+  }
 
  private:
   struct Cell

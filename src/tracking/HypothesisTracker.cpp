@@ -370,8 +370,7 @@ void HypothesisTracker::State::publish(const ObservedScene& scene)
   const TrackedHypothesis& first = belief.hypotheses.front();
   belief.reliability = reliability;
   const bool open = largestPositionSigma(first.pose) >= kMaxOpenSigma;
-  const double next = set.tracks.size() > 1 ? set.tracks[1].hypothesis.weight : 0.0;
-  const bool confirmed = set.tracks.front().standing(next) >= options.confirmation;
+  const bool confirmed = set.standing() >= options.confirmation;
   if (first.weight >= options.localized_probability && confirmed && !doubtful() && !open)
   {
     belief.verdict = Verdict::localized;
@@ -388,7 +387,8 @@ void HypothesisTracker::State::publish(const ObservedScene& scene)
   {
     belief.verdict = Verdict::ambiguous;
     belief.probability = 1.0 - first.weight;
-    const bool rivalled = first.weight < options.localized_probability;
+    const bool rivalled =
+        first.weight < options.localized_probability || belief.hypotheses.size() > 1;
     belief.reason = open         ? "the position is open along a line"
                     : doubtful() ? "the hypothesis explains much less than it used to"
                     : rivalled   ? describeRivals(belief.hypotheses, fieldOf(matcher->map()))

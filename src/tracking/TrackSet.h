@@ -83,6 +83,13 @@ class TrackSet
   /// The track that holds a pose, or null.
   Track* trackAt(const mrpt::math::TPose2D& pose);
 
+  /// What a claim of the first track stands on, `Track::standing`, while tracks are sorted. Must
+  /// not be called on an empty set.
+  double standing() const
+  {
+    return tracks.front().standing(tracks.size() > 1 ? tracks[1].hypothesis.weight : 0.0);
+  }
+
   /// The heaviest track. Must not be called on an empty set.
   const Track& heaviest() const;
 

@@ -7,26 +7,13 @@
 #include <cmath>
 #include <vector>
 
+#include "support/wall_ahead.h"
+
 namespace sigloc
 {
 namespace
 {
-/// Three returns in each of a wall's cells of 0.5 m, `cells` of them along x, and one that is
-/// isolated, behind the robot.
-DenseScan wallAhead(int cells)
-{
-  DenseScan scan;
-  for (int k = 0; k < 3 * cells; ++k)
-  {
-    scan.x.push_back(0.1F + static_cast<float>(k) / 6.0F);
-    scan.y.push_back(2.1F);
-    scan.isolated.push_back(0);
-  }
-  scan.x.push_back(-3.0F);
-  scan.y.push_back(0.0F);
-  scan.isolated.push_back(1);
-  return scan;
-}
+using testing::wallAhead;
 
 std::vector<float> allExplained(const DenseScan& scan, float share)
 {
@@ -96,6 +83,7 @@ TEST(ExplainedStructure, WhatWasSeenLongAgoIsNewsAgain)
     EXPECT_NEAR(structure.look(view, allExplained(scan, 0.5F), start + 20.1), 2, 1e-6);
   }
 }
+
 TEST(ExplainedStructure, TellsTheShareOfAllItHasSeen)
 {
   const DenseScan scan = wallAhead(4);
@@ -111,6 +99,21 @@ TEST(ExplainedStructure, TellsTheShareOfAllItHasSeen)
   EXPECT_NEAR(structure.unexplained(), 8, 1e-6) << "what was long ago is news again, ...";
   EXPECT_NEAR(structure.unexplainedShare(), 8.0 / 12.0, 1e-6)
       << "and what was seen then still counts";
+}
+
+TEST(ExplainedStructure, TheShareStaysOneWhenCountedAnew)
+{
+  // What was seen before and now looks better, or worse, is no cell more.
+  const DenseScan scan = wallAhead(4);
+  for (const float first : {0.0F, 1.0F})
+  {
+    ExplainedStructure structure;
+    structure.look(viewOf(scan, {0, 0, 0}), allExplained(scan, first), 0);
+    structure.countAnew();
+    structure.look(viewOf(scan, {0.5, 0, 0}), allExplained(scan, 1 - first), 1);
+    EXPECT_GE(structure.unexplainedShare(), 0);
+    EXPECT_LE(structure.unexplainedShare(), 1);
+  }
 }
 }  // namespace
 }  // namespace sigloc

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sigloc/matching/DenseVerifier.h"
+#include "support/wall_ahead.h"
 
 namespace sigloc
 {
@@ -17,14 +18,8 @@ namespace
 /// left unexplained.
 Track newcomer(double weight, double score, double unexplained_cells)
 {
-  constexpr std::size_t kCells = 10;
-  DenseScan scan;
-  for (std::size_t k = 0; k < 3 * kCells; ++k)
-  {
-    scan.x.push_back(0.1F + static_cast<float>(k) / 6.0F);
-    scan.y.push_back(2.1F);
-    scan.isolated.push_back(0);
-  }
+  constexpr int kCells = 10;
+  const DenseScan scan = testing::wallAhead(kCells);
   Track track;
   track.hypothesis.weight = weight;
   track.score = score;
@@ -108,6 +103,16 @@ TEST(TrackSetUpdate, AScanThatFitsBadlySaysLessOfThePose)
   EXPECT_GT(well, 0.05);
   EXPECT_LT(drawn_back(4), 0.6 * well);
   EXPECT_GT(drawn_back(4), 0);
+}
+
+TEST(TrackSetStanding, TheFirstIsContestedByTheSecond)
+{
+  TrackSet set = setOf({newcomer(0.9, 1, 0), newcomer(0.09, 1, 0), newcomer(0.01, 1, 0)});
+  for (Track& track : set.tracks) track.misfit = 0;
+  set.tracks[1].confirmed = set.tracks[2].confirmed = -1;
+  EXPECT_EQ(set.standing(), set.tracks[0].standing(0.09));
+  set.tracks.resize(1);
+  EXPECT_EQ(set.standing(), set.tracks[0].standing(0));
 }
 
 TEST(WeighFirstLook, TheMilderOfScoreAndGroundCounts)

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <vector>
 
+#include "support/wall_ahead.h"
+
 namespace sigloc
 {
 namespace
@@ -78,16 +80,11 @@ TEST(TrackStanding, LastingTellsNothingWhereMuchOfTheGroundIsUnexplained)
 {
   const auto survived = [](float explained_share)
   {
-    DenseScan scan;
-    for (int k = 0; k < 30; ++k)
-    {
-      scan.x.push_back(0.1F + static_cast<float>(k) / 6.0F);
-      scan.y.push_back(2.1F);
-      scan.isolated.push_back(0);
-    }
+    const DenseScan scan = testing::wallAhead(10);
+    const std::vector<float> explained(scan.size(), explained_share);
     Track track = followed();
     track.followed_way = 20;
-    track.explained.look(viewOf(scan, {0, 0, 0}), std::vector<float>(30, explained_share), 0);
+    track.explained.look(viewOf(scan, {0, 0, 0}), explained, 0);
     return track.standing(0) - track.presence();
   };
   EXPECT_NEAR(survived(0.9F), 6.5, 1e-6);
