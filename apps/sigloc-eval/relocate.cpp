@@ -33,11 +33,7 @@ struct RelocateFlags
     options.method.region = common.poseRegion();
     options.method.use_dense_field = !common.no_dense;
     options.method.seed = common.seed;
-    if (simulated)
-    {
-      options.gates.wrong_distance = options.gates.right_distance;
-      options.gates.wrong_angle_deg = options.gates.right_angle_deg;
-    }
+    if (simulated) options.gates = simulationGates();
     options.threads = common.threads;
     options.keep_failures = common.draw_failures;
     options.command = command_line;

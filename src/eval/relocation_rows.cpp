@@ -16,7 +16,8 @@ constexpr const char* kDefinitions = R"(
   0.5 m and 3.6 degrees; **recall@10**: one of the first ten does. **proposed**: a right pose was
   among those that the method's features proposed; empty for methods that search instead.
 * **confident**: the verdict is `localized`, P(first) >= 0.99. Of these, **right** as above,
-  **wrong**: more than 1 m or 20 degrees off (in a foreign map: every one), **inaccurate**: between.
+  **wrong**: more than 1 m or 20 degrees off (of a simulated scan, whose truth is exact, every one that
+  is not right; in a foreign map every one), **inaccurate**: between.
   Methods without a verdict show `-`.
 * **error**: median over right first answers.
 * **time**: CPU time of one thread from raw scan to ranked candidates, feature extraction included.

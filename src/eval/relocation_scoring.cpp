@@ -51,6 +51,14 @@ PoseError poseError(const TPose2D& pose, const TPose2D& truth)
           std::abs(mrpt::math::angDistance(pose.phi, truth.phi)) * 180 / M_PI};
 }
 
+AccuracyGates simulationGates()
+{
+  AccuracyGates gates;
+  gates.wrong_distance = gates.right_distance;
+  gates.wrong_angle_deg = gates.right_angle_deg;
+  return gates;
+}
+
 bool isRight(const PoseError& error, const AccuracyGates& gates)
 {
   return error.distance <= gates.right_distance && error.angle_deg <= gates.right_angle_deg;

@@ -263,14 +263,6 @@ void check(const SweepOptions& options)
 }
 }  // namespace
 
-AccuracyGates simulationGates()
-{
-  AccuracyGates gates;
-  gates.wrong_distance = gates.right_distance;
-  gates.wrong_angle_deg = gates.right_angle_deg;
-  return gates;
-}
-
 SweepReport runSweep(const SweepOptions& given)
 {
   SweepOptions options = given;

@@ -259,6 +259,7 @@ TrackReport runTrack(const TrackOptions& options)
   report.map.add(*log.map.features, log.map.build_seconds);
   report.complete = log.drive.complete;
   report.foreign = options.foreign;
+  report.gates = options.gates;
   report.provenance = {options.command, options.method.seed, log.files};
   for (const std::string& name : options.methods)
   {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <sstream>
 #include <tuple>
 
 #include "sigloc/config/TextStream.h"
@@ -15,16 +16,23 @@ namespace sigloc
 {
 namespace
 {
-constexpr const char* kDefinitions = R"(
+/// What the columns mean, claims being judged by these gates.
+std::string definitions(const AccuracyGates& gates)
+{
+  std::ostringstream text;
+  text
+      << R"(
 ## What the columns mean
 
-* A run wakes up lost at one place and drives on. **right at end**: confident and within 0.5 m and
-  10 degrees of the truth at the last step with truth within 1 m of a mapped pose (mapped land).
+* A run wakes up lost at one place and drives on. **right at end**: confident and within )"
+      << gates.right_distance << " m and\n  " << gates.right_angle_deg
+      << R"( degrees of the truth at the last step with truth within 1 m of a mapped pose (mapped land).
   **settled**: confident from some step to the end, steps off the mapped land aside; the distance to
   it is over the runs that settle, the CPU time (building the filter included) over all: a run that
   never settles costs its whole time. After a kidnapping way, time and CPU time count from there, and
   no run has settled before it noticed.
-* **wrong**: runs with a step that is confident and more than 1 m or 20 degrees off; steps and
+* **wrong**: runs with a step that is confident and more than )"
+      << gates.wrong_distance << " m or " << gates.wrong_angle_deg << R"( degrees off; steps and
   unbroken episodes of it counted as well. **of them mapped**: runs with such a step where the truth is
   within 1 m of a mapped pose; the others claimed a place of the map from off its land only.
 * **noticed**: after a kidnapping, runs in which the method was not, or no longer, sure of a wrong
@@ -43,6 +51,8 @@ constexpr const char* kDefinitions = R"(
 * `mcl-stock`: the program pf-localization, a process a run, with the options of `mcl`. It seeds
   itself, so its rows differ from run to run; its times are those it tells, by the clock.
 )";
+  return text.str();
+}
 
 struct TrackSummary
 {
@@ -131,10 +141,10 @@ std::set<std::string> groupsOf(const TrackMethodReport& method)
   return groups;
 }
 
-/// What every sub-command's summary tells, of runs instead of queries: see kDefinitions.
-RelocationSummary endSummary(const TrackMethodReport& method, const TrackSummary& runs)
+/// What every sub-command's summary tells, of runs instead of queries: see definitions.
+RelocationSummary endSummary(const TrackMethodReport& method, const TrackSummary& runs,
+                             const AccuracyGates& gates)
 {
-  const AccuracyGates gates;
   RelocationSummary s;
   std::vector<double> distances;
   std::vector<double> angles;
@@ -166,10 +176,10 @@ RelocationSummary endSummary(const TrackMethodReport& method, const TrackSummary
   return s;
 }
 
-nlohmann::ordered_json methodJson(const TrackMethodReport& method)
+nlohmann::ordered_json methodJson(const TrackMethodReport& method, const AccuracyGates& gates)
 {
   const TrackSummary s = summarizeRuns(method);
-  nlohmann::ordered_json json = toJson(endSummary(method, s));
+  nlohmann::ordered_json json = toJson(endSummary(method, s, gates));
   json["steps"] = s.steps;
   json["confidently_wrong_mapped"] = s.wrong_mapped_runs;
   json["confidently_wrong_steps"] = s.wrong_steps;
@@ -184,7 +194,7 @@ nlohmann::ordered_json methodJson(const TrackMethodReport& method)
   json["noticed_after_m"] = toJson(s.distance_to_noticed);
   json["noticed_after_s"] = toJson(s.seconds_to_noticed);
   json["peak_rss_mb"] = method.peak_rss_mb;
-  json["calibration"] = detail::toJson(detail::selfKnowledgeOf(method, {}));
+  json["calibration"] = detail::toJson(detail::selfKnowledgeOf(method, gates));
   for (const std::string& group : groupsOf(method))
   {
     const TrackSummary part = summarizeRuns(method, group);
@@ -348,7 +358,7 @@ void writeTrackReport(const TrackReport& report, const std::filesystem::path& fo
   RunReport files;
   for (const TrackMethodReport& method : report.methods)
   {
-    files.summary["methods"][method.name] = methodJson(method);
+    files.summary["methods"][method.name] = methodJson(method, report.gates);
   }
   files.summary["map"] = toJson(report.map);
   files.summary["complete"] = report.complete;
@@ -358,13 +368,13 @@ void writeTrackReport(const TrackReport& report, const std::filesystem::path& fo
     files.text += "\nThe map is of another place: every confident step is wrong.\n";
   for (const TrackMethodReport& method : report.methods)
   {
-    const std::string tables = detail::toMarkdown(detail::selfKnowledgeOf(method, {}));
+    const std::string tables = detail::toMarkdown(detail::selfKnowledgeOf(method, report.gates));
     if (tables.empty()) continue;
     files.text += "\n## What the weights of `" + method.name + "` are worth\n\n" + tables;
   }
   files.tables = {{"runs.csv", runsCsv(report)}};
   files.plots = plotsOf(report);
-  files.notes = kDefinitions + mapSection(report.map);
+  files.notes = definitions(report.gates) + mapSection(report.map);
   files.provenance = report.provenance;
   writeRunReport(files, folder);
 }

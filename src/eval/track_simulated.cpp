@@ -247,15 +247,6 @@ class DrivenPlace
   std::optional<LandmarkSimulator> landmarks_;  // in a world of points, the other
 };
 
-/// The gates of simulation: the truth is exact.
-AccuracyGates exactGates()
-{
-  AccuracyGates gates;
-  gates.wrong_distance = gates.right_distance;
-  gates.wrong_angle_deg = gates.right_angle_deg;
-  return gates;
-}
-
 /// One drive of one method; where it fails and there is room, `failures` gets it.
 TrackRun runDrive(const TrackingMethodFactory& factory, const std::string& method,
                   const DrivenPlace& place, std::size_t number,
@@ -273,7 +264,7 @@ TrackRun runDrive(const TrackingMethodFactory& factory, const std::string& metho
   legs.reserve(drives.size());
   for (const TrackDrive& drive : drives) legs.push_back({&drive, 0, drive.steps.size()});
   const auto seed = static_cast<std::uint32_t>(seedOf(options.method.seed, number));
-  TrackRun run = detail::runLegs(factory, legs, seed, exactGates());
+  TrackRun run = detail::runLegs(factory, legs, seed, simulationGates());
   run.start = number;
   if (failures.size() < options.keep_failures && isFailedRun(run))
   {
@@ -327,6 +318,7 @@ TrackReport runSimulatedTrack(const SimulatedTrackOptions& options)
   TrackReport report;
   report.provenance = {options.command, options.method.seed, {}};
   report.foreign = options.foreign;
+  report.gates = simulationGates();
   for (const std::string& name : options.methods)
   {
     report.methods.emplace_back();

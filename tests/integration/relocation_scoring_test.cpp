@@ -64,10 +64,7 @@ TEST(RelocationScoring, TellsRightInaccurateAndWrongApart)
   EXPECT_EQ(claim({0, 0, 11 * kDegree}, {}), Claim::inaccurate);
   EXPECT_EQ(claim({1.01, 0, 0}, {}), Claim::wrong);
   EXPECT_EQ(claim({0, 0, 21 * kDegree}, {}), Claim::wrong);
-  AccuracyGates simulated;
-  simulated.wrong_distance = simulated.right_distance;
-  simulated.wrong_angle_deg = simulated.right_angle_deg;
-  EXPECT_EQ(claim({0.51, 0, 0}, simulated), Claim::wrong);
+  EXPECT_EQ(claim({0.51, 0, 0}, simulationGates()), Claim::wrong);
 }
 
 TEST(RelocationScoring, OnlyAVerdictIsAClaim)

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <iostream>
 
+#include "bridge/rawlog_files.h"
+
 namespace sigloc
 {
 namespace
@@ -81,6 +83,16 @@ TEST(SimulatedTrack, JudgesEveryClaimInAForeignMapWrong)
       EXPECT_EQ(step.judged, step.claim.confident ? Claim::wrong : Claim::none);
     }
   }
+}
+
+TEST(SimulatedTrack, TellsTheGatesThatClaimsAreJudgedBy)
+{
+  SimulatedTrackOptions options = smallOptions();
+  options.drives = 1;
+  const test::TemporaryFolder folder;
+  writeTrackReport(runSimulatedTrack(options), folder.path());
+  const std::string text = test::readBytes(folder / "report.md");
+  EXPECT_NE(text.find("confident and more than 0.5 m or 10 degrees off"), std::string::npos);
 }
 
 TEST(SimulatedTrack, CarriesTheRobotToAnotherPlace)

@@ -26,6 +26,9 @@ struct AccuracyGates
   double wrong_angle_deg = 20;
 };
 
+/// In simulation the truth is exact: a confident answer that is not right is wrong.
+AccuracyGates simulationGates();
+
 /// What a confident answer turned out to be.
 enum class Claim : std::uint8_t
 {

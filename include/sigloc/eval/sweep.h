@@ -62,9 +62,6 @@ struct SweepReport
   Provenance provenance;
 };
 
-/// In simulation the truth is exact: a confident answer that is not right is wrong.
-AccuracyGates simulationGates();
-
 /// Throws std::invalid_argument for options that make no sense.
 SweepReport runSweep(const SweepOptions& options);
 

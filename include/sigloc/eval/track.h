@@ -100,6 +100,7 @@ struct TrackReport
   MapFacts map;
   bool complete = true;
   bool foreign = false;
+  AccuracyGates gates;  ///< that the claims were judged by
   Provenance provenance;
 };
 
