@@ -12,18 +12,16 @@
 #include "sigloc/geometry/pose_fusion.h"
 #include "sigloc/matching/DenseVerifier.h"
 #include "sigloc/matching/weighing.h"
-#include "sigloc/tracking/rivals.h"
 #include "sigloc/tracking/travel.h"
 #include "step_input.h"
 #include "TrackSet.h"
+#include "verdict.h"
 
 namespace sigloc
 {
 namespace
 {
 constexpr std::size_t kUpdateBeams = 180;  // a track is updated with
-constexpr double kMaxOpenSigma = 0.5;  // [m], a wider pose is a line of poses
-constexpr double kNotHere = 0.98;
 constexpr double kHidden = 0.5;  // weight of a relocation that fails to find a track
 constexpr double kUnfollowed = -6.5;  // log-odds of a pose before anything has come into view
 
@@ -359,40 +357,9 @@ void HypothesisTracker::State::publish(const ObservedScene& scene)
     belief.hypotheses.push_back(track.hypothesis);
     belief.hypotheses.back().pose = withCommonError(track.hypothesis.pose, matcher->map().error());
   }
-  if (set.tracks.empty())
-  {
-    const bool blind = seesTooLittle(scene);
-    belief.verdict = blind ? Verdict::too_little_seen : Verdict::not_here;
-    belief.probability = set.elsewhere;
-    belief.reason = blind ? "fewer returns than needed" : "nothing in the map explains the scan";
-    return;
-  }
-  const TrackedHypothesis& first = belief.hypotheses.front();
-  belief.reliability = reliability;
-  const bool open = largestPositionSigma(first.pose) >= kMaxOpenSigma;
-  const bool confirmed = set.standing() >= options.confirmation;
-  if (first.weight >= options.localized_probability && confirmed && !doubtful() && !open)
-  {
-    belief.verdict = Verdict::localized;
-    belief.probability = first.weight;
-    belief.reason = "one hypothesis holds";
-  }
-  else if (set.elsewhere >= kNotHere)
-  {
-    belief.verdict = Verdict::not_here;
-    belief.probability = set.elsewhere;
-    belief.reason = "no hypothesis explains the scan";
-  }
-  else
-  {
-    belief.verdict = Verdict::ambiguous;
-    belief.probability = 1.0 - first.weight;
-    const bool rivalled =
-        first.weight < options.localized_probability || belief.hypotheses.size() > 1;
-    belief.reason = open         ? "the position is open along a line"
-                    : doubtful() ? "the hypothesis explains much less than it used to"
-                    : rivalled   ? describeRivals(belief.hypotheses, fieldOf(matcher->map()))
-                                 : "too little has been seen that only this map explains";
-  }
+  if (!set.tracks.empty()) belief.reliability = reliability;
+  const BeliefGrounds grounds = {!set.tracks.empty() && set.standing() >= options.confirmation,
+                                 !set.tracks.empty() && doubtful(), seesTooLittle(scene)};
+  decideVerdict(belief, grounds, options.localized_probability, fieldOf(matcher->map()));
 }
 }  // namespace sigloc

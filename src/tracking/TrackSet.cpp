@@ -10,6 +10,7 @@
 #include <limits>
 #include <utility>
 
+#include "pose_update.h"
 #include "sigloc/geometry/pose_fusion.h"
 #include "sigloc/matching/weighing.h"
 #include "sigloc/tracking/travel.h"
@@ -21,8 +22,6 @@ using mrpt::math::wrapToPi;
 
 namespace
 {
-constexpr int kUpdateSteps = 6;
-constexpr double kUpdateGate = 16.27;  // chi-square, 3 degrees of freedom, 99.9 %
 constexpr double kSameDistance = 0.5;  // [m], a proposal this near to a track confirms it
 constexpr double kSameAngle = 17.0 * M_PI / 180.0;
 constexpr double kMergeDistance = 0.3;  // [m]
@@ -34,8 +33,6 @@ constexpr double kTellsOfCell = 0.7;  // a cell's own share: those beside it tel
 constexpr double kSure = 0.9;  // a relocation that overrules all tracks
 constexpr double kMostNews = 4.0;  // views that a metre can bring
 constexpr double kScoreMemory = 0.9;  // of the running mean of the score, per step
-constexpr double kCorrelation = 4.0;  // scans of neighbouring steps share their errors
-constexpr double kLeastFit = 0.2;  // score below which a pose is measured no worse
 constexpr double kMinSigma = 0.005;  // [m], floor of a step's motion
 constexpr double kMinTurnSigma = 0.002;  // [rad]
 
@@ -101,72 +98,12 @@ double TrackSet::predict(const std::optional<MotionIncrement>& motion)
 
 void TrackSet::update(const DenseScan& scan, const DenseVerifier& verifier)
 {
-  for (Track& track : tracks) updatePose(track, scan, verifier);
+  for (Track& track : tracks) updatePose(track, scan, verifier, has_odometry_, options_);
   if (!has_odometry_ && !tracks.empty())
   {
     ground_ = ground_ + (heaviest().hypothesis.pose.mean - left_);
   }
   view_ = viewOf(scan, ground_);
-}
-
-/// Without odometry the robot may have turned or driven farther than a refinement reaches: along a
-/// corridor, returns stick to the wall beside the door frame they should follow. Other poses within
-/// the prior are tried too, and taken where they explain the scan better.
-TPose2D TrackSet::searchedPose(const TPose2D& predicted, const DenseScan& scan,
-                               const DenseVerifier& verifier) const
-{
-  constexpr double kTurn = 15.0 * M_PI / 180.0;  // between two tries, less than twice the reach
-  constexpr double kDrive = 0.2;  // [m]
-  constexpr double kBetter = 0.01;  // of the score
-  TPose2D best = verifier.refine(scan, predicted, kUpdateSteps, scan.size());
-  double best_score = verifier.evaluate(scan, best).score;
-  const auto attempt = [&](double drive, double turn)
-  {
-    const TPose2D start = predicted + TPose2D(drive, 0, turn);
-    const TPose2D pose = verifier.refine(scan, start, kUpdateSteps, scan.size());
-    const double score = verifier.evaluate(scan, pose).score;
-    if (score <= best_score + kBetter) return;
-    best = pose;
-    best_score = score;
-  };
-  const int turns = static_cast<int>(3.0 * options_.free_turn_sigma / kTurn);
-  for (int k = -turns; k <= turns; ++k)
-  {
-    if (k != 0) attempt(0, k * kTurn);
-  }
-  const int drives = static_cast<int>(2.0 * options_.free_motion_sigma / kDrive);
-  for (int k = -drives; k <= drives; ++k)
-  {
-    if (k != 0) attempt(k * kDrive, 0);
-  }
-  best.phi = wrapToPi(best.phi);
-  return best;
-}
-
-/// The returns' own estimate near the predicted pose, fused with the prediction. A refinement that
-/// the prediction excludes is taken only when it explains the scan clearly better: odometry slips.
-void TrackSet::updatePose(Track& track, const DenseScan& scan, const DenseVerifier& verifier) const
-{
-  constexpr double kClearlyBetter = 0.3;  // of the score
-  GaussianPose& pose = track.hypothesis.pose;
-  const DenseEvidence predicted = verifier.evaluate(scan, pose.mean);
-  GaussianPose measured;
-  measured.mean = has_odometry_ ? verifier.refine(scan, pose.mean, kUpdateSteps, scan.size())
-                                : searchedPose(pose.mean, scan, verifier);
-  const DenseEvidence found = verifier.evaluate(scan, measured.mean);
-  measured.covariance = verifier.testedCovarianceAt(scan, measured.mean);
-  // What the map does not explain has moved, and draws the pose towards where it was; odometry, if
-  // there is any, knows better.
-  const double fit = has_odometry_ ? std::max(kLeastFit, found.score) : 1.0;
-  measured.covariance *= kCorrelation / (fit * fit);
-  const bool agrees = squaredMahalanobisDistance(pose, measured) < kUpdateGate;
-  const bool slipped = !agrees && found.score > predicted.score + kClearlyBetter;
-  if (agrees) pose = fusePoses(pose, measured);
-  if (slipped) pose = measured;
-  const bool at_measured = slipped || (agrees && found.score > predicted.score);
-  track.evidence = at_measured ? found : predicted;
-  track.judged_at = at_measured ? measured.mean : pose.mean;
-  track.score = track.evidence.score;
 }
 
 void TrackSet::follow(const DenseScan& scan, double travelled, double travel, double driven)

@@ -99,9 +99,6 @@ class TrackSet
  private:
   void weighRivals(const DenseScan& scan, const DenseVerifier& verifier, double travelled,
                    double travel, double best_score);
-  void updatePose(Track& track, const DenseScan& scan, const DenseVerifier& verifier) const;
-  mrpt::math::TPose2D searchedPose(const mrpt::math::TPose2D& predicted, const DenseScan& scan,
-                                   const DenseVerifier& verifier) const;
 
   TrackerOptions options_;
   bool has_odometry_ = true;  // of the last prediction

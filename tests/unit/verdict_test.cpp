@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "verdict.h"
+
+#include <gtest/gtest.h>
+
+namespace sigloc
+{
+namespace
+{
+constexpr double kSure = 0.99;
+constexpr BeliefGrounds kConfirmed = {true, false, false};
+
+Belief beliefOf(const std::vector<double>& weights, double elsewhere, double sigma = 0.05)
+{
+  Belief belief;
+  belief.elsewhere = elsewhere;
+  for (const double weight : weights)
+  {
+    TrackedHypothesis hypothesis;
+    hypothesis.weight = weight;
+    hypothesis.pose.mean.x = 10.0 * static_cast<double>(belief.hypotheses.size());
+    hypothesis.pose.covariance(0, 0) = sigma * sigma;
+    belief.hypotheses.push_back(hypothesis);
+  }
+  return belief;
+}
+
+struct Case
+{
+  const char* what;
+  Belief belief;
+  BeliefGrounds grounds;
+  Verdict verdict;
+  double probability;
+  const char* reason;  // part of it
+};
+
+TEST(DecideVerdict, ClaimsOnlyWhatNothingSpeaksAgainst)
+{
+  const std::vector<Case> cases = {
+      {"all is well", beliefOf({0.995}, 0.005), kConfirmed, Verdict::localized, 0.995, "one"},
+      {"a light rival", beliefOf({0.99, 0.005}, 0.005), kConfirmed, Verdict::localized, 0.99,
+       "one hypothesis holds"},
+      {"not sure", beliefOf({0.98, 0.015}, 0.005), kConfirmed, Verdict::ambiguous, 0.02,
+       "2 hypotheses remain"},
+      {"alone, not sure", beliefOf({0.9}, 0.1), kConfirmed, Verdict::ambiguous, 0.1,
+       "one hypothesis remains"},
+      {"not confirmed", beliefOf({0.998}, 0.002), {}, Verdict::ambiguous, 0.002,
+       "too little has been seen that only this map explains"},
+      {"not confirmed, a rival", beliefOf({0.99, 0.005}, 0.005), {}, Verdict::ambiguous, 0.01,
+       "2 hypotheses remain"},
+      {"doubtful", beliefOf({0.995}, 0.005), {true, true, false}, Verdict::ambiguous, 0.005,
+       "less than it used to"},
+      {"open", beliefOf({0.995}, 0.005, 0.5), kConfirmed, Verdict::ambiguous, 0.005,
+       "open along a line"},
+      {"elsewhere", beliefOf({0.02}, 0.98), kConfirmed, Verdict::not_here, 0.98,
+       "no hypothesis explains the scan"},
+      {"nowhere", beliefOf({}, 1.0), {}, Verdict::not_here, 1.0, "nothing in the map"},
+      {"blind", beliefOf({}, 1.0), {false, false, true}, Verdict::too_little_seen, 1.0,
+       "fewer returns than needed"},
+      {"blind, held", beliefOf({0.995}, 0.005), {true, false, true}, Verdict::localized, 0.995,
+       "one hypothesis holds"},
+  };
+  for (const Case& c : cases)
+  {
+    Belief belief = c.belief;
+    decideVerdict(belief, c.grounds, kSure, nullptr);
+    EXPECT_EQ(belief.verdict, c.verdict) << c.what;
+    EXPECT_NEAR(belief.probability, c.probability, 1e-9) << c.what;
+    EXPECT_NE(belief.reason.find(c.reason), std::string::npos) << c.what << ": " << belief.reason;
+  }
+}
+}  // namespace
+}  // namespace sigloc
