@@ -27,6 +27,14 @@ constexpr double kOfMissed = 2.0;  // log-odds where relocations find other plac
 constexpr std::size_t kFewRelocations = 4;
 constexpr double kOftenFound = 0.5;  // share of them from which on nothing,
 constexpr double kSeldomFound = 0.3;  // up to which all is taken
+constexpr double kOfThings = 16.0;  // log-odds of a metre of unexplained share times range ...
+constexpr double kUsualThings = 0.25;  // [m] ... beyond this, which the right one seldom exceeds,
+constexpr double kMostAgainstThings = 4.0;
+constexpr double kMostForThings = 1.0;
+constexpr double kFarthest = 8.0;  // [m]
+constexpr double kLittleInScans = 0.15;  // share of whole scans left unexplained up to which all
+constexpr double kMuchInScans = 0.25;  // of it, and from which on nothing is told
+constexpr double kFullView = 14.0;  // cells
 constexpr double kMinFollowed = -8.0;
 constexpr double kMaxFollowed = 12.0;
 }  // namespace
@@ -66,7 +74,17 @@ double Track::missed() const
   return std::clamp((kOftenFound - found_share) / (kOftenFound - kSeldomFound), 0.0, 1.0);
 }
 
-double Track::standing(double next) const
+double Track::thingsExplained(const Circumstances& now) const
+{
+  const double telling =
+      std::clamp((kMuchInScans - now.unexplained) / (kMuchInScans - kLittleInScans), 0.0, 1.0) *
+      std::min(1.0, explained.seen() / kFullView);
+  const double things = explained.unexplainedShare() * std::min(now.range, kFarthest);
+  return telling *
+         std::clamp(kOfThings * (kUsualThings - things), -kMostAgainstThings, kMostForThings);
+}
+
+double Track::standing(const Circumstances& now) const
 {
   if (!misfit) return presence();
   const double told = std::clamp(
@@ -74,9 +92,9 @@ double Track::standing(double next) const
       0.0, 1.0);
   const double survived =
       kSurvival * told * (std::clamp(followed_way, kUsualLife, kLongLife) - kUsualLife);
-  const double contested = kOfRival * std::log(std::max(1.0, next / kNoRival)) +
+  const double contested = kOfRival * std::log(std::max(1.0, now.next / kNoRival)) +
                            kOfLoss * std::max(0.0, -behind.told() - kUsualLoss) +
                            kOfMissed * missed();
-  return presence() + survived - contested;
+  return presence() + survived - contested + thingsExplained(now);
 }
 }  // namespace sigloc

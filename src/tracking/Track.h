@@ -49,6 +49,14 @@ struct RivalEvidence
   }
 };
 
+/// What a claim of a track stands on besides what the track itself remembers.
+struct Circumstances
+{
+  double next = 0;  // weight of the next track
+  double range = 0;  // [m] median of a scan, lately
+  double unexplained = 0;  // share of the scans that the best track leaves unexplained, lately
+};
+
 /// A hypothesis with what the tracker remembers of it.
 struct Track
 {
@@ -94,11 +102,15 @@ struct Track
   double presence() const;
 
   /// The same for a claim, which with a field also asks how long the track has been followed,
-  /// eq. (8.25), and how far other places contest it, eq. (8.28); the next has the weight `next`.
-  double standing(double next) const;
+  /// eq. (8.25), how far other places contest it, eq. (8.28), and how many things it fails to
+  /// explain, eq. (8.29).
+  double standing(const Circumstances& now) const;
 
   /// How far relocations have found other places instead, in [0, 1]; few tell nothing.
   double missed() const;
+
+  /// Log-odds by how many of the things in view the track has explained, eq. (8.29)
+  double thingsExplained(const Circumstances& now) const;
 
   /// Whether a relocation or the way has told enough not to give the track up for a look-alike.
   bool held() const { return std::max(confirmed, presence()) >= kHeld; }

@@ -26,7 +26,7 @@ constexpr double kSameDistance = 0.5;  // [m], a proposal this near to a track c
 constexpr double kSameAngle = 17.0 * M_PI / 180.0;
 constexpr double kMergeDistance = 0.3;  // [m]
 constexpr double kMergeAngle = 10.0 * M_PI / 180.0;
-constexpr double kChangeMemory = 10.0;  // [m] of travel
+constexpr double kScanMemory = 10.0;  // [m] of travel
 constexpr double kLeastChange = 0.02;  // share of what is mapped that even a map of today has wrong
 constexpr double kMostChange = 0.3;
 constexpr double kTellsOfCell = 0.7;  // a cell's own share: those beside it tell much the same
@@ -39,6 +39,17 @@ constexpr double kMinTurnSigma = 0.002;  // [rad]
 bool coincide(const TPose2D& a, const TPose2D& b, double distance, double angle)
 {
   return std::hypot(a.x - b.x, a.y - b.y) <= distance && std::abs(wrapToPi(a.phi - b.phi)) <= angle;
+}
+
+double medianRange(const DenseScan& scan)
+{
+  if (scan.size() == 0) return 0;
+  std::vector<float> ranges(scan.size());
+  std::transform(scan.x.begin(), scan.x.end(), scan.y.begin(), ranges.begin(),
+                 [](float x, float y) { return std::hypot(x, y); });
+  const auto middle = ranges.begin() + static_cast<std::ptrdiff_t>(ranges.size() / 2);
+  std::nth_element(ranges.begin(), middle, ranges.end());
+  return static_cast<double>(*middle);
 }
 
 bool heavier(const Track& a, const Track& b)
@@ -125,13 +136,14 @@ void TrackSet::follow(const DenseScan& scan, double travelled, double travel, do
 void TrackSet::weigh(const DenseScan& scan, const DenseVerifier& verifier, double travelled,
                      double travel)
 {
+  const double fresh = 1.0 - std::exp(-travel / kScanMemory);
+  range_ += (range_ > 0 ? fresh : 1.0) * (medianRange(scan) - range_);
   if (tracks.empty()) return;
   const double best_score =
       std::max_element(tracks.begin(), tracks.end(),
                        [](const Track& a, const Track& b) { return a.score < b.score; })
           ->score;
-  unexplained_ +=
-      (1.0 - std::exp(-travel / kChangeMemory)) * (std::max(0.0, 1.0 - best_score) - unexplained_);
+  unexplained_ += fresh * (std::max(0.0, 1.0 - best_score) - unexplained_);
   weighRivals(scan, verifier, travelled, travel, best_score);
   const double lost = std::min(1.0, travel / options_.lost_distance);
   double most = -1;

@@ -83,12 +83,14 @@ class TrackSet
   /// The track that holds a pose, or null.
   Track* trackAt(const mrpt::math::TPose2D& pose);
 
-  /// What a claim of the first track stands on, `Track::standing`, while tracks are sorted. Must
-  /// not be called on an empty set.
-  double standing() const
+  /// What a claim of the first track depends on besides it, while tracks are sorted.
+  Circumstances circumstances() const
   {
-    return tracks.front().standing(tracks.size() > 1 ? tracks[1].hypothesis.weight : 0.0);
+    return {tracks.size() > 1 ? tracks[1].hypothesis.weight : 0.0, range_, unexplained_};
   }
+
+  /// What that claim stands on, while tracks are sorted. Must not be called on an empty set.
+  double standing() const { return tracks.front().standing(circumstances()); }
 
   /// The heaviest track. Must not be called on an empty set.
   const Track& heaviest() const;
@@ -107,5 +109,6 @@ class TrackSet
   mrpt::math::TPose2D left_;  // the heaviest track's before the last prediction
   GroundView view_;  // of the last scan, from there
   double unexplained_ = 0;  // share that the best track has left unexplained, lately
+  double range_ = 0;  // [m] median of the scans, lately
 };
 }  // namespace sigloc

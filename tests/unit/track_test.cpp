@@ -13,6 +13,9 @@ namespace sigloc
 {
 namespace
 {
+/// Whole scans are left unexplained, so that (8.29) tells nothing.
+constexpr Circumstances kCluttered = {0, 5, 1};
+
 /// One that a dense field backs, followed for a while.
 Track followed()
 {
@@ -27,24 +30,24 @@ Track followed()
 TEST(TrackStanding, ARivalThatIsNearlyAsGoodTakesFromIt)
 {
   const Track track = followed();
-  EXPECT_EQ(track.standing(1e-4), track.standing(0));
-  EXPECT_NEAR(track.standing(0) - track.standing(1e-2), 0.6 * std::log(100), 1e-9);
-  double last = track.standing(1e-4);
+  EXPECT_EQ(track.standing({1e-4}), track.standing({}));
+  EXPECT_NEAR(track.standing({}) - track.standing({1e-2}), 0.6 * std::log(100), 1e-9);
+  double last = track.standing({1e-4});
   for (double next = 2e-4; next < 0.5; next *= 2)
   {
-    EXPECT_LT(track.standing(next), last) << next;
-    last = track.standing(next);
+    EXPECT_LT(track.standing({next}), last) << next;
+    last = track.standing({next});
   }
 }
 
 TEST(TrackStanding, WhatWasLeftOverStandsLessThanWhatWasFound)
 {
   Track track = followed();
-  const double found = track.standing(0);
+  const double found = track.standing({});
   track.behind = {-4, -30};
-  EXPECT_EQ(track.standing(0), found) << "the milder judge took no more than chance does";
+  EXPECT_EQ(track.standing({}), found) << "the milder judge took no more than chance does";
   track.behind = {-30, -9};
-  EXPECT_NEAR(found - track.standing(0), 0.2 * 5, 1e-9);
+  EXPECT_NEAR(found - track.standing({}), 0.2 * 5, 1e-9);
 }
 
 TEST(TrackStanding, RelocationsThatFindOtherPlacesTakeFromIt)
@@ -54,9 +57,9 @@ TEST(TrackStanding, RelocationsThatFindOtherPlacesTakeFromIt)
     Track track = followed();
     for (int k = 0; k < found; ++k) track.noteRelocation(true);
     for (int k = 0; k < missed; ++k) track.noteRelocation(false);
-    return track.standing(0);
+    return track.standing({});
   };
-  const double before = followed().standing(0);
+  const double before = followed().standing({});
   EXPECT_EQ(standing_after(0, 3), before) << "three may all be chance";
   EXPECT_EQ(standing_after(5, 5), before);
   EXPECT_NEAR(standing_after(2, 3), before - 1, 1e-9);
@@ -68,12 +71,12 @@ TEST(TrackStanding, LastingIsEvidenceWhereTheGroundIsExplained)
 {
   Track track = followed();
   track.followed_way = 10;
-  const double young = track.standing(0);
+  const double young = track.standing({});
   EXPECT_NEAR(young, track.presence(), 1e-9);
   track.followed_way = 20;
-  EXPECT_NEAR(track.standing(0) - young, 6.5, 1e-9);
+  EXPECT_NEAR(track.standing({}) - young, 6.5, 1e-9);
   track.followed_way = 100;
-  EXPECT_NEAR(track.standing(0) - young, 6.5, 1e-9);
+  EXPECT_NEAR(track.standing({}) - young, 6.5, 1e-9);
 }
 
 TEST(TrackStanding, LastingTellsNothingWhereMuchOfTheGroundIsUnexplained)
@@ -85,11 +88,41 @@ TEST(TrackStanding, LastingTellsNothingWhereMuchOfTheGroundIsUnexplained)
     Track track = followed();
     track.followed_way = 20;
     track.explained.look(viewOf(scan, {0, 0, 0}), explained, 0);
-    return track.standing(0) - track.presence();
+    return track.standing(kCluttered) - track.presence();
   };
   EXPECT_NEAR(survived(0.9F), 6.5, 1e-6);
   EXPECT_NEAR(survived(0.825F), 3.25, 1e-4);
   EXPECT_NEAR(survived(0.75F), 0, 1e-6);
+}
+
+/// What (8.29) adds to the claim of a track that explains a share of what it sees.
+double forThings(int cells, float explained_share, const Circumstances& now)
+{
+  const DenseScan scan = testing::wallAhead(cells);
+  Track track = followed();
+  track.explained.look(viewOf(scan, {0, 0, 0}), std::vector<float>(scan.size(), explained_share),
+                       0);
+  return track.standing(now) - track.standing(kCluttered);
+}
+
+TEST(TrackStanding, TheSameShareIsMoreThingsWhereTheRobotSeesFar)
+{
+  EXPECT_NEAR(forThings(20, 1.0F, {0, 5, 0}), 1, 1e-4);
+  EXPECT_NEAR(forThings(20, 0.9F, {0, 1, 0}), 1, 1e-4);
+  EXPECT_NEAR(forThings(20, 0.9F, {0, 2, 0}), 0.8, 1e-4);
+  EXPECT_NEAR(forThings(20, 0.9F, {0, 4, 0}), -2.4, 1e-4);
+  EXPECT_NEAR(forThings(20, 0.9F, {0, 7, 0}), -4, 1e-4);
+  EXPECT_NEAR(forThings(20, 0.95F, {0, 30, 0}), -2.4, 1e-4) << "far enough is far";
+}
+
+TEST(TrackStanding, ThingsTellLittleInClutterOrWhereFewWereSeen)
+{
+  const double full = forThings(20, 0.9F, {0, 4, 0.15});
+  EXPECT_NEAR(full, -2.4, 1e-4);
+  EXPECT_NEAR(forThings(20, 0.9F, {0, 4, 0.2}), full / 2, 1e-4);
+  EXPECT_NEAR(forThings(20, 0.9F, {0, 4, 0.25}), 0, 1e-4);
+  EXPECT_NEAR(forThings(7, 0.9F, {0, 4, 0}), full / 2, 1e-4);
+  EXPECT_EQ(followed().standing({0, 4, 0}), followed().standing(kCluttered)) << "nothing seen";
 }
 
 TEST(TrackStanding, WithoutADenseFieldPresenceIsAll)
@@ -97,7 +130,7 @@ TEST(TrackStanding, WithoutADenseFieldPresenceIsAll)
   Track track = followed();
   track.misfit.reset();
   track.behind = {-30, -30};
-  EXPECT_EQ(track.standing(0.4), track.presence());
+  EXPECT_EQ(track.standing({0.4}), track.presence());
 }
 }  // namespace
 }  // namespace sigloc
