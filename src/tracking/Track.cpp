@@ -30,7 +30,8 @@ constexpr double kSeldomFound = 0.3;  // up to which all is taken
 constexpr double kOfThings = 16.0;  // log-odds of a metre of unexplained share times range ...
 constexpr double kUsualThings = 0.25;  // [m] ... beyond this, which the right one seldom exceeds,
 constexpr double kMostAgainstThings = 4.0;
-constexpr double kMostForThings = 1.0;
+constexpr double kMostForThings = 1.5;
+constexpr double kShownWay = 15.0;  // [m] driven, from which on they speak for it in full
 constexpr double kFarthest = 8.0;  // [m]
 constexpr double kLittleInScans = 0.15;  // share of whole scans left unexplained up to which all
 constexpr double kMuchInScans = 0.25;  // of it, and from which on nothing is told
@@ -80,8 +81,9 @@ double Track::thingsExplained(const Circumstances& now) const
       std::clamp((kMuchInScans - now.unexplained) / (kMuchInScans - kLittleInScans), 0.0, 1.0) *
       std::min(1.0, explained.seen() / kFullView);
   const double things = explained.unexplainedShare() * std::min(now.range, kFarthest);
-  return telling *
-         std::clamp(kOfThings * (kUsualThings - things), -kMostAgainstThings, kMostForThings);
+  // What was chosen for explaining the first look shows by and by that it explains the rest.
+  const double most_for = kMostForThings * std::min(1.0, followed_way / kShownWay);
+  return telling * std::clamp(kOfThings * (kUsualThings - things), -kMostAgainstThings, most_for);
 }
 
 double Track::standing(const Circumstances& now) const

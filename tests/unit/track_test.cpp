@@ -96,10 +96,11 @@ TEST(TrackStanding, LastingTellsNothingWhereMuchOfTheGroundIsUnexplained)
 }
 
 /// What (8.29) adds to the claim of a track that explains a share of what it sees.
-double forThings(int cells, float explained_share, const Circumstances& now)
+double forThings(int cells, float explained_share, const Circumstances& now, double way = 15)
 {
   const DenseScan scan = testing::wallAhead(cells);
   Track track = followed();
+  track.followed_way = way;
   track.explained.look(viewOf(scan, {0, 0, 0}), std::vector<float>(scan.size(), explained_share),
                        0);
   return track.standing(now) - track.standing(kCluttered);
@@ -107,12 +108,21 @@ double forThings(int cells, float explained_share, const Circumstances& now)
 
 TEST(TrackStanding, TheSameShareIsMoreThingsWhereTheRobotSeesFar)
 {
-  EXPECT_NEAR(forThings(20, 1.0F, {0, 5, 0}), 1, 1e-4);
-  EXPECT_NEAR(forThings(20, 0.9F, {0, 1, 0}), 1, 1e-4);
+  EXPECT_NEAR(forThings(20, 1.0F, {0, 5, 0}), 1.5, 1e-4);
+  EXPECT_NEAR(forThings(20, 0.9F, {0, 1, 0}), 1.5, 1e-4);
   EXPECT_NEAR(forThings(20, 0.9F, {0, 2, 0}), 0.8, 1e-4);
   EXPECT_NEAR(forThings(20, 0.9F, {0, 4, 0}), -2.4, 1e-4);
   EXPECT_NEAR(forThings(20, 0.9F, {0, 7, 0}), -4, 1e-4);
   EXPECT_NEAR(forThings(20, 0.95F, {0, 30, 0}), -2.4, 1e-4) << "far enough is far";
+}
+
+TEST(TrackStanding, ThingsSpeakAgainstATrackAtOnceAndForItByAndBy)
+{
+  const Circumstances far = {0, 7, 0};
+  EXPECT_NEAR(forThings(20, 1.0F, far, 0), 0, 1e-4);
+  EXPECT_NEAR(forThings(20, 1.0F, far, 5), 0.5, 1e-4);
+  EXPECT_NEAR(forThings(20, 1.0F, far, 30), 1.5, 1e-4);
+  for (const double way : {0.0, 5.0, 30.0}) EXPECT_NEAR(forThings(20, 0.9F, far, way), -4, 1e-4);
 }
 
 TEST(TrackStanding, ThingsTellLittleInClutterOrWhereFewWereSeen)
