@@ -27,7 +27,7 @@ class ExplainedStructure
   /// How many cells all looks so far have left unexplained; what was news again counts again.
   double unexplained() const { return unexplained_; }
 
-  /// How many cells all looks so far have shown; what was news again counts again.
+  /// How many cells all looks so far have shown; what was news again counts again. Eq. (8.29)
   double seen() const { return seen_; }
 
   /// Takes that back to 0; what has been seen stays seen.

@@ -52,7 +52,7 @@ void decideVerdict(Belief& belief, const BeliefGrounds& grounds, double sure,
         open               ? "the position is open along a line"
         : grounds.doubtful ? "the hypothesis explains much less than it used to"
         : rivalled         ? describeRivals(belief.hypotheses, field)
-                           : "too little has been seen that only this map explains");
+                           : "too little of what has been seen is explained by this map alone");
   }
 }
 }  // namespace sigloc

@@ -101,6 +101,7 @@ TEST(TrackSetUpdate, AScanThatFitsBadlySaysLessOfThePose)
   };
   const double well = drawn_back(0);
   EXPECT_GT(well, 0.05);
+  EXPECT_GT(drawn_back(3), 0.55 * well) << "by the share that fits, not by its square";
   EXPECT_LT(drawn_back(5), 0.4 * well);
   EXPECT_GT(drawn_back(5), 0);
   EXPECT_NEAR(drawn_back(10), 0, 0.05) << "nothing is explained, and nothing breaks";
@@ -131,6 +132,7 @@ TEST(TrackSetStanding, KnowsHowFarTheRobotSeesAndHowMuchFits)
     return set.circumstances();
   };
   constexpr double kMedian = 4.06;  // of the ranges to the walls of the room
+  EXPECT_NEAR(after(0, 0).range, kMedian, 0.02) << "the first look tells at once";
   const Circumstances at_first = after(0, 1e3);
   EXPECT_NEAR(at_first.range, kMedian, 0.02);
   EXPECT_NEAR(at_first.unexplained, 1 - set.tracks[0].score, 1e-6);

@@ -51,7 +51,7 @@ TEST(DecideVerdict, ClaimsOnlyWhatNothingSpeaksAgainst)
        {},
        Verdict::ambiguous,
        0.002,
-       "too little has been seen that only this map explains"},
+       "too little of what has been seen is explained by this map alone"},
       {"not confirmed, a rival",
        beliefOf({0.99, 0.005}, 0.005),
        {},
