@@ -35,6 +35,8 @@ constexpr double kShownWay = 15.0;  // [m] driven, from which on they speak for 
 constexpr double kFarthest = 8.0;  // [m]
 constexpr double kLittleInScans = 0.15;  // share of whole scans left unexplained up to which all
 constexpr double kMuchInScans = 0.25;  // of it, and from which on nothing is told
+constexpr double kLittleOfGround = 0.25;  // the same for the share of the ground
+constexpr double kMuchOfGround = 0.35;
 constexpr double kFullView = 14.0;  // cells
 constexpr double kMinFollowed = -8.0;
 constexpr double kMaxFollowed = 12.0;
@@ -77,12 +79,14 @@ double Track::missed() const
 
 double Track::thingsExplained(const Circumstances& now) const
 {
+  const double share = explained.unexplainedShare();
   const double telling =
       std::clamp((kMuchInScans - now.unexplained) / (kMuchInScans - kLittleInScans), 0.0, 1.0) *
+      std::clamp((kMuchOfGround - share) / (kMuchOfGround - kLittleOfGround), 0.0, 1.0) *
       std::min(1.0, explained.seen() / kFullView);
-  const double things = explained.unexplainedShare() * std::min(now.range, kFarthest);
   // What was chosen for explaining the first look shows by and by that it explains the rest.
   const double most_for = kMostForThings * std::min(1.0, followed_way / kShownWay);
+  const double things = share * std::min(now.range, kFarthest);
   return telling * std::clamp(kOfThings * (kUsualThings - things), -kMostAgainstThings, most_for);
 }
 

@@ -132,6 +132,9 @@ TEST(TrackStanding, ThingsTellLittleInClutterOrWhereFewWereSeen)
   EXPECT_NEAR(forThings(20, 0.9F, {0, 4, 0.2}), full / 2, 1e-4);
   EXPECT_NEAR(forThings(20, 0.9F, {0, 4, 0.25}), 0, 1e-4);
   EXPECT_NEAR(forThings(7, 0.9F, {0, 4, 0}), full / 2, 1e-4);
+  EXPECT_NEAR(forThings(20, 0.76F, {0, 8, 0}), -4, 1e-4);
+  EXPECT_NEAR(forThings(20, 0.7F, {0, 8, 0}), -2, 1e-3) << "clutter of the ground, not of scans";
+  EXPECT_NEAR(forThings(20, 0.65F, {0, 8, 0}), 0, 1e-4);
   EXPECT_EQ(followed().standing({0, 4, 0}), followed().standing(kCluttered)) << "nothing seen";
 }
 
