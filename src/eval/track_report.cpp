@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <sstream>
 #include <tuple>
 
 #include "sigloc/config/TextStream.h"
@@ -19,7 +18,7 @@ namespace
 /// What the columns mean, claims being judged by these gates.
 std::string definitions(const AccuracyGates& gates)
 {
-  std::ostringstream text;
+  TextStream text;
   text
       << R"(
 ## What the columns mean

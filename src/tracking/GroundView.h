@@ -4,6 +4,7 @@
 
 #include <mrpt/math/TPose2D.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -19,6 +20,10 @@ struct GroundView
   std::vector<std::uint64_t> cells;  ///< every cell once, ascending
   std::vector<std::uint32_t> cell_of;  ///< a return's, index into cells; kNowhere if isolated
 };
+
+/// Cells from which on a view is whole: 7 m of walls. Fewer are a part of one. \cite algorithm
+/// eq. (8.7), (8.29)
+constexpr std::size_t kCellsOfView = 14;
 
 GroundView viewOf(const DenseScan& scan, const mrpt::math::TPose2D& frame_from_robot);
 }  // namespace sigloc

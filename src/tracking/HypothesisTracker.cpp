@@ -357,9 +357,14 @@ void HypothesisTracker::State::publish(const ObservedScene& scene)
     belief.hypotheses.push_back(track.hypothesis);
     belief.hypotheses.back().pose = withCommonError(track.hypothesis.pose, matcher->map().error());
   }
-  if (!set.tracks.empty()) belief.reliability = reliability;
-  const BeliefGrounds grounds = {!set.tracks.empty() && set.standing() >= options.confirmation,
-                                 !set.tracks.empty() && doubtful(), seesTooLittle(scene)};
+  BeliefGrounds grounds;
+  grounds.sees_too_little = seesTooLittle(scene);
+  if (!set.tracks.empty())
+  {
+    belief.reliability = reliability;
+    grounds.confirmed = set.standing() >= options.confirmation;
+    grounds.doubtful = doubtful();
+  }
   decideVerdict(belief, grounds, options.localized_probability, fieldOf(matcher->map()));
 }
 }  // namespace sigloc

@@ -12,7 +12,6 @@ namespace sigloc
 namespace
 {
 constexpr double kMemory = 10.0;  // [m] of travel
-constexpr std::size_t kFullView = 14;  // cells: 7 m of walls
 }  // namespace
 
 double SeenStructure::add(const DenseScan& scan, const mrpt::math::TPose2D& map_from_robot,
@@ -26,6 +25,6 @@ double SeenStructure::add(const DenseScan& scan, const mrpt::math::TPose2D& map_
     fresh += is_new || travelled - known->second > kMemory;
     known->second = travelled;
   }
-  return static_cast<double>(fresh) / static_cast<double>(std::max(kFullView, cells.size()));
+  return static_cast<double>(fresh) / static_cast<double>(std::max(kCellsOfView, cells.size()));
 }
 }  // namespace sigloc

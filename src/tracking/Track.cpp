@@ -37,7 +37,6 @@ constexpr double kLittleInScans = 0.15;  // share of whole scans left unexplaine
 constexpr double kMuchInScans = 0.25;  // of it, and from which on nothing is told
 constexpr double kLittleOfGround = 0.25;  // the same for the share of the ground
 constexpr double kMuchOfGround = 0.35;
-constexpr double kFullView = 14.0;  // cells
 constexpr double kMinFollowed = -8.0;
 constexpr double kMaxFollowed = 12.0;
 }  // namespace
@@ -83,7 +82,7 @@ double Track::thingsExplained(const Circumstances& now) const
   const double telling =
       std::clamp((kMuchInScans - now.unexplained) / (kMuchInScans - kLittleInScans), 0.0, 1.0) *
       std::clamp((kMuchOfGround - share) / (kMuchOfGround - kLittleOfGround), 0.0, 1.0) *
-      std::min(1.0, explained.seen() / kFullView);
+      std::min(1.0, explained.seen() / static_cast<double>(kCellsOfView));
   // What was chosen for explaining the first look shows by and by that it explains the rest.
   const double most_for = kMostForThings * std::min(1.0, followed_way / kShownWay);
   const double things = share * std::min(now.range, kFarthest);

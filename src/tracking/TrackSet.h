@@ -40,8 +40,8 @@ class TrackSet
   void update(const DenseScan& scan, const DenseVerifier& verifier);
 
   /// Weighs rivals against each other, the best against "somewhere else", by a scan after
-  /// `travelled` [m] in all, `travel` [m] since the one before. Notes, with or without a track, how
-  /// far the robot sees and how much of the scan is explained. Eq. (8.5), (8.6), (8.26), (8.29)
+  /// `travelled` [m] in all, `travel` [m] since the one before. Notes how far the robot sees
+  /// and, where there are tracks, how much the best one explains. Eq. (8.5), (8.6), (8.26), (8.29)
   void weigh(const DenseScan& scan, const DenseVerifier& verifier, double travelled, double travel);
 
   /// Lets a track that starts with the last scan look at it, which is no news to it any more.

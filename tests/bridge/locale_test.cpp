@@ -5,42 +5,20 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <locale>
 
 #include "rawlog_files.h"
 #include "sigloc/bridge/RunWriter.h"
 #include "sigloc/bridge/sigmap_file.h"
+#include "support/host_locale.h"
 
 namespace sigloc
 {
 namespace
 {
 namespace fs = std::filesystem;
+using test::HostLocale;
 using test::readBytes;
 using test::TemporaryFolder;
-
-/// 1.234,5 instead of 1234.5.
-class CommaNumbers : public std::numpunct<char>
-{
-  char do_decimal_point() const override { return ','; }
-  char do_thousands_sep() const override { return '.'; }
-  std::string do_grouping() const override { return "\3"; }
-};
-
-/// Sets the host's way to spell numbers while it lives.
-class HostLocale
-{
- public:
-  HostLocale() : before_(std::locale::global(std::locale(std::locale::classic(), new CommaNumbers)))
-  {
-  }
-  ~HostLocale() { std::locale::global(before_); }
-  HostLocale(const HostLocale&) = delete;
-  HostLocale& operator=(const HostLocale&) = delete;
-
- private:
-  std::locale before_;
-};
 
 void localize(const fs::path& ini, const fs::path& out)
 {

@@ -8,6 +8,7 @@
 #include <iostream>
 
 #include "bridge/rawlog_files.h"
+#include "support/host_locale.h"
 
 namespace sigloc
 {
@@ -90,6 +91,7 @@ TEST(SimulatedTrack, TellsTheGatesThatClaimsAreJudgedBy)
   SimulatedTrackOptions options = smallOptions();
   options.drives = 1;
   const test::TemporaryFolder folder;
+  const test::HostLocale host;
   writeTrackReport(runSimulatedTrack(options), folder.path());
   const std::string text = test::readBytes(folder / "report.md");
   EXPECT_NE(text.find("confident and more than 0.5 m or 10 degrees off"), std::string::npos);
