@@ -35,20 +35,28 @@ if(SIGLOC_COVERAGE)
   target_link_options(sigloc_flags INTERFACE --coverage)
 endif()
 
-# sigloc_add_library(NAME PARTS part... LINK target...): a shared library from src/<part>/*.cpp.
+# sigloc_add_library(NAME [INTERNAL] PARTS part... LINK target...): a library from src/<part>/**.cpp.
+# It is shared and installed; INTERNAL: static, for our own programs alone. Users see include/ only;
+# what is built here may add SIGLOC_PRIVATE_HEADERS.
+set(SIGLOC_PRIVATE_HEADERS "${PROJECT_SOURCE_DIR}/src")
 function(sigloc_add_library name)
-  cmake_parse_arguments(ARG "" "" "PARTS;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "INTERNAL" "" "PARTS;LINK" ${ARGN})
   set(sources)
   foreach(part IN LISTS ARG_PARTS)
-    file(GLOB part_sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/${part}/*.cpp")
+    file(GLOB_RECURSE part_sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/${part}/*.cpp")
     list(APPEND sources ${part_sources})
   endforeach()
-  add_library(${name} SHARED ${sources})
-  add_library(sigloc::${name} ALIAS ${name})
-  set_property(GLOBAL APPEND PROPERTY SIGLOC_LIBRARIES ${name})
-  set_target_properties(${name} PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION 0)
+  if(ARG_INTERNAL)
+    add_library(${name} STATIC ${sources})
+  else()
+    add_library(${name} SHARED ${sources})
+    add_library(sigloc::${name} ALIAS ${name})
+    set_property(GLOBAL APPEND PROPERTY SIGLOC_LIBRARIES ${name})
+    set_target_properties(${name} PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION 0)
+  endif()
   target_include_directories(${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_include_directories(${name} PRIVATE "${SIGLOC_PRIVATE_HEADERS}")
   target_link_libraries(${name} PUBLIC ${ARG_LINK} PRIVATE $<BUILD_INTERFACE:sigloc_flags>)
 endfunction()
 

@@ -11,9 +11,9 @@
 #include <exception>
 #include <memory>
 
-#include "sigloc/bridge/map_sources.h"
-#include "sigloc/bridge/RawlogReader.h"
-#include "sigloc/features/FeatureExtractor.h"
+#include "sigloc/features/observe_scans.h"
+#include "sigloc/io/map_files.h"
+#include "sigloc/io/RawlogReader.h"
 #include "sigloc/matching/SignatureMatcher.h"
 #include "sigloc/tracking/HypothesisTracker.h"
 

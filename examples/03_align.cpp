@@ -13,10 +13,10 @@
 #include <cstdio>
 #include <exception>
 
-#include "sigloc/bridge/map_sources.h"
-#include "sigloc/bridge/RawlogReader.h"
-#include "sigloc/bridge/SignatureAligner.h"
-#include "sigloc/bridge/SignatureMap.h"
+#include "sigloc/io/map_files.h"
+#include "sigloc/io/RawlogReader.h"
+#include "sigloc/plugin/SignatureAligner.h"
+#include "sigloc/plugin/SignatureMap.h"
 
 namespace
 {

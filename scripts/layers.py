@@ -3,7 +3,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Checks the rules of docs/architecture.md that a compiler does not see.
 
-* Each folder includes only the parts of the project below it and the MRPT modules it may use.
+* Each room includes only the rooms below it and the MRPT modules it may use.
+* Public headers, product apps and examples include public headers only.
+* No folder of src/ is crowded, and public headers are few.
 * Files are no longer than MAX_LINES and carry the two SPDX lines.
 * Every equation that a source file cites is in docs/algorithm.md.
 * With --binaries DIR: no executable or library built there links what it must not.
@@ -18,13 +20,31 @@ import sys
 
 MAX_LINES = 400
 
-# The core, lowest first: a part may include itself and what stands before it.
-CORE = ["config", "geometry", "features", "signature", "map", "matching", "tracking"]
-PARTS = {part: CORE[: i + 1] for i, part in enumerate(CORE)}
-PARTS["bridge"] = CORE + ["bridge"]
-PARTS["render"] = CORE + ["bridge", "render"]
-PARTS["eval"] = CORE + ["bridge", "eval"]
-PARTS["hwdrivers"] = CORE + ["bridge", "hwdrivers"]
+# The rooms of src/, lowest first: a room may include itself and the rooms before it in its line.
+CORE = [
+    "config", "geometry", "features", "signature", "map", "map/building",
+    "matching/dense", "matching/features", "matching/generation", "matching",
+    "tracking/evidence", "tracking/tracks", "tracking/landmarks", "tracking",
+]  # fmt: skip
+BRIDGE = CORE + ["io", "io/maps", "plugin", "localize"]
+EVAL = BRIDGE + [
+    "eval/process", "eval/data", "eval/worlds", "eval/methods/lattice", "eval/methods/features",
+    "eval/methods/particles", "eval/methods", "eval/scoring", "eval/protocols", "eval/wakeup",
+    "eval/reports",
+]  # fmt: skip
+ROOMS = {room: line[: line.index(room) + 1] for line in (EVAL, BRIDGE, CORE) for room in line}
+ROOMS["render"] = BRIDGE + ["render"]
+ROOMS["hwdrivers"] = BRIDGE + ["hwdrivers"]
+
+# What a room may include besides: headers without code, the words that several rooms share.
+VOCABULARY = {
+    "sigloc/matching/RelocationResult.h", "sigloc/tracking/Belief.h",
+    "sigloc/tracking/TrackerOptions.h", "eval/methods/RelocationMethod.h",
+    "eval/methods/TrackingMethod.h",
+}  # fmt: skip
+
+MAX_FILES = 22  # in a folder of src/
+MAX_PUBLIC_HEADERS = 30
 
 # Apps that users run: they never depend on the evaluation library.
 PRODUCT_APPS = {"sigloc-map", "sigloc-localize"}
@@ -34,12 +54,11 @@ MRPT_BRIDGE = MRPT_CORE | {
     "bayes", "containers", "img", "io", "maps", "obs", "opengl", "poses", "random", "rtti",
     "serialization", "slam", "system", "tfest", "topography", "typemeta",
 }  # fmt: skip
-MRPT_MODULES = {part: MRPT_CORE for part in CORE}
-MRPT_MODULES.update(bridge=MRPT_BRIDGE, render=MRPT_BRIDGE, eval=MRPT_BRIDGE)
+MRPT_MODULES = {room: MRPT_CORE if room in CORE else MRPT_BRIDGE for room in ROOMS}
 MRPT_MODULES["hwdrivers"] = MRPT_BRIDGE | {"hwdrivers"}
 
 # Tests of the core stay as light as the core.
-CORE_TESTS = {"unit", "property"}
+CORE_TESTS = {"unit"}
 
 # Headers that only some folders may include: pattern, folders, reason.
 RESTRICTED = [
@@ -49,6 +68,10 @@ RESTRICTED = [
     (r"wx/.*", set(), "wxWidgets has no place here"),
 ]
 
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+SOURCE = ROOT / "src"
+INCLUDED = ROOT / "include"
+
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
 PRINTS = re.compile(r"\bstd::(cout|cerr|clog)\b|(?<![a-zA-Z_])(f?printf|puts)\(")
 EQUATION = re.compile(r"\((\d+\.\d+)\)")
@@ -57,44 +80,71 @@ SPDX = ["SPDX-FileCopyrightText: 2026 the sigloc authors", "SPDX-License-Identif
 SPDX_SUFFIXES = {".h", ".cpp", ".py", ".sh", ".cmake", ".cmake.in", ".gp", ".ini"}
 
 
+def room_of_public(header):
+    """Returns the room of a public header: where the source file of its name lies."""
+    part, name = pathlib.PurePath(header).parts[1:3]
+    for room in ROOMS:
+        if room.split("/")[0] == part and (SOURCE / room / name).with_suffix(".cpp").is_file():
+            return room
+    return part
+
+
 def place(path):
-    """Returns (kind, name) of a source file: a library part, an app, an example, a kind of test."""
+    """Returns (kind, name) of a source file: a room, an app, an example, a kind of test."""
     parts = path.parts
-    if parts[0] == "include" and len(parts) > 3:
-        return "part", parts[2]
+    if parts[:2] == ("include", "sigloc") and len(parts) == 3:
+        return "umbrella", parts[2]
+    if parts[0] == "include" and len(parts) == 4:
+        return "room", room_of_public("/".join(parts[1:]))
     if parts[0] == "src" and len(parts) > 2:
-        return "part", parts[1]
+        return "room", "/".join(parts[1:-1])
     if parts[0] == "examples":
         return "examples", path.stem
     if parts[0] in ("apps", "tests") and len(parts) > 2:
         if parts[0] == "apps" and parts[1] == "render":
-            return "part", "render"
+            return "room", "render"
         return parts[0], parts[1]
     return "none", ""
 
 
-def allowed_parts(kind, name):
-    if kind == "part":
-        return set(PARTS[name])
-    if kind == "examples" or (kind == "apps" and name in PRODUCT_APPS):
-        return set(PARTS["render"])
+def allowed_rooms(kind, name):
+    if kind == "room":
+        return set(ROOMS[name])
+    if kind in ("examples", "umbrella") or (kind == "apps" and name in PRODUCT_APPS):
+        return set(ROOMS["render"])
     if kind == "tests" and name in CORE_TESTS:
         return set(CORE)
-    return set(PARTS)
+    return set(ROOMS)
 
 
 def allowed_modules(kind, name):
-    if kind == "part":
+    if kind == "room":
         return MRPT_MODULES[name]
     if kind == "tests" and name in CORE_TESTS:
         return MRPT_CORE
     return MRPT_BRIDGE
 
 
+def own_include_violations(path, kind, name, header):
+    is_public = header.startswith("sigloc/")
+    room = room_of_public(header) if header.count("/") == 2 and is_public else ""
+    if not is_public:
+        room = str(pathlib.PurePath(header).parent)
+        if room not in ROOMS:
+            return  # beside the file, or of tests/
+        if path.parts[0] == "include" or kind == "examples" or (
+            kind in ("apps", "room") and path.parts[0] == "apps" and not room.startswith("eval")
+        ):
+            yield f"{header}: is not installed; users' headers, apps and examples do without"
+    if is_public and header != "sigloc/sigloc.h" and not (INCLUDED / header).is_file():
+        yield f"{header}: no such public header"
+    upward = room not in allowed_rooms(kind, name) and header not in VOCABULARY
+    if room and upward:
+        yield f"{kind} '{name}' may not include room '{room}' ({header})"
+
+
 def include_violations(path, kind, name, header):
-    sigloc = re.match(r"sigloc/([^/]+)/", header)
-    if sigloc and sigloc.group(1) not in allowed_parts(kind, name):
-        yield f"{kind} '{name}' may not include part '{sigloc.group(1)}' ({header})"
+    yield from own_include_violations(path, kind, name, header)
     mrpt = re.match(r"mrpt/([^/]+)[/.]", header)
     if mrpt and mrpt.group(1) not in allowed_modules(kind, name):
         yield f"{kind} '{name}' may not include MRPT module '{mrpt.group(1)}' ({header})"
@@ -107,14 +157,14 @@ def include_violations(path, kind, name, header):
 
 def source_violations(path, lines):
     kind, name = place(path)
-    if kind == "none" or (kind == "part" and name not in PARTS):
+    if kind == "none" or (kind == "room" and name not in ROOMS):
         yield 1, "a source file outside the folders of docs/architecture.md"
         return
     for number, line in enumerate(lines, 1):
-        if kind == "part" and PRINTS.search(line):
+        if kind == "room" and PRINTS.search(line):
             yield number, "the library never prints"
         match = INCLUDE.match(line)
-        for reason in include_violations(path, kind, name, match.group(1)) if match else ():
+        for reason in include_violations(path, kind, name, match[1]) if match else ():
             yield number, reason
 
 
@@ -158,6 +208,17 @@ def own_files(root):
             yield path
 
 
+def crowded_folders(paths):
+    """Finds folders of src/ with too many files, and too many public headers."""
+    folders = [path.parent for path in paths if path.parts[0] == "src"]
+    for folder in sorted(set(folders)):
+        if folders.count(folder) > MAX_FILES:
+            yield f"{folder}: {folders.count(folder)} files, more than {MAX_FILES}"
+    public = sum(path.parts[0] == "include" for path in paths)
+    if public > MAX_PUBLIC_HEADERS:
+        yield f"include: {public} public headers, more than {MAX_PUBLIC_HEADERS}"
+
+
 def binary_violations(folder):
     """Checks the libraries that each binary asks for by itself (its NEEDED entries)."""
     for path in sorted(p for p in folder.glob("*/*") if p.is_file() and not p.is_symlink()):
@@ -171,8 +232,6 @@ def binary_violations(folder):
                 yield f"{path.name} links {library}"
             if is_library and library.startswith("libOSMesa"):
                 yield f"{path.name} links {library}: only executables may"
-            if path.name in PRODUCT_APPS and library.startswith("libsigloc-eval"):
-                yield f"{path.name} links {library}: product apps may not"
             if library.startswith("libmrpt-hwdrivers") and "hwdrivers" not in path.name:
                 yield f"{path.name} links {library}"
 
@@ -181,13 +240,15 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--binaries", type=pathlib.Path, help="build folder to check as well")
     arguments = parser.parse_args()
-    root = pathlib.Path(__file__).resolve().parent.parent
+    root = ROOT
     # An equation's number ends its line.
     method = (root / "docs" / "algorithm.md").read_text(encoding="utf-8")
     known = set(re.findall(r"\((\d+\.\d+)\)$", method, re.MULTILINE))
     violations = []
+    paths = list(own_files(root))
+    violations += crowded_folders(paths)
     count = 0
-    for path in own_files(root):
+    for path in paths:
         try:
             text = (root / path).read_text(encoding="utf-8")
         except UnicodeDecodeError:

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "sigloc/bridge/file_output.h"
-#include "sigloc/bridge/LocalizationSetup.h"
+#include "sigloc/io/file_output.h"
+#include "sigloc/localize/LocalizationSetup.h"
 
 namespace sigloc
 {

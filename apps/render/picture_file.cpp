@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "sigloc/bridge/file_output.h"
+#include "sigloc/io/file_output.h"
 
 namespace sigloc
 {

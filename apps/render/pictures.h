@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "OffscreenRenderer.h"
-#include "sigloc/bridge/scene_building.h"
+#include "sigloc/plugin/map_drawing.h"
 
 namespace sigloc
 {

@@ -13,8 +13,8 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "sigloc/bridge/map_sources.h"
-#include "sigloc/eval/method_names.h"
+#include "eval/data/method_names.h"
+#include "sigloc/io/map_files.h"
 
 namespace sigloc
 {

@@ -8,10 +8,10 @@
 #include <cmath>
 #include <memory>
 
+#include "eval/methods/RelocationMethod.h"
 #include "picture_file.h"
 #include "pictures.h"
-#include "sigloc/eval/RelocationMethod.h"
-#include "sigloc/features/FeatureExtractor.h"
+#include "sigloc/features/observe_scans.h"
 
 namespace sigloc
 {

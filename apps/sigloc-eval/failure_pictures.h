@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "sigloc/eval/failed_queries.h"
+#include "eval/scoring/failed_queries.h"
 
 namespace sigloc
 {

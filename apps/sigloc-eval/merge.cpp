@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/eval/merge.h"
+#include "eval/reports/merge.h"
 
 #include <iostream>
 
 #include "commands.h"
-#include "sigloc/eval/report_files.h"
+#include "eval/reports/report_files.h"
 
 namespace sigloc
 {

@@ -3,9 +3,9 @@
 #include <iostream>
 
 #include "commands.h"
-#include "sigloc/bridge/output_guard.h"
-#include "sigloc/eval/reference_path.h"
-#include "sigloc/eval/report_files.h"
+#include "eval/data/reference_path.h"
+#include "eval/reports/report_files.h"
+#include "sigloc/io/file_output.h"
 
 namespace sigloc
 {

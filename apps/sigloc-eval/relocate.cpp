@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/eval/relocate.h"
+#include "eval/protocols/relocate.h"
 
 #include <iostream>
 #include <limits>
 
 #include "commands.h"
+#include "eval/reports/report_files.h"
 #include "failure_pictures.h"
-#include "sigloc/eval/report_files.h"
 
 namespace sigloc
 {

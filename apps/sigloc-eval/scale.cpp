@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/eval/scale.h"
+#include "eval/protocols/scale.h"
 
 #include <algorithm>
 #include <iostream>
 
 #include "commands.h"
+#include "eval/methods/feature_methods.h"
+#include "eval/reports/report_files.h"
 #include "failure_pictures.h"
-#include "sigloc/eval/feature_methods.h"
-#include "sigloc/eval/report_files.h"
 
 namespace sigloc
 {

@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/eval/sweep.h"
+#include "eval/protocols/sweep.h"
 
 #include <algorithm>
 #include <iostream>
 
 #include "commands.h"
+#include "eval/protocols/swept_quantities.h"
+#include "eval/reports/report_files.h"
 #include "failure_pictures.h"
-#include "sigloc/eval/swept_quantities.h"
 
 namespace sigloc
 {

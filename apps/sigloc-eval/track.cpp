@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/eval/track.h"
+#include "eval/wakeup/wakeup.h"
 
 #include <algorithm>
 #include <iostream>
@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "commands.h"
+#include "eval/reports/report_files.h"
+#include "eval/wakeup/wakeup_simulated.h"
 #include "failure_pictures.h"
-#include "sigloc/eval/report_files.h"
-#include "sigloc/eval/track_simulated.h"
 
 namespace sigloc
 {

@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "picture_file.h"
-#include "sigloc/bridge/counted.h"
+#include "sigloc/config/plural.h"
 
 namespace sigloc
 {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "pictures.h"
-#include "sigloc/bridge/RunWriter.h"
+#include "sigloc/localize/RunWriter.h"
 
 namespace sigloc
 {

@@ -11,7 +11,7 @@
 #include <iostream>
 #include <sstream>
 
-#include "sigloc/bridge/counted.h"
+#include "sigloc/config/plural.h"
 
 namespace sigloc
 {

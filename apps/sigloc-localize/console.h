@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "sigloc/bridge/LocalizationRun.h"
+#include "sigloc/localize/LocalizationRun.h"
 
 namespace sigloc
 {

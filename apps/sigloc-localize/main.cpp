@@ -11,9 +11,9 @@
 
 #include "console.h"
 #include "run_app.h"
-#include "sigloc/bridge/map_sources.h"
-#include "sigloc/bridge/output_guard.h"
-#include "sigloc/bridge/pf_localization_files.h"
+#include "sigloc/io/file_output.h"
+#include "sigloc/io/map_files.h"
+#include "sigloc/localize/RunWriter.h"
 #include "StepPictures.h"
 
 namespace

@@ -11,11 +11,10 @@
 #include "picture_file.h"
 #include "pictures.h"
 #include "run_app.h"
-#include "sigloc/bridge/counted.h"
-#include "sigloc/bridge/LocalizationSetup.h"
-#include "sigloc/bridge/map_sources.h"
-#include "sigloc/bridge/output_guard.h"
-#include "sigloc/bridge/sigmap_file.h"
+#include "sigloc/config/plural.h"
+#include "sigloc/io/file_output.h"
+#include "sigloc/io/map_files.h"
+#include "sigloc/localize/LocalizationSetup.h"
 
 namespace
 {

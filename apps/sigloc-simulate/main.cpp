@@ -13,12 +13,12 @@
 #include <string>
 #include <vector>
 
+#include "eval/data/folder_output.h"
+#include "eval/worlds/robot_simulation.h"
+#include "eval/worlds/simulation_files.h"
+#include "eval/worlds/world_generators.h"
 #include "run_app.h"
 #include "sigloc/config/option_fields.h"
-#include "sigloc/eval/folder_output.h"
-#include "sigloc/eval/robot_simulation.h"
-#include "sigloc/eval/simulation_files.h"
-#include "sigloc/eval/world_generators.h"
 
 namespace
 {

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/features/LocalMap.h"
+#include "features/LocalMap.h"
 
 #include <mrpt/math/wrap2pi.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "sigloc/geometry/chi_square.h"
-#include "sigloc/geometry/PoseEstimate.h"
+#include "geometry/chi_square.h"
+#include "geometry/PoseEstimate.h"
 
 namespace sigloc
 {

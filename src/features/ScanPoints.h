@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "sigloc/features/FeatureExtractor.h"
+#include "sigloc/features/observe_scans.h"
 
 namespace sigloc
 {

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/features/observe_points.h"
+#include "features/observe_points.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 
-#include "ScanPoints.h"
+#include "features/ScanPoints.h"
 
 namespace sigloc
 {

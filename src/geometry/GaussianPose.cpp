@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sigloc/geometry/GaussianPose.h"
 
-#include "sigloc/geometry/symmetric_matrix.h"
+#include "geometry/symmetric_matrix.h"
 
 #include <mrpt/math/wrap2pi.h>
 
@@ -11,6 +11,19 @@
 
 namespace sigloc
 {
+namespace
+{
+// By reference: how a pose is passed by value changed between compilers.
+GaussianPose widened(const GaussianPose& pose, const MapErrorModel& error, double sign)
+{
+  GaussianPose out = pose;
+  out.covariance(0, 0) += sign * error.common_sigma * error.common_sigma;
+  out.covariance(1, 1) += sign * error.common_sigma * error.common_sigma;
+  out.covariance(2, 2) += sign * error.common_turn_sigma * error.common_turn_sigma;
+  return out;
+}
+}  // namespace
+
 GaussianPose composeWithMotion(const GaussianPose& map_from_previous,
                                const MotionIncrement& increment)
 {
@@ -55,5 +68,15 @@ double squaredMahalanobisDistance(const GaussianPose& a, const GaussianPose& b)
   const double t = mrpt::math::wrapToPi(a.mean.phi - b.mean.phi);
   return x * x * information->xx + y * y * information->yy + t * t * information->tt +
          2 * (x * y * information->xy + x * t * information->xt + y * t * information->yt);
+}
+
+GaussianPose withCommonError(const GaussianPose& pose, const MapErrorModel& error)
+{
+  return widened(pose, error, +1);
+}
+
+GaussianPose withoutCommonError(const GaussianPose& pose, const MapErrorModel& error)
+{
+  return widened(pose, error, -1);
 }
 }  // namespace sigloc

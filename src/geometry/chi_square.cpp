@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/geometry/chi_square.h"
+#include "geometry/chi_square.h"
 
 #include <cmath>
 #include <stdexcept>

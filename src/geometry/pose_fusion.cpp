@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/geometry/pose_fusion.h"
+#include "geometry/pose_fusion.h"
 
 #include <mrpt/math/wrap2pi.h>
 

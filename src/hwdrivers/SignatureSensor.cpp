@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/hwdrivers/SignatureSensor.h"
+#include "hwdrivers/SignatureSensor.h"
 
 #include <mrpt/config/CConfigFileMemory.h>
 #include <mrpt/core/initializer.h>
@@ -9,8 +9,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "sigloc/bridge/ObservationSignatures.h"
-#include "sigloc/hwdrivers/RawlogReplay.h"
+#include "hwdrivers/RawlogReplay.h"
+#include "sigloc/plugin/ObservationSignatures.h"
 
 IMPLEMENTS_GENERIC_SENSOR(SignatureSensor, sigloc)
 

@@ -7,8 +7,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "sigloc/config/TextStream.h"
-#include "sigloc/map/raster_limits.h"
+#include "config/TextStream.h"
+#include "map/raster_limits.h"
 
 namespace sigloc
 {

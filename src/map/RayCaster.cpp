@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/map/RayCaster.h"
+#include "map/RayCaster.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sigloc/map/point_likelihood.h"
 
+#include "map/NearestFeature.h"
+
 #include <algorithm>
 #include <cmath>
 

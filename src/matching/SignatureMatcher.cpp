@@ -8,14 +8,14 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "sigloc/matching/BaseProposer.h"
-#include "sigloc/matching/DenseVerifier.h"
-#include "sigloc/matching/FeatureVerifier.h"
-#include "sigloc/matching/GeneratorOptions.h"
-#include "sigloc/matching/generators.h"
-#include "sigloc/matching/HypothesisSet.h"
-#include "sigloc/matching/judging.h"
-#include "sigloc/matching/weighing.h"
+#include "matching/candidate_probabilities.h"
+#include "matching/candidates.h"
+#include "matching/dense/DenseVerifier.h"
+#include "matching/dense/PoseProposer.h"
+#include "matching/features/FeatureVerifier.h"
+#include "matching/features/GeneratorOptions.h"
+#include "matching/features/HypothesisSet.h"
+#include "matching/generators.h"
 
 namespace sigloc
 {
@@ -59,12 +59,6 @@ std::vector<PoseProposal> proposalsOf(const std::vector<FeatureHypothesis>& hypo
   return proposals;
 }
 }  // namespace
-
-bool PoseRegion::contains(const TPose2D& pose) const
-{
-  return pose.x >= x_min && pose.x <= x_max && pose.y >= y_min && pose.y <= y_max &&
-         std::abs(mrpt::math::wrapToPi(pose.phi - heading)) <= heading_tolerance;
-}
 
 SignatureMatcher::SignatureMatcher(std::shared_ptr<const FeatureMap> map,
                                    const MatcherOptions& options)

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/matching/generators.h"
+#include "matching/generators.h"
 
-#include "sigloc/matching/AnchorGenerator.h"
-#include "sigloc/matching/PairIndexGenerator.h"
-#include "sigloc/matching/PatternGenerator.h"
-#include "sigloc/matching/PlainGenerator.h"
+#include "matching/generation/AnchorGenerator.h"
+#include "matching/generation/PairIndexGenerator.h"
+#include "matching/generation/PatternGenerator.h"
+#include "matching/generation/PlainGenerator.h"
 
 #include <stdexcept>
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sigloc/signature/Signature.h"
 
+#include "signature/binary_constraint.h"
+
 namespace sigloc
 {
 std::vector<Signature> signaturesOf(const std::vector<Feature>& features)

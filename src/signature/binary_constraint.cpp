@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/signature/binary_constraint.h"
+#include "signature/binary_constraint.h"
 
 #include <mrpt/math/wrap2pi.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/signature/location_constraint.h"
+#include "signature/location_constraint.h"
 
 #include <mrpt/math/wrap2pi.h>
 

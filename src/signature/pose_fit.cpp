@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/signature/pose_fit.h"
+#include "signature/pose_fit.h"
 
-#include "sigloc/signature/binary_constraint.h"
-#include "sigloc/signature/location_constraint.h"
+#include "signature/binary_constraint.h"
+#include "signature/location_constraint.h"
 
 #include <mrpt/math/wrap2pi.h>
 

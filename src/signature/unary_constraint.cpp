@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/signature/unary_constraint.h"
+#include "signature/unary_constraint.h"
 
 namespace sigloc
 {

@@ -7,15 +7,15 @@
 #include <stdexcept>
 #include <vector>
 
-#include "FeatureFollowing.h"
-#include "PastScans.h"
-#include "sigloc/geometry/pose_fusion.h"
-#include "sigloc/matching/DenseVerifier.h"
-#include "sigloc/matching/weighing.h"
-#include "sigloc/tracking/travel.h"
-#include "step_input.h"
-#include "TrackSet.h"
-#include "verdict.h"
+#include "geometry/pose_fusion.h"
+#include "matching/candidate_probabilities.h"
+#include "matching/dense/DenseVerifier.h"
+#include "tracking/belief_verdict.h"
+#include "tracking/landmarks/LandmarkTracker.h"
+#include "tracking/step_input.h"
+#include "tracking/tracks/ScanHistory.h"
+#include "tracking/tracks/TrackSet.h"
+#include "tracking/tracks/travel.h"
 
 namespace sigloc
 {

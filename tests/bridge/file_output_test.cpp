@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/bridge/file_output.h"
+#include "sigloc/io/file_output.h"
 
 #include <gtest/gtest.h>
 #include <mrpt/serialization/CArchive.h>

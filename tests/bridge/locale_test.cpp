@@ -7,8 +7,8 @@
 #include <algorithm>
 
 #include "rawlog_files.h"
-#include "sigloc/bridge/RunWriter.h"
-#include "sigloc/bridge/sigmap_file.h"
+#include "sigloc/io/map_files.h"
+#include "sigloc/localize/RunWriter.h"
 #include "support/host_locale.h"
 
 namespace sigloc

@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/bridge/LocalizationSetup.h"
+#include "sigloc/localize/LocalizationSetup.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "bridge/rawlog_files.h"
+#include "sigloc/io/file_output.h"
 
 namespace sigloc
 {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/bridge/map_sources.h"
+#include "sigloc/io/map_files.h"
 
 #include <gtest/gtest.h>
 #include <mrpt/poses/CPose3DPDFGaussian.h>
@@ -10,7 +10,6 @@
 #include <stdexcept>
 
 #include "bridge/rawlog_files.h"
-#include "sigloc/bridge/sigmap_file.h"
 
 using namespace sigloc;
 using namespace sigloc::test;

@@ -8,7 +8,7 @@
 #include <variant>
 
 #include "bridge/rawlog_files.h"
-#include "sigloc/bridge/map_sources.h"
+#include "sigloc/io/map_files.h"
 
 using namespace sigloc;
 using namespace sigloc::test;

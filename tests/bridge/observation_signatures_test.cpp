@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/bridge/ObservationSignatures.h"
+#include "sigloc/plugin/ObservationSignatures.h"
 
 #include <gtest/gtest.h>
 #include <mrpt/io/CMemoryStream.h>

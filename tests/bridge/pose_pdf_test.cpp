@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/bridge/pose_pdf.h"
+#include "sigloc/plugin/pose_pdf.h"
 
 #include <gtest/gtest.h>
 #include <mrpt/math/wrap2pi.h>

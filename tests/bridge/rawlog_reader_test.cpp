@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/bridge/RawlogReader.h"
+#include "sigloc/io/RawlogReader.h"
 
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservationBearingRange.h>

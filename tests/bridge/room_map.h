@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "bridge/rawlog_files.h"
-#include "sigloc/bridge/SignatureMap.h"
+#include "sigloc/plugin/SignatureMap.h"
 
 namespace sigloc::test
 {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/bridge/sigmap_file.h"
+#include "sigloc/io/map_files.h"
 
 #include <gtest/gtest.h>
 

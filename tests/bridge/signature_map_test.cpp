@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/bridge/SignatureMap.h"
+#include "sigloc/plugin/SignatureMap.h"
 
 #include <gtest/gtest.h>
 #include <mrpt/config/CConfigFileMemory.h>
@@ -18,9 +18,8 @@
 #include "bridge/rawlog_files.h"
 #include "bridge/room_map.h"
 #include "bridge/sample_maps.h"
-#include "sigloc/bridge/map_sources.h"
-#include "sigloc/bridge/scan_conversion.h"
-#include "sigloc/bridge/sigmap_file.h"
+#include "io/scan_conversion.h"
+#include "sigloc/io/map_files.h"
 
 using namespace sigloc;
 using namespace sigloc::test;

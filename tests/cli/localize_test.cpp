@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command_line.h"
-#include "sigloc/bridge/RawlogReader.h"
+#include "sigloc/io/RawlogReader.h"
 
 namespace sigloc
 {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "command_line.h"
-#include "sigloc/bridge/LocalizationSetup.h"
+#include "sigloc/localize/LocalizationSetup.h"
 
 namespace sigloc
 {

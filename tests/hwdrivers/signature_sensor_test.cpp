@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/hwdrivers/SignatureSensor.h"
+#include "hwdrivers/SignatureSensor.h"
 
 #include <gtest/gtest.h>
 #include <mrpt/config/CConfigFileMemory.h>
@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "bridge/rawlog_files.h"
-#include "sigloc/bridge/ObservationSignatures.h"
+#include "sigloc/plugin/ObservationSignatures.h"
 
 using namespace sigloc;
 using namespace sigloc::test;

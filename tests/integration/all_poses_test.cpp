@@ -9,8 +9,8 @@
 #include <cstdint>
 #include <map>
 
-#include "sigloc/eval/FeatureWorld.h"
-#include "sigloc/matching/generators.h"
+#include "eval/worlds/FeatureWorld.h"
+#include "matching/generators.h"
 
 namespace sigloc
 {

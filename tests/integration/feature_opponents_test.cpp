@@ -7,12 +7,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sigloc/eval/CliqueAssociation.h"
-#include "sigloc/eval/FeatureWorld.h"
-#include "sigloc/eval/InterpretationTree.h"
-#include "sigloc/eval/JcbbRelocation.h"
-#include "sigloc/signature/location_constraint.h"
-#include "sigloc/signature/unary_constraint.h"
+#include "eval/methods/features/CliqueAssociation.h"
+#include "eval/methods/features/InterpretationTree.h"
+#include "eval/methods/features/JcbbRelocation.h"
+#include "eval/worlds/FeatureWorld.h"
+#include "signature/location_constraint.h"
+#include "signature/unary_constraint.h"
 
 namespace sigloc
 {

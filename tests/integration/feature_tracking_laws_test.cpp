@@ -6,13 +6,13 @@
 #include <iostream>
 #include <sstream>
 
-#include "sigloc/eval/LandmarkSimulator.h"
-#include "sigloc/eval/track_simulated.h"
-#include "sigloc/eval/world_generators.h"
-#include "sigloc/geometry/chi_square.h"
-#include "sigloc/signature/location_constraint.h"
+#include "eval/wakeup/wakeup_simulated.h"
+#include "eval/worlds/LandmarkSimulator.h"
+#include "eval/worlds/world_generators.h"
+#include "geometry/chi_square.h"
 #include "sigloc/tracking/HypothesisTracker.h"
-#include "sigloc/tracking/MapCorrelation.h"
+#include "signature/location_constraint.h"
+#include "tracking/tracks/SchmidtKalmanFilter.h"
 
 namespace sigloc
 {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/eval/FeatureVoting.h"
+#include "eval/methods/features/FeatureVoting.h"
 
 #include <gtest/gtest.h>
 #include <mrpt/math/wrap2pi.h>
@@ -10,7 +10,7 @@
 #include <cmath>
 #include <set>
 
-#include "sigloc/eval/Random.h"
+#include "eval/worlds/Random.h"
 
 namespace sigloc
 {

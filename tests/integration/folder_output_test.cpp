@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/eval/folder_output.h"
+#include "eval/data/folder_output.h"
 
 #include <gtest/gtest.h>
 

@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 #include <mrpt/math/wrap2pi.h>
 
-#include "sigloc/eval/FeatureWorld.h"
-#include "sigloc/matching/FeatureVerifier.h"
-#include "sigloc/matching/generators.h"
-#include "sigloc/matching/PairLists.h"
-#include "sigloc/matching/PlainGenerator.h"
+#include "eval/worlds/FeatureWorld.h"
+#include "matching/features/FeatureVerifier.h"
+#include "matching/features/PairLists.h"
+#include "matching/generation/PlainGenerator.h"
+#include "matching/generators.h"
 
 namespace sigloc
 {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "bridge/rawlog_files.h"
-#include "sigloc/eval/scale.h"
+#include "eval/protocols/scale.h"
 #include "support/landmark_log.h"
 
 namespace sigloc

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/eval/landmarks.h"
+#include "eval/protocols/landmarks.h"
 
 #include <gtest/gtest.h>
 #include <mrpt/math/wrap2pi.h>
@@ -11,12 +11,12 @@
 #include <fstream>
 
 #include "bridge/rawlog_files.h"
-#include "sigloc/eval/feature_methods.h"
-#include "sigloc/eval/FeatureWorld.h"
-#include "sigloc/eval/landmark_data.h"
-#include "sigloc/eval/scale.h"
-#include "sigloc/features/LocalMap.h"
-#include "sigloc/geometry/symmetric_matrix.h"
+#include "eval/data/landmark_data.h"
+#include "eval/methods/feature_methods.h"
+#include "eval/protocols/scale.h"
+#include "eval/worlds/FeatureWorld.h"
+#include "features/LocalMap.h"
+#include "geometry/symmetric_matrix.h"
 #include "support/landmark_log.h"
 
 namespace sigloc

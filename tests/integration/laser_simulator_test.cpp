@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/eval/LaserSimulator.h"
+#include "eval/worlds/LaserSimulator.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "sigloc/eval/world_generators.h"
+#include "eval/worlds/world_generators.h"
 
 namespace sigloc
 {

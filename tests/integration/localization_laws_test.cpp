@@ -8,8 +8,8 @@
 #include <limits>
 #include <string>
 
-#include "sigloc/eval/run_parallel.h"
-#include "sigloc/geometry/chi_square.h"
+#include "eval/process/run_parallel.h"
+#include "geometry/chi_square.h"
 #include "support/simulated_office.h"
 
 namespace sigloc

@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "bridge/sample_maps.h"
-#include "sigloc/map/MapBuilder.h"
-#include "sigloc/map/NearestFeature.h"
+#include "map/building/MapBuilder.h"
+#include "map/NearestFeature.h"
 #include "support/simulated_office.h"
 
 using namespace sigloc;

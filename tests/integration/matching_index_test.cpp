@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include "sigloc/eval/FeatureWorld.h"
-#include "sigloc/matching/FeatureVerifier.h"
-#include "sigloc/matching/PairLists.h"
-#include "sigloc/matching/pattern_order.h"
-#include "sigloc/matching/PatternIndex.h"
-#include "sigloc/matching/PlainGenerator.h"
-#include "sigloc/signature/unary_constraint.h"
+#include "eval/worlds/FeatureWorld.h"
+#include "matching/features/FeatureVerifier.h"
+#include "matching/features/PairLists.h"
+#include "matching/generation/pattern_order.h"
+#include "matching/generation/PatternIndex.h"
+#include "matching/generation/PlainGenerator.h"
+#include "signature/unary_constraint.h"
 
 namespace sigloc
 {

@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/eval/merge.h"
+#include "eval/reports/merge.h"
 
 #include <gtest/gtest.h>
 
 #include <stdexcept>
 
 #include "bridge/rawlog_files.h"
-#include "sigloc/eval/relocate.h"
-#include "sigloc/eval/report_files.h"
-#include "sigloc/eval/sweep.h"
+#include "eval/protocols/relocate.h"
+#include "eval/protocols/sweep.h"
+#include "eval/reports/report_files.h"
 
 namespace sigloc
 {

@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 #include <mrpt/poses/CPose3D.h>
 
-#include "sigloc/bridge/map_sources.h"
-#include "sigloc/eval/MonteCarloSettings.h"
-#include "sigloc/eval/relocation_scoring.h"
-#include "sigloc/eval/RelocationMethod.h"
-#include "sigloc/eval/simulation_files.h"
+#include "eval/methods/particles/MonteCarloSettings.h"
+#include "eval/methods/RelocationMethod.h"
+#include "eval/scoring/relocation_scoring.h"
+#include "eval/worlds/simulation_files.h"
+#include "sigloc/io/map_files.h"
 
 namespace sigloc
 {

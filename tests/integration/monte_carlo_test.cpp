@@ -10,9 +10,9 @@
 #include <cmath>
 #include <Eigen/Dense>
 
-#include "sigloc/bridge/RawlogReader.h"
-#include "sigloc/eval/MonteCarloSettings.h"
-#include "sigloc/eval/track.h"
+#include "eval/methods/particles/MonteCarloSettings.h"
+#include "eval/wakeup/wakeup.h"
+#include "sigloc/io/RawlogReader.h"
 
 namespace sigloc
 {

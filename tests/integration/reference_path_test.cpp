@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/eval/reference_path.h"
+#include "eval/data/reference_path.h"
 
 #include <gtest/gtest.h>
 
 #include <stdexcept>
 
 #include "bridge/rawlog_files.h"
-#include "sigloc/bridge/GroundTruth.h"
-#include "sigloc/bridge/RawlogReader.h"
-#include "sigloc/eval/relocation_scoring.h"
+#include "eval/scoring/relocation_scoring.h"
+#include "io/GroundTruth.h"
+#include "sigloc/io/RawlogReader.h"
 
 namespace sigloc
 {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/eval/reliability.h"
+#include "eval/protocols/reliability.h"
 
 #include <gtest/gtest.h>
 

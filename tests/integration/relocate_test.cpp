@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/eval/relocate.h"
+#include "eval/protocols/relocate.h"
 
 #include <gtest/gtest.h>
 

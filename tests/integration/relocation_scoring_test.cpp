@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/eval/relocation_scoring.h"
+#include "eval/scoring/relocation_scoring.h"
 
 #include <gtest/gtest.h>
 

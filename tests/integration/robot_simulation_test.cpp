@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/eval/robot_simulation.h"
+#include "eval/worlds/robot_simulation.h"
 
 #include <gtest/gtest.h>
 #include <mrpt/math/wrap2pi.h>
@@ -10,7 +10,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 
-#include "sigloc/eval/world_generators.h"
+#include "eval/worlds/world_generators.h"
 
 namespace sigloc
 {

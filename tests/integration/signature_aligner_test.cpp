@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/bridge/SignatureAligner.h"
+#include "sigloc/plugin/SignatureAligner.h"
 
 #include <gtest/gtest.h>
 #include <mrpt/maps/CMultiMetricMap.h>
@@ -16,7 +16,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "sigloc/bridge/SignatureMap.h"
+#include "sigloc/plugin/SignatureMap.h"
 #include "support/simulated_office.h"
 
 using namespace sigloc;

@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 #include <mrpt/math/wrap2pi.h>
 
-#include "sigloc/eval/FeatureWorld.h"
-#include "sigloc/geometry/chi_square.h"
-#include "sigloc/signature/binary_constraint.h"
-#include "sigloc/signature/pose_fit.h"
-#include "sigloc/signature/unary_constraint.h"
+#include "eval/worlds/FeatureWorld.h"
+#include "geometry/chi_square.h"
+#include "signature/binary_constraint.h"
+#include "signature/pose_fit.h"
+#include "signature/unary_constraint.h"
 
 namespace sigloc
 {

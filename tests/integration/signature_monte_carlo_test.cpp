@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/bridge/SignatureMonteCarlo2D.h"
+#include "sigloc/plugin/SignatureMonteCarlo2D.h"
 
 #include <gtest/gtest.h>
 #include <mrpt/maps/CMultiMetricMap.h>
@@ -9,10 +9,10 @@
 
 #include <cmath>
 
-#include "sigloc/bridge/GroundTruth.h"
-#include "sigloc/bridge/map_sources.h"
-#include "sigloc/bridge/particle_modes.h"
-#include "sigloc/bridge/ParticleTracker.h"
+#include "io/GroundTruth.h"
+#include "plugin/particle_modes.h"
+#include "plugin/ParticleTracker.h"
+#include "sigloc/io/map_files.h"
 
 namespace sigloc
 {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/eval/simulation_files.h"
+#include "eval/worlds/simulation_files.h"
 
 #include <gtest/gtest.h>
 #include <mrpt/io/CFileGZInputStream.h>
@@ -19,8 +19,8 @@
 #include <Eigen/Core>
 
 #include "bridge/rawlog_files.h"
-#include "sigloc/bridge/scan_conversion.h"
-#include "sigloc/eval/world_generators.h"
+#include "eval/worlds/world_generators.h"
+#include "io/scan_conversion.h"
 
 namespace sigloc
 {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/eval/sweep.h"
+#include "eval/protocols/sweep.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "bridge/rawlog_files.h"
-#include "sigloc/eval/swept_quantities.h"
+#include "eval/protocols/swept_quantities.h"
 
 namespace sigloc
 {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <iostream>
 
-#include "sigloc/eval/run_parallel.h"
+#include "eval/process/run_parallel.h"
 #include "sigloc/tracking/HypothesisTracker.h"
 #include "support/followed_drive.h"
 #include "support/simulated_office.h"

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/eval/World.h"
+#include "eval/worlds/World.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "sigloc/eval/LaserSimulator.h"
-#include "sigloc/eval/world_generators.h"
+#include "eval/worlds/LaserSimulator.h"
+#include "eval/worlds/world_generators.h"
 
 namespace sigloc
 {

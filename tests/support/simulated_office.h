@@ -6,8 +6,8 @@
 #include <memory>
 #include <vector>
 
-#include "sigloc/eval/robot_simulation.h"
-#include "sigloc/eval/world_generators.h"
+#include "eval/worlds/robot_simulation.h"
+#include "eval/worlds/world_generators.h"
 #include "sigloc/matching/SignatureMatcher.h"
 
 namespace sigloc::testing

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "sigloc/eval/LaserSimulator.h"
-#include "sigloc/eval/world_generators.h"
+#include "eval/worlds/LaserSimulator.h"
+#include "eval/worlds/world_generators.h"
 #include "sigloc/map/map_building.h"
 
 namespace sigloc::testing

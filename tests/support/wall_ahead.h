@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "sigloc/matching/DenseVerifier.h"
+#include "matching/dense/DenseVerifier.h"
 
 namespace sigloc::testing
 {

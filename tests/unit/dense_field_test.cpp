@@ -10,8 +10,8 @@
 #include <random>
 #include <stdexcept>
 
+#include "map/RayCaster.h"
 #include "sigloc/map/map_building.h"
-#include "sigloc/map/RayCaster.h"
 
 namespace sigloc
 {

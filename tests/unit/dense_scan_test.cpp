@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "sigloc/matching/DenseVerifier.h"
+#include "matching/dense/DenseVerifier.h"
 
 namespace sigloc
 {

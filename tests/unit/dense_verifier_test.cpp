@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/matching/DenseVerifier.h"
+#include "matching/dense/DenseVerifier.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "sigloc/map/RayCaster.h"
+#include "map/RayCaster.h"
 
 namespace sigloc
 {

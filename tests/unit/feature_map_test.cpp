@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "sigloc/map/FeatureMerger.h"
+#include "map/building/FeatureMerger.h"
 #include "support/hand_made_scan.h"
 
 namespace sigloc

@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "sigloc/geometry/chi_square.h"
-#include "sigloc/geometry/PoseEstimate.h"
-#include "sigloc/geometry/symmetric_matrix.h"
+#include "geometry/chi_square.h"
+#include "geometry/PoseEstimate.h"
+#include "geometry/symmetric_matrix.h"
 
 namespace sigloc
 {

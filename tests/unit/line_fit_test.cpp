@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/features/line_fit.h"
+#include "features/line_fit.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/signature/MapErrorModel.h"
+#include "sigloc/geometry/GaussianPose.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/map/map_extension.h"
+#include "map/building/map_extension.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/map/NearestFeature.h"
+#include "map/NearestFeature.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/features/observe_points.h"
+#include "features/observe_points.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sigloc/features/FeatureExtractor.h"
+#include "sigloc/features/observe_scans.h"
 #include "support/hand_made_scan.h"
 
 namespace sigloc

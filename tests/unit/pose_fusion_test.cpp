@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/geometry/pose_fusion.h"
+#include "geometry/pose_fusion.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "sigloc/geometry/symmetric_matrix.h"
+#include "geometry/symmetric_matrix.h"
 
 namespace sigloc
 {

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/tracking/rivals.h"
+#include "tracking/rivals.h"
 
 #include <gtest/gtest.h>
 
-#include "sigloc/matching/distinguishing_place.h"
+#include "matching/dense/distinguishing_place.h"
 
 namespace sigloc
 {

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "TrackSet.h"
+#include "tracking/tracks/TrackSet.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
-#include "sigloc/matching/DenseVerifier.h"
+#include "matching/dense/DenseVerifier.h"
 #include "support/wall_ahead.h"
 
 namespace sigloc

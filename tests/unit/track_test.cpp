@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Track.h"
+#include "tracking/tracks/Track.h"
 
 #include <gtest/gtest.h>
 

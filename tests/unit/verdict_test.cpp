@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "verdict.h"
+#include "tracking/belief_verdict.h"
 
 #include <gtest/gtest.h>
 

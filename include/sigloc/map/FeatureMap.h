@@ -3,8 +3,8 @@
 #pragma once
 
 #include "sigloc/features/Feature.h"
+#include "sigloc/geometry/GaussianPose.h"
 #include "sigloc/map/DenseField.h"
-#include "sigloc/signature/MapErrorModel.h"
 
 #include <cstdint>
 #include <optional>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "sigloc/config/option_fields.h"
-#include "sigloc/features/FeatureExtractor.h"
+#include "sigloc/features/observe_scans.h"
 #include "sigloc/map/FeatureMap.h"
 
 #include <vector>

@@ -9,10 +9,11 @@
 
 #include "sigloc/config/option_fields.h"
 #include "sigloc/map/DenseField.h"
-#include "sigloc/map/NearestFeature.h"
 
 namespace sigloc
 {
+class NearestFeature;
+
 /// How well points fit a map where a particle filter weighs a pose.
 struct PointLikelihoodOptions
 {

@@ -6,49 +6,25 @@
 #include "sigloc/features/ObservedScene.h"
 #include "sigloc/geometry/GaussianPose.h"
 #include "sigloc/map/FeatureMap.h"
-#include "sigloc/matching/FeatureHypothesis.h"
-#include "sigloc/matching/GenerationMode.h"
-#include "sigloc/matching/Verdict.h"
+#include "sigloc/matching/RelocationResult.h"
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
 
 namespace sigloc
 {
-/// A place the robot could be at.
-struct Candidate
+/// How hypotheses are generated; the modes of \cite algorithm section 4.
+enum class GenerationMode : std::uint8_t
 {
-  GaussianPose pose;  ///< map_from_robot
-  double score = 0;  ///< dense score in about [-1, 1], or log-odds for maps without a field
-  double probability = 0;  ///< of this pose being the right one; with `elsewhere` they sum to 1
-  double explained = 0;  ///< share of the returns that end on mapped structure
-  double through_wall = 0;  ///< share of the beams that pass through mapped walls
-  double in_free = 0;  ///< share of the returns that end in known free space
-  std::uint32_t facts = 0;  ///< what the map explains of the features seen; 0 far behind the first
-  std::vector<FeaturePairing> pairings;
-};
-
-/// The answer of one relocation: candidates best first, mutually more than 0.5 m or 17 degrees
-/// apart.
-struct RelocationResult
-{
-  std::vector<Candidate> candidates;
-  Verdict verdict = Verdict::too_little_seen;
-  double probability = 0;  ///< of the verdict's claim; for `localized`, of the first candidate
-  double elsewhere = 1;  ///< probability of standing where no candidate is
-  double view = 2 * M_PI;  ///< [rad] of the directions that something was seen in
-  MatchingCounters counters;
-};
-
-/// Where the robot may be, as a caller's prior: axis-aligned box [m] and heading range [rad].
-struct PoseRegion
-{
-  double x_min, x_max, y_min, y_max;
-  double heading = 0;
-  double heading_tolerance = 3.15;
-
-  bool contains(const mrpt::math::TPose2D& pose) const;
+  automatic = 0,  ///< bases where a dense field backs the map, else patterns falling back to pairs
+                  ///< and anchors
+  plain = 1,  ///< (a) every signature
+  anchors = 2,  ///< (b) sampled anchors and partners
+  pairs = 3,  ///< (c) pair index
+  patterns = 4,  ///< (d) larger patterns
+  bases = 5,  ///< (e) small bases judged by the dense field
 };
 
 struct MatcherOptions
@@ -76,8 +52,10 @@ struct MatcherOptions
 
 class BaseProposer;
 class DenseVerifier;
+class FeatureHypothesisGenerator;
 class FeatureVerifier;
 struct DenseScan;
+struct FeatureHypothesis;
 struct PoseProposal;
 struct RankedPose;
 

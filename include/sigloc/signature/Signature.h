@@ -5,10 +5,20 @@
 #include <cstdint>
 #include <vector>
 
-#include "sigloc/signature/binary_constraint.h"
+#include "sigloc/features/Feature.h"
 
 namespace sigloc
 {
+/// The one scalar by which pairs of features are sorted and looked up, invariant under rigid
+/// motion: the distance of two places, the signed distance of a place to a line, the angle from
+/// the first line to the second. \cite algorithm eq. (3.3)
+struct BinaryKey
+{
+  double value = 0;  ///< [m] or [rad]
+  double variance = 0;  ///< [m^2] or [rad^2], of the two features alone
+  bool is_angle = false;
+};
+
 /// How one feature stands to another, whatever the pose.
 struct Relation
 {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "sigloc/geometry/GaussianPose.h"
-#include "sigloc/matching/Verdict.h"
+#include "sigloc/matching/RelocationResult.h"
 
 #include <cstdint>
 #include <string>

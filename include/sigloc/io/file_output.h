@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mrpt::serialization
+{
+class CArchive;
+}
+
+namespace sigloc
+{
+// How every file is written: the bytes go to a temporary file beside it, which takes the file's
+// name, or that of the file a link points to, once they are all on the disk. What cannot be written
+// leaves what was there as it was, and is told as std::runtime_error ("path: cannot be written:
+// reason").
+
+/// Writes a file of these bytes.
+void writeFile(const std::filesystem::path& path, std::string_view bytes);
+
+constexpr int kQuickCompression = 1;
+constexpr int kBestCompression = 9;
+
+/// Writes what `write` puts into an archive, gz-compressed by zlib's level `compression`.
+void writeObjects(const std::filesystem::path& path,
+                  const std::function<void(mrpt::serialization::CArchive&)>& write,
+                  int compression = kQuickCompression);
+
+/// The name of a file whose temporary file, perhaps left by a run that was killed, is called
+/// `name`; any other name is returned as it is.
+std::string withoutTemporaryEnding(const std::string& name);
+
+/// Throws std::runtime_error when anything printed to `out`, the standard output, got lost.
+void finishOutput(std::ostream& out);
+
+// What a program asks before it writes, so that nothing is lost but what an earlier run of it left.
+
+/// Throws std::runtime_error ("output: reason") when writing `output`, a file or a folder that is
+/// replaced with all it holds, would destroy one of `inputs`: the same file, whatever path or link
+/// leads to it, or one below. Inputs that are empty or do not exist are passed over.
+void refuseToReplaceInputs(const std::filesystem::path& output,
+                           const std::vector<std::filesystem::path>& inputs);
+
+/// How a program knows what it may replace in an output folder that it shares with other files.
+struct OutputFolderRule
+{
+  /// Whether a run may write an entry of this name.
+  std::function<bool(const std::string& name)> writes;
+  /// Whether an earlier run wrote such entries of the folder.
+  std::function<bool(const std::filesystem::path& folder)> is_own;
+  std::string owner;  ///< whose runs, for the message
+};
+
+/// Throws std::runtime_error ("folder: reason") when a run that writes into `folder` could replace
+/// one of `inputs`, or an entry that no earlier run wrote. A folder that is not there is fine.
+void checkOutputFolder(const std::filesystem::path& folder, const OutputFolderRule& rule,
+                       const std::vector<std::filesystem::path>& inputs);
+
+/// Returns a message without the source positions and stack traces that MRPT's exceptions add.
+std::string firstLine(const std::string& message);
+}  // namespace sigloc

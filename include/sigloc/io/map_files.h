@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mrpt/maps/COccupancyGridMap2D.h>
+#include <mrpt/maps/CSimpleMap.h>
+#include <mrpt/serialization/CArchive.h>
+
+#include <filesystem>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "sigloc/map/map_building.h"
+
+namespace sigloc
+{
+/// What a map input file holds, in the core's terms.
+using MapSource = std::variant<std::vector<PosedScans>, OccupancyRaster, FeatureMap>;
+
+/// Reads `.simplemap[.gz]`, `.gridmap[.gz]`, a ROS map `.yaml` (pgm/png), a CARMEN log with
+/// corrected poses (`.log`, `.clf`, `.carmen`), a landmark file (`.csv`, `.txt`: rows
+/// `x y [radius] [sigma]`) or a ready `.sigmap`.
+/// Throws std::runtime_error naming the path and the reason for a missing, empty, truncated,
+/// foreign or unusable file, and for a map that reaches farther than 100 km from its origin.
+MapSource readMapSource(const std::filesystem::path& path);
+
+/// Returns a line on the key frames of a simplemap that are not used as they are, left out or taken
+/// for being on one floor; empty for none, and for other map sources. The same errors.
+std::string warningOfMapSource(const std::filesystem::path& path);
+
+/// Returns the files that a map source is read from: `path`, and the image that a ROS map names.
+/// Throws std::runtime_error ("path: reason") for a ROS map that cannot be read.
+std::vector<std::filesystem::path> filesOfMapSource(const std::filesystem::path& path);
+
+/// Reads a map source and builds the feature map; a `.sigmap` is returned as it is.
+FeatureMap buildMapFromFile(const std::filesystem::path& path, const MapBuildingOptions& building,
+                            const FeatureExtractorOptions& extraction);
+
+/// Returns the map of `source`, reusing `cache` (a `.sigmap`) when its provenance shows that
+/// neither the source's bytes nor the options have changed; otherwise builds it and rewrites
+/// `cache`. `reused` tells which. An unreadable cache is rebuilt, never an error.
+struct CachedMap
+{
+  FeatureMap map;
+  bool reused = false;
+  double build_seconds = 0;
+};
+CachedMap mapWithCache(const std::filesystem::path& source, const std::filesystem::path& cache,
+                       const MapBuildingOptions& building,
+                       const FeatureExtractorOptions& extraction);
+
+std::vector<PosedScans> posedScansOf(const mrpt::maps::CSimpleMap& simplemap);
+OccupancyRaster rasterOf(const mrpt::maps::COccupancyGridMap2D& grid);
+
+/// Writes a `.sigmap` (gz-compressed, versioned, checksummed) atomically: to a temporary file that
+/// is renamed. Throws std::runtime_error naming the path and the reason.
+void saveSigmap(const FeatureMap& map, const std::filesystem::path& path);
+
+/// Reads a `.sigmap` of this or an earlier version. Throws std::runtime_error naming the path and
+/// the reason for a missing, truncated, corrupt or foreign file, and for a map that reaches beyond
+/// 100 km of its origin.
+FeatureMap loadSigmap(const std::filesystem::path& path);
+
+/// The body of a `.sigmap` and of a serialized `SignatureMap`.
+void writeFeatureMap(const FeatureMap& map, mrpt::serialization::CArchive& out);
+FeatureMap readFeatureMap(mrpt::serialization::CArchive& in);
+}  // namespace sigloc

@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "sigloc/features/ObservedScene.h"
+#include "sigloc/io/RawlogReader.h"
+#include "sigloc/localize/LocalizationSetup.h"
+#include "sigloc/tracking/Belief.h"
+
+namespace sigloc
+{
+/// How far a pose is from the truth.
+struct PoseError
+{
+  double distance = 0;  ///< [m]
+  double angle = 0;  ///< [rad], in [0, pi]
+};
+
+PoseError errorBetween(const mrpt::math::TPose2D& pose, const mrpt::math::TPose2D& truth);
+
+/// One step of a run: what is believed after it, how it compares with the truth, what it cost.
+struct StepRecord
+{
+  std::size_t number = 0;  ///< counted from 1
+  std::size_t entry = 0;  ///< RawlogStep::entry
+  double time = 0;  ///< [s]
+  double travelled = 0;  ///< [m] by odometry, up to and with this step
+  bool travel_known = true;  ///< false where odometry has told of no motion yet
+  mrpt::math::TPose2D odometry;  ///< dead reckoning from LocalizationSetup::initial_odometry
+  Belief belief;
+  bool relocated = false;
+  std::optional<mrpt::math::TPose2D> truth;
+  std::optional<PoseError> error;  ///< of the first hypothesis
+  bool any_right = false;  ///< some hypothesis lies within 0.5 m and 10 degrees of the truth
+  bool confidently_wrong = false;  ///< localized, and more than 1 m or 20 degrees off
+  double extraction_ms = 0;  ///< features from scans
+  double tracking_ms = 0;  ///< the tracker's step, a relocation in it included
+};
+
+/// What a run comes to; the figures of `summary.json`.
+struct RunSummary
+{
+  std::size_t steps = 0;
+  double distance = 0;  ///< [m], NaN for a log without odometry
+  std::optional<std::size_t> steps_to_first_right;  ///< none where the path's truth is unknown
+  std::optional<double> metres_to_first_right;  ///< none without odometry, too
+  std::optional<std::size_t> steps_to_localized;
+  std::optional<double> metres_to_localized;
+  std::optional<PoseError> final_error;  ///< at the last step that has a truth
+  Verdict final_verdict = Verdict::too_little_seen;
+  std::optional<mrpt::math::TPose2D> final_pose;
+  std::optional<bool> converged;  ///< at the step where that was to be tested; none: not tested
+  std::size_t confidently_wrong_steps = 0;
+  std::size_t relocations = 0;
+  double relocation_ms_median = 0;  ///< steps that relocated, extraction included
+  double relocation_ms_p95 = 0;
+  double step_ms_median = 0;  ///< steps that only tracked, extraction included
+  double step_ms_p95 = 0;
+  std::size_t map_features = 0;
+  bool map_reused = false;
+  double map_seconds = 0;  ///< to build the map, or to load it
+  std::uint32_t seed = 0;
+  LeftOutOfLog left_out;
+  bool truncated = false;  ///< the rawlog broke off: everything covers what was read
+};
+
+/// Localizes the robot of one rawlog in one map, step by step.
+///
+///     LocalizationRun run(setup);
+///     while (const StepRecord* step = run.next()) show(*step, run.scene());
+///     report(run.summary());
+class LocalizationRun
+{
+ public:
+  /// Opens the log, builds or reuses the map. `map_cache` is the `.sigmap` to reuse and rewrite;
+  /// empty: none. Throws std::runtime_error naming the file and the reason for anything unusable,
+  /// before anything is written.
+  explicit LocalizationRun(const LocalizationSetup& setup,
+                           const std::filesystem::path& map_cache = {});
+  ~LocalizationRun();
+
+  /// Advances one step; null at the end of the log. The pointer holds until the next call.
+  const StepRecord* next();
+
+  const LocalizationSetup& setup() const { return setup_; }
+  const FeatureMap& map() const { return *map_; }
+  /// What the robot saw in the last step.
+  const ObservedScene& scene() const { return scene_; }
+  const std::vector<StepRecord>& steps() const { return steps_; }
+  /// Share of the log read so far, in [0, 1].
+  double progress() const;
+  /// True when the log has no further step.
+  bool atEnd() const;
+  RunSummary summary() const;
+
+ private:
+  struct State;
+  void score(StepRecord& step) const;
+  LocalizationSetup setup_;
+  std::shared_ptr<const FeatureMap> map_;
+  std::unique_ptr<State> state_;
+  ObservedScene scene_;
+  std::vector<StepRecord> steps_;
+};
+}  // namespace sigloc

@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mrpt/math/TPose2D.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sigloc/config/option_fields.h"
+#include "sigloc/features/observe_scans.h"
+#include "sigloc/map/map_building.h"
+#include "sigloc/matching/SignatureMatcher.h"
+#include "sigloc/plugin/SignatureMonteCarlo2D.h"
+#include "sigloc/tracking/TrackerOptions.h"
+
+namespace sigloc
+{
+/// Section [sigloc.localize]: how a run is scored and drawn. Truth never reaches the localizer.
+struct ReportOptions
+{
+  double map_from_truth_x = 0;
+  double map_from_truth_y = 0;
+  double map_from_truth_phi_deg = 0;
+  bool use_final_truth = false;
+  double final_truth_x = 0;
+  double final_truth_y = 0;
+  double final_truth_phi_deg = 0;
+  bool pictures = true;
+
+  template <class V>
+  static void visitFields(V&& visit)
+  {
+    using O = ReportOptions;
+    constexpr double kFar = 1e6;
+    visit(OptionField{"map_from_truth_x", &O::map_from_truth_x, -kFar, kFar,
+                      "[m] frame of the ground truth in the map"});
+    visit(OptionField{"map_from_truth_y", &O::map_from_truth_y, -kFar, kFar, "[m]"});
+    visit(
+        OptionField{"map_from_truth_phi_deg", &O::map_from_truth_phi_deg, -360.0, 360.0, "[deg]"});
+    visit(OptionField{"use_final_truth", &O::use_final_truth, false, true,
+                      "[-] only the last pose is known: final_truth_*"});
+    visit(OptionField{"final_truth_x", &O::final_truth_x, -kFar, kFar,
+                      "[m] true pose at the last step, in the map"});
+    visit(OptionField{"final_truth_y", &O::final_truth_y, -kFar, kFar, "[m]"});
+    visit(OptionField{"final_truth_phi_deg", &O::final_truth_phi_deg, -360.0, 360.0, "[deg]"});
+    visit(OptionField{"pictures", &O::pictures, false, true, "[-] write PNG pictures"});
+  }
+};
+
+/// Everything a localization run is told, from an ini file in the manner of pf-localization.
+struct LocalizationSetup
+{
+  std::filesystem::path config_file;  ///< the ini
+  std::filesystem::path map_file;
+  std::filesystem::path rawlog_file;
+  std::filesystem::path ground_truth_file;  ///< empty: none
+  std::filesystem::path output_folder;  ///< empty: nothing is written
+  std::uint32_t rawlog_offset = 0;  ///< steps skipped at the start of the log
+  std::uint32_t scene_frequency = 0;  ///< a scene and a picture every so many steps; 0: key moments
+  std::uint32_t repetitions = 1;
+  /// Whether the run converged is tested at this step of the log, counted from 0, which is its
+  /// last.
+  std::optional<std::uint32_t> convergence_test_step;
+  double confidence_share = 0.2;  ///< error quantiles told: this one, and one minus it
+  mrpt::math::TPose2D initial_odometry;  ///< where dead reckoning starts
+  std::vector<std::uint32_t> particle_counts;  ///< with particles, one experiment each; empty: one
+  std::optional<PoseRegion> prior;
+  bool use_particles = false;  ///< `tracker = particles`: SignatureMonteCarlo2D does the tracking
+  MatcherOptions matcher;
+  TrackerOptions tracker;
+  ParticleOptions particles;
+  FeatureExtractorOptions features;
+  MapBuildingOptions map;
+  ReportOptions report;
+  /// On the ini: keys of [LocalizationExperiment] that nothing reads, and keys given repeatedly.
+  std::vector<std::string> warnings;
+
+  /// Every file that a run reads. Throws as filesOfMapSource() does.
+  std::vector<std::filesystem::path> inputFiles() const;
+  mrpt::math::TPose2D mapFromTruth() const;
+  std::optional<mrpt::math::TPose2D> finalTruth() const;
+};
+
+/// Reads a pf-localization ini: [LocalizationExperiment] (map_file, rawlog_file, rawlog_offset,
+/// ground_truth_path_file, logOutput_dir, 3DSceneFrequency, experimentRepetitions,
+/// experimentTestConvergenceAtStep, STATS_CONF_INTERVAL, initial_odo_*, init_PDF_*, and `tracker`,
+/// gaussians or particles; with particles, particles_count too) and our [sigloc.*] sections. What
+/// else belongs to the particle filter is accepted and ignored; of other keys there is a warning. A
+/// file name is looked up in the ini's folder, then in the current one; logOutput_dir is relative
+/// to the current folder. `rawlog` replaces rawlog_file when given. Throws std::runtime_error
+/// naming the ini and the reason: unreadable, no such section, a named file that does not exist, an
+/// unknown [sigloc.*] section or key, a bad value.
+LocalizationSetup readLocalizationSetup(const std::filesystem::path& ini,
+                                        const std::filesystem::path& rawlog = {});
+
+/// Reads only the [sigloc.*] sections of an ini; the same errors.
+LocalizationSetup readOptionSections(const std::filesystem::path& ini);
+
+/// Returns all [sigloc.*] sections with their defaults, units and descriptions, as ini text.
+std::string defaultOptionSections();
+
+}  // namespace sigloc

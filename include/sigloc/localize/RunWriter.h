@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "sigloc/localize/LocalizationRun.h"
+#include "sigloc/plugin/map_drawing.h"
+
+namespace sigloc
+{
+/// Throws std::runtime_error ("folder: reason") when a run that writes into `folder` would replace
+/// anything but an earlier run of sigloc-localize, which its summary.json tells, or one of
+/// `inputs`.
+void checkRunFolder(const std::filesystem::path& folder,
+                    const std::vector<std::filesystem::path>& inputs);
+
+/// Writes the output folder of a run, all or nothing: into `<folder>.partial` first, which takes
+/// the folder's name in finish(). Where nothing can be made beside an existing folder, it is
+/// `<folder>/.partial`, and there is no map cache.
+///
+/// * `belief/step_00001.CPosePDFSOG`: the belief after step 1 as an MRPT object; `.txt`: as rows
+///   `weight x y phi C11 C22 C33 C12 C13 C23`
+/// * `3D/step_00001.3Dscene`: map and step, for SceneViewer3D
+/// * `path.tum`: first hypothesis of each step, `time x y z qx qy qz qw`
+/// * `steps.csv`: one row a step
+/// * `annotated.rawlog`: the log with a CObservationRobotPose "sigloc" a step
+/// * `summary.json`: the figures of RunSummary
+/// * what pf-localization's log folder holds, see writePfLocalizationFiles()
+class RunWriter
+{
+ public:
+  /// Throws as checkRunFolder() does, and when `folder` cannot be written.
+  RunWriter(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& inputs);
+  /// Removes what an unfinished run has written.
+  ~RunWriter();
+  RunWriter(const RunWriter&) = delete;
+  RunWriter& operator=(const RunWriter&) = delete;
+
+  /// Where files belong until finish(), pictures of an app included.
+  const std::filesystem::path& workFolder() const { return work_; }
+
+  /// Where the prepared map is kept: beside the output folder, so that runs share it.
+  std::filesystem::path mapCache(const std::filesystem::path& map_file) const;
+
+  void writeBelief(const StepRecord& step) const;
+  void writeScene(const FeatureMap& map, const StepRecord& step, const StepDrawing& drawing) const;
+  /// Writes everything that covers the whole run and gives the folder its name.
+  void finish(const LocalizationRun& run);
+
+ private:
+  std::error_code makeWorkFolder();
+  void replaceFolder();
+
+  std::filesystem::path folder_;
+  std::filesystem::path work_;
+  std::filesystem::path created_;  // the topmost folder that did not exist before
+  bool finished_ = false;
+};
+
+/// "step_00012", the common stem of a step's files.
+std::string stepName(const StepRecord& step);
+
+/// Returns `summary.json`'s text; unknown values are null.
+std::string toJson(const RunSummary& summary);
+
+/// Copies a rawlog of either kind and adds the first hypothesis of each step to it: into the
+/// sensory frame, or after the step's last scan. The copy ends where reading the log ends.
+void writeAnnotatedRawlog(const std::filesystem::path& rawlog, const std::vector<StepRecord>& steps,
+                          const std::filesystem::path& output);
+
+/// What one run adds to `<prefix>_SUMMARY.txt`.
+struct ExperimentOutcome
+{
+  std::optional<bool> converged;
+  std::size_t particles = 0;  ///< 0: no particles
+  double seconds = 0;  ///< spent on its steps
+  std::vector<double> errors;  ///< [m], of the steps with truth
+};
+ExperimentOutcome outcomeOf(const LocalizationRun& run);
+
+/// Returns pf-localization's summary of one experiment's repetitions: a comment with the columns
+/// and one row. The ratio of convergence is `nan` when no run was tested, the errors are `nan`
+/// without truth; the interval reaches from quantile `confidence_share` to one minus it.
+std::string experimentSummary(const std::vector<ExperimentOutcome>& repetitions,
+                              double confidence_share);
+
+/// Returns `<folder>_SUMMARY.txt`. Throws std::runtime_error when a file of that name is something
+/// else than the summary of an earlier run.
+std::filesystem::path experimentSummaryFile(const std::filesystem::path& folder);
+
+/// Writes that file, replacing an earlier one; where nothing can be written beside the folder,
+/// `_SUMMARY.txt` in it. Throws std::runtime_error where that can't be written either.
+void writeExperimentSummary(const std::filesystem::path& folder, const std::string& text);
+}  // namespace sigloc

@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mrpt/slam/CMonteCarloLocalization2D.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "sigloc/config/option_fields.h"
+#include "sigloc/features/observe_scans.h"
+#include "sigloc/features/ObservedScene.h"
+#include "sigloc/matching/SignatureMatcher.h"
+#include "sigloc/tracking/Belief.h"
+#include "sigloc/tracking/TrackerOptions.h"
+
+namespace sigloc
+{
+/// Section [sigloc.particles]: MRPT's filter where `tracker = particles`.
+struct ParticleOptions
+{
+  static constexpr std::uint32_t kMostParticles = 10000000;
+
+  std::uint32_t particles = 500;
+  double motion_sigma = 0.05;
+  double motion_turn_sigma = 0.05;
+
+  template <class V>
+  static void visitFields(V&& visit)
+  {
+    using O = ParticleOptions;
+    visit(OptionField{"particles", &O::particles, 1U, kMostParticles,
+                      "[-] how many are drawn when the robot is lost"});
+    visit(OptionField{"motion_sigma", &O::motion_sigma, 0.0, 1.0,
+                      "[m] standard deviation that a metre of travel adds to the odometry's own"});
+    visit(
+        OptionField{"motion_turn_sigma", &O::motion_turn_sigma, 0.0, 1.0,
+                    "[rad] standard deviation that a metre of travel adds to the odometry's own"});
+  }
+};
+
+/// MRPT's particle filter with a start and a recovery of its own: while the robot is lost,
+/// particles are drawn where signatures say that it may be instead of all over the map, so that a
+/// few hundred do. Motion, weights and resampling are MRPT's. \cite algorithm section 9
+///
+///     SignatureMonteCarlo2D filter(500);
+///     filter.options.metricMap = map;  // a SignatureMap, or a CMultiMetricMap with one in it
+///     mrpt::bayes::CParticleFilter executor;
+///     while (...) executor.executeOn(filter, &actions, &frame);
+///
+/// It is lost at first. Setting its particles anew also tells it where it is: gathered within half
+/// a metre they are believed; spread (`resetUniform`, `resetUniformFreeSpace`) they mean that it is
+/// lost within their bounding box. A step throws std::invalid_argument when there is no
+/// SignatureMap.
+///
+/// Draws from MRPT's random generator of the calling thread. Not thread-safe.
+class SignatureMonteCarlo2D : public mrpt::slam::CMonteCarloLocalization2D
+{
+ public:
+  /// `particles` are drawn when the robot is lost; throws std::invalid_argument for none, or for
+  /// options outside their ranges.
+  explicit SignatureMonteCarlo2D(std::size_t particles = 500, const TrackerOptions& tracking = {});
+
+  /// Uses a matcher made before instead of making one of the SignatureMap at the first step.
+  void useMatcher(std::shared_ptr<const SignatureMatcher> matcher);
+
+  /// Sees features in scans with these options instead of the defaults; throws
+  /// std::invalid_argument for options outside their ranges.
+  void useExtraction(const FeatureExtractorOptions& extraction);
+
+  /// Declares the robot lost, anywhere or within a region.
+  void forget(const std::optional<PoseRegion>& region = std::nullopt);
+
+  /// What is known after the last step: the places where particles have gathered, and the verdict.
+  const Belief& belief() const { return belief_; }
+  /// True when the last step ran a relocation.
+  bool relocated() const { return relocated_; }
+
+  // What mrpt::bayes::CParticleFilter calls.
+  void prediction_and_update_pfStandardProposal(
+      const mrpt::obs::CActionCollection* action, const mrpt::obs::CSensoryFrame* observation,
+      const mrpt::bayes::CParticleFilter::TParticleFilterOptions& filtering) override;
+  void prediction_and_update_pfAuxiliaryPFStandard(
+      const mrpt::obs::CActionCollection* action, const mrpt::obs::CSensoryFrame* observation,
+      const mrpt::bayes::CParticleFilter::TParticleFilterOptions& filtering) override;
+  void prediction_and_update_pfAuxiliaryPFOptimal(
+      const mrpt::obs::CActionCollection* action, const mrpt::obs::CSensoryFrame* observation,
+      const mrpt::bayes::CParticleFilter::TParticleFilterOptions& filtering) override;
+
+ private:
+  /// A place where particles have gathered, with what relocations have said of it.
+  struct Mode
+  {
+    TrackedHypothesis hypothesis;  // its weight: share of the particles
+    double confirmed = 0;  // log-odds, eq. (8.7)
+  };
+
+  using FilterOptions = mrpt::bayes::CParticleFilter::TParticleFilterOptions;
+  void step(const mrpt::obs::CActionCollection* action, const mrpt::obs::CSensoryFrame* observation,
+            FilterOptions filtering, const std::function<void(const FilterOptions&)>& update);
+  const SignatureMatcher& matcher();
+  void rememberParticles();
+  void noticeReset();
+  double predictModes(const mrpt::obs::CActionCollection* action);
+  void gatherModes();
+  double travelSeen(double assumed);
+  void addLostLogOdds(double log_odds);
+  void weighElsewhere(const ObservedScene& scene, double travel);
+  bool wantsRelocation() const;
+  void relocate(const ObservedScene& scene);
+  double leadOfRivals(const RelocationResult& result) const;
+  void weighAgainst(const RelocationResult& result, double fresh_share);
+  void drawFrom(const RelocationResult& result);
+  void publish(bool blind);
+
+  std::size_t particles_when_lost_;
+  TrackerOptions tracking_;
+  FeatureExtractorOptions extraction_;
+  std::shared_ptr<const SignatureMatcher> matcher_;
+  bool own_matcher_ = true;
+  bool lost_ = true;
+  bool looked_ = false;  // a relocation has run since it is lost
+  std::optional<PoseRegion> region_;  // where it is lost
+  double elsewhere_ = 1;
+  std::vector<Mode> modes_;  // heaviest first
+  std::uint64_t next_id_ = 1;
+  double score_ = 0;  // of the heaviest mode, dense
+  double mean_score_ = 0;  // running mean
+  double reliability_ = 0;  // of the heaviest mode
+  std::optional<mrpt::math::TPose2D> seen_;  // heaviest mode when the robot last moved
+  bool motion_known_ = true;
+  double travel_since_relocation_ = 0;  // [m]
+  std::vector<double> known_x_;  // sorted, of the particles that the last step left
+  bool relocated_ = false;
+  Belief belief_;
+};
+}  // namespace sigloc

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+#include "sigloc/config/option_fields.h"
+
+namespace sigloc
+{
+/// How HypothesisTracker follows hypotheses and when it claims one. \cite algorithm section 8
+struct TrackerOptions
+{
+  std::uint32_t max_hypotheses = 20;
+  double localized_probability = 0.99;
+  double prune_weight = 1e-4;
+  double evidence_distance = 1.0;
+  double evidence_turn = 3.0;
+  double lost_distance = 0.3;
+  double lost_score = 0.4;
+  double min_elsewhere = 0.002;
+  double relocation_distance = 0.5;
+  double confirmation_distance = 2.0;
+  double score_drop = 0.2;
+  double suspicion = 0.3;
+  double confirmation = 5.0;
+  double free_motion_sigma = 0.3;
+  double free_turn_sigma = 0.2;
+
+  template <class V>
+  static void visitFields(V&& visit)
+  {
+    using O = TrackerOptions;
+    visit(OptionField{"max_hypotheses", &O::max_hypotheses, 1U, 1000U,
+                      "[-] how many hypotheses are followed at most"});
+    visit(OptionField{"localized_probability", &O::localized_probability, 0.5, 1.0,
+                      "[-] the verdict is localized from this probability on"});
+    visit(OptionField{"prune_weight", &O::prune_weight, 0.0, 0.1,
+                      "[-] lighter hypotheses are given up, their weight goes elsewhere"});
+    visit(OptionField{
+        "evidence_distance", &O::evidence_distance, 0.01, 100.0,
+        "[m] travel after which a scan is fresh evidence; between rivals seven tenths of it"});
+    visit(OptionField{"evidence_turn", &O::evidence_turn, 0.01, 100.0,
+                      "[rad] turn that counts as much as the distance"});
+    visit(OptionField{"lost_distance", &O::lost_distance, 0.01, 100.0,
+                      "[m] travel after which a scan is fresh evidence of being lost"});
+    visit(OptionField{"lost_score", &O::lost_score, 0.0, 1.0,
+                      "[-] dense score below which a scan speaks for being somewhere else"});
+    visit(OptionField{"min_elsewhere", &O::min_elsewhere, 0.0, 0.5,
+                      "[-] the weight of somewhere else never falls below this"});
+    visit(OptionField{"relocation_distance", &O::relocation_distance, 0.0, 100.0,
+                      "[m] travel between two relocations while nothing is held"});
+    visit(OptionField{"confirmation_distance", &O::confirmation_distance, 0.0, 1000.0,
+                      "[m] travel between two relocations while one pose is held"});
+    visit(OptionField{"score_drop", &O::score_drop, 0.01, 1.0,
+                      "[-] fall of the score below its running mean that calls for a relocation"});
+    visit(OptionField{
+        "suspicion", &O::suspicion, 0.0, 1.0,
+        "[-] weight of somewhere else when relocation finds the robot far from all tracks"});
+    visit(OptionField{"confirmation", &O::confirmation, 0.0, 20.0,
+                      "[-] log-odds of standing in the map that a localized hypothesis must have"});
+    visit(OptionField{"free_motion_sigma", &O::free_motion_sigma, 0.001, 10.0,
+                      "[m] standard deviation of a step without odometry"});
+    visit(OptionField{"free_turn_sigma", &O::free_turn_sigma, 0.001, 3.0,
+                      "[rad] standard deviation of the turn of a step without odometry"});
+  }
+};
+}  // namespace sigloc

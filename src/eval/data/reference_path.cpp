@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "eval/data/reference_path.h"
+
+#include <mrpt/maps/CSimplePointsMap.h>
+#include <mrpt/poses/CPosePDFGaussian.h>
+#include <mrpt/slam/CICP.h>
+
+#include <algorithm>
+#include <fstream>
+#include <stdexcept>
+
+#include "config/fixed_number.h"
+#include "sigloc/io/file_output.h"
+#include "sigloc/io/map_files.h"
+#include "sigloc/io/RawlogReader.h"
+
+namespace sigloc
+{
+using mrpt::math::TPose2D;
+
+namespace
+{
+constexpr const char* kHead = "# sigloc-eval reference: time x y phi";
+
+void addPoints(const LaserScan& scan, const TPose2D& frame, mrpt::maps::CSimplePointsMap& points)
+{
+  const TPose2D frame_from_sensor = frame + scan.robot_from_sensor;
+  for (std::size_t i = 0; i < scan.ranges.size(); ++i)
+  {
+    if (scan.valid[i] == 0) continue;
+    const double angle = scan.first_angle + static_cast<double>(i) * scan.angle_step;
+    const auto end = frame_from_sensor.composePoint(
+        {scan.ranges[i] * std::cos(angle), scan.ranges[i] * std::sin(angle)});
+    points.insertPoint(static_cast<float>(end.x), static_cast<float>(end.y));
+  }
+}
+
+mrpt::maps::CSimplePointsMap mapPoints(const std::filesystem::path& path)
+{
+  const MapSource source = readMapSource(path);
+  const auto* scans = std::get_if<std::vector<PosedScans>>(&source);
+  if (!scans) throw std::runtime_error(path.string() + ": holds no scans with poses");
+  mrpt::maps::CSimplePointsMap points;
+  for (const PosedScans& posed : *scans)
+  {
+    for (const LaserScan& scan : posed.scans) addPoints(scan, posed.map_from_robot, points);
+  }
+  return points;
+}
+
+std::vector<RawlogStep> readSteps(const std::filesystem::path& path)
+{
+  std::vector<RawlogStep> steps;
+  RawlogReader reader(path);
+  while (auto step = reader.next())
+  {
+    if (step->scans.empty()) continue;
+    if (!steps.empty() && !step->motion)
+    {
+      throw std::runtime_error(path.string() + ": has no odometry to follow");
+    }
+    steps.push_back(std::move(*step));
+  }
+  if (reader.truncated())
+    throw std::runtime_error(path.string() + ": truncated, its end is missing");
+  if (steps.empty()) throw std::runtime_error(path.string() + ": holds no scan");
+  return steps;
+}
+
+mrpt::slam::CICP alignment()
+{
+  mrpt::slam::CICP icp;
+  icp.options.maxIterations = 200;
+  icp.options.thresholdDist = 0.5;  // [m], shrinks as it converges
+  icp.options.smallestThresholdDist = 0.05;
+  icp.options.thresholdAng = 0.05F;  // [rad]
+  icp.options.ALFA = 0.7;
+  icp.options.corresponding_points_decimation = 1;
+  icp.options.doRANSAC = false;
+  return icp;
+}
+}  // namespace
+
+ReferencePath referencePath(const std::filesystem::path& map, const std::filesystem::path& rawlog,
+                            const TPose2D& last)
+{
+  const mrpt::maps::CSimplePointsMap map_points = mapPoints(map);
+  const std::vector<RawlogStep> steps = readSteps(rawlog);
+  mrpt::slam::CICP icp = alignment();
+  ReferencePath reference;
+  reference.poses.resize(steps.size());
+  TPose2D guess = last;
+  // Less, and the scan was laid where nothing of it is mapped, or where it does not belong.
+  constexpr double kLeastPaired = 0.3;
+  for (std::size_t i = steps.size(); i-- > 0;)
+  {
+    mrpt::maps::CSimplePointsMap seen;
+    for (const LaserScan& scan : steps[i].scans) addPoints(scan, {}, seen);
+    mrpt::slam::CICP::TReturnInfo info;
+    const mrpt::poses::CPosePDFGaussian start{mrpt::poses::CPose2D(guess)};
+    const TPose2D found = icp.AlignPDF(&map_points, &seen, start, info)->getMeanVal().asTPose();
+    reference.poses[i] = {steps[i].time, found};
+    if (info.goodness < kLeastPaired)
+    {
+      throw std::runtime_error(
+          rawlog.string() + ": only " + fixedNumber(100 * double{info.goodness}, 0) +
+          " % of the scan of step " + std::to_string(i) +
+          " lie on the map: the last pose is wrong, or the way leaves the map");
+    }
+    reference.worst_goodness = std::min(reference.worst_goodness, double{info.goodness});
+    // pose(i) = pose(i - 1) + motion(i)
+    if (i > 0) guess = found + (TPose2D{} - steps[i].motion->mean);
+  }
+  return reference;
+}
+
+void checkReferenceFile(const std::filesystem::path& path)
+{
+  std::error_code unnameable;
+  if (!std::filesystem::exists(path, unnameable)) return;
+  if (std::filesystem::is_directory(path))
+    throw std::runtime_error(path.string() + ": is a folder");
+  std::string head;
+  std::ifstream file(path);
+  std::getline(file, head);
+  if (head == kHead) return;
+  throw std::runtime_error(path.string() +
+                           ": exists, and is no reference of an earlier run; not overwritten");
+}
+
+void writeReferencePath(const ReferencePath& reference, const std::filesystem::path& path)
+{
+  std::string text = std::string(kHead) + "\n";
+  for (const ReferencePose& pose : reference.poses)
+  {
+    text += fixedNumber(pose.time, 6) + " " + fixedNumber(pose.map_from_robot.x, 4) + " " +
+            fixedNumber(pose.map_from_robot.y, 4) + " " + fixedNumber(pose.map_from_robot.phi, 5) +
+            "\n";
+  }
+  writeFile(path, text);
+}
+}  // namespace sigloc

@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "eval/data/evaluation_data.h"
+#include "eval/methods/RelocationMethod.h"
+#include "sigloc/io/RawlogReader.h"
+
+namespace sigloc
+{
+/// What a method claims after a step. Plain data: worker processes send it as bytes.
+struct TrackClaim
+{
+  static constexpr std::size_t kWeights = 4;
+
+  bool confident = false;
+  bool has_pose = false;
+  mrpt::math::TPose2D pose;  ///< map_from_robot, where has_pose
+  bool belief = false;  ///< the method tells weighted Gaussians: the fields below are filled
+  Verdict verdict = Verdict::too_little_seen;
+  std::uint32_t hypotheses = 0;  ///< alive
+  std::array<double, kWeights> weights{};  ///< of the heaviest hypotheses, heaviest first
+  double elsewhere = 1;  ///< weight of "somewhere else"
+  std::array<double, 9> covariance{};  ///< of `pose`, row by row
+};
+
+/// The claimed pose with its covariance, zero where the claim has none.
+GaussianPose poseOf(const TrackClaim& claim);
+
+/// Returns the squared Mahalanobis distance of a claimed pose, heading wrapped, from the truth
+/// (3 degrees of freedom); NaN where the claim has no covariance.
+double squaredNormalisedError(const TrackClaim& claim, const mrpt::math::TPose2D& truth);
+
+/// A claim and what it took, one thread.
+struct TimedClaim
+{
+  TrackClaim claim;
+  double time_ms = 0;
+};
+
+/// A way of finding and following a robot, lost at first. One object a run.
+class TrackingMethod
+{
+ public:
+  virtual ~TrackingMethod() = default;
+  /// Returns a claim for every step of a drive. Called once.
+  virtual std::vector<TimedClaim> drive(const std::vector<RawlogStep>& steps) = 0;
+};
+
+/// A method that takes step by step.
+class SteppedTracking : public TrackingMethod
+{
+ public:
+  virtual TrackClaim step(const RawlogStep& step) = 0;
+  /// Times are CPU times.
+  std::vector<TimedClaim> drive(const std::vector<RawlogStep>& steps) final;
+};
+
+/// What all runs of a method share: built once from the map, then asked for one run after another.
+class TrackingMethodFactory
+{
+ public:
+  virtual ~TrackingMethodFactory() = default;
+  /// A run lost anywhere in the map. Deterministic in the seed.
+  virtual std::unique_ptr<TrackingMethod> start(std::uint32_t seed) const = 0;
+  /// True when runs draw on a generator that the process shares, so that each needs its own.
+  virtual bool needsOwnProcess() const { return false; }
+};
+
+/// Names that `makeTrackingMethod` knows: `signature`, `signature-mcl` (MRPT's filter, started and
+/// recovered by signatures), `mcl` in three settings, and `mcl-stock`, the pf-localization program.
+std::vector<std::string> trackingMethodNames();
+
+/// Throws std::invalid_argument for a name that `makeTrackingMethod` does not know.
+void checkTrackingMethods(const std::vector<std::string>& names);
+
+/// Throws std::invalid_argument for an unknown name or a map without what the method needs.
+std::unique_ptr<TrackingMethodFactory> makeTrackingMethod(const std::string& name,
+                                                          const EvaluationMap& map,
+                                                          const RelocationMethodOptions& options);
+
+namespace detail
+{
+/// MRPT's filter: `mcl` with the options that pf-localization ships, `mcl-fixed` with 40 000
+/// particles throughout, `mcl-tuned` with as many particles as the place needs, up to 200 000.
+std::unique_ptr<TrackingMethodFactory> makeMonteCarlo(const std::string& name,
+                                                      const EvaluationMap& map,
+                                                      const RelocationMethodOptions& options);
+
+/// The stock program pf-localization with the options of `mcl`, a process a run. It seeds itself:
+/// its claims differ from run to run, and its times are those that it tells, by the clock.
+std::unique_ptr<TrackingMethodFactory> makeStockMonteCarlo(const EvaluationMap& map,
+                                                           const RelocationMethodOptions& options);
+}  // namespace detail
+}  // namespace sigloc

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mrpt/maps/CMultiMetricMap.h>
+#include <mrpt/math/CMatrixFixed.h>
+#include <mrpt/obs/CActionCollection.h>
+#include <mrpt/poses/CPose2D.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "eval/methods/TrackingMethod.h"
+
+namespace sigloc
+{
+/// Least noise of a step's odometry.
+struct OdometryNoise
+{
+  double sigma = 0.10;  ///< [m]
+  double angle_deg = 2.0;
+};
+
+/// What the settings of MRPT's filter differ in. The defaults are those of the configuration that
+/// pf-localization ships, localization_demo.ini.
+struct MonteCarloSettings
+{
+  std::uint32_t particles = 40000;  ///< at the start
+  bool adaptive = true;
+  std::uint32_t kld_minimum = 150;
+  std::uint32_t kld_maximum = 40000;
+  double kld_bin = 0.10;  ///< [m]
+  OdometryNoise dummy_odometry;  ///< of logs of observations only
+  /// Takes the place of what a log says of its motion; none: the log's own model, as the stock
+  /// program does.
+  std::optional<OdometryNoise> own_odometry;
+  std::optional<PoseRegion> region;
+};
+
+/// Returns the settings of `mcl` and `mcl-stock` (shipped), `mcl-fixed` or `mcl-tuned`, the latter
+/// for a place with that much free area [m^2]. Throws std::invalid_argument for another name.
+MonteCarloSettings monteCarloSettings(const std::string& name, double free_area,
+                                      const RelocationMethodOptions& options);
+
+/// Returns the free area of a map's raster [m^2].
+double freeAreaOf(const EvaluationMap& map);
+
+/// Returns the settings as text in the form of pf-localization's configuration: its sections for
+/// KLD, filter, odometry and map, but not the one that names files.
+std::string toIni(const MonteCarloSettings& settings);
+
+/// Returns the bounds in which particles start, all of the plane without a region.
+PoseRegion startRegionOf(const MonteCarloSettings& settings);
+
+/// Returns the map that pf-localization makes of the same file with the configuration `ini`; for
+/// kinds of files that it does not read, and maps without a file, the raster's cells. A grid file's
+/// own likelihood options, which the stock program takes over unasked, don't count.
+mrpt::maps::CMultiMetricMap::Ptr localizationMapOf(const EvaluationMap& map,
+                                                   const std::string& ini);
+
+/// True when pf-localization itself can be given the map's file: a simplemap.
+bool isSimplemap(const std::filesystem::path& file);
+
+/// Returns the action of a step as pf-localization has it: the log's own, or made of the odometry
+/// increment with the settings' noise.
+mrpt::obs::CActionCollection actionsOf(const RawlogStep& step, const MonteCarloSettings& settings);
+
+/// Judges when MRPT's filter is sure of itself, the same for every setting.
+class TightCloud
+{
+ public:
+  /// Returns the claim of one more step.
+  TrackClaim claim(const mrpt::poses::CPose2D& mean, const mrpt::math::CMatrixDouble33& covariance);
+
+ private:
+  int tight_steps_ = 0;
+};
+}  // namespace sigloc

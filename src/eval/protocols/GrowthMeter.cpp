@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "eval/protocols/GrowthMeter.h"
+
+#include <malloc.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "config/fixed_number.h"
+#include "eval/methods/feature_methods.h"
+#include "eval/process/cpu_time.h"
+#include "sigloc/config/plural.h"
+
+namespace sigloc::detail
+{
+namespace
+{
+/// Memory that this process has allocated and not freed [bytes].
+double heapBytes()
+{
+  const struct mallinfo2 heap = mallinfo2();
+  return static_cast<double>(heap.uordblks + heap.hblkhd);
+}
+}  // namespace
+
+void checkThinning(const std::vector<std::size_t>& counts, std::size_t most)
+{
+  for (const std::size_t count : counts)
+  {
+    if (count == 0 || count > most)
+    {
+      throw std::invalid_argument("--observed " + std::to_string(count) + ": not from 1 to the " +
+                                  std::to_string(most) + " features that are seen at a place");
+    }
+  }
+}
+
+GrowthMeter::GrowthMeter(std::string method, std::size_t wanted, std::size_t keep_failures)
+    : keep_failures_(keep_failures)
+{
+  row_.method = std::move(method);
+  row_.wanted = wanted;
+}
+
+std::unique_ptr<FeatureHypothesisGenerator> GrowthMeter::build(const FeatureMap& map,
+                                                               const GeneratorOptions& options)
+{
+  const auto features = static_cast<double>(map.features().size());
+  const double memory_before = heapBytes();
+  const double start = threadCpuSeconds();
+  auto generator = makeFeatureMethod(row_.method, map, options);
+  build_seconds_ += threadCpuSeconds() - start;
+  bytes_per_feature_ += (heapBytes() - memory_before) / features + sizeof(Feature);
+  map_features_ += features;
+  maps_ += 1;
+  return generator;
+}
+
+void GrowthMeter::ask(const FeatureHypothesisGenerator& generator, const GrowthScene& scene,
+                      const std::function<bool(const FeatureHypothesis& first)>& is_right)
+{
+  const double before = threadCpuSeconds();
+  const std::vector<FeatureHypothesis> found = generator.generate(scene.observed, counters_);
+  row_.each_ms.push_back(1e3 * (threadCpuSeconds() - before));
+  observed_ += static_cast<double>(scene.observed.size());
+  ++row_.success.cases;
+  if (!found.empty() && is_right(found.front()))
+  {
+    ++row_.success.count;
+    const PoseError error = poseError(found.front().pose.mean, scene.truth);
+    row_.right_errors_m.push_back(error.distance);
+    row_.right_errors_deg.push_back(error.angle_deg);
+  }
+  else if (row_.failures.size() < keep_failures_)
+  {
+    row_.failures.push_back(
+        featureFailure(row_.method, scene.map, scene.name, scene.observed, scene.truth, found));
+  }
+}
+
+std::string progressLine(const ScaleRow& row)
+{
+  return row.method + ": " + counted(row.map_features, "feature") + ", " +
+         fixedNumber(row.observed, 1) + " observed, " + fixedNumber(row.time_ms.median, 3) + " ms";
+}
+
+ScaleRow GrowthMeter::row() const
+{
+  ScaleRow row = row_;
+  const double scenes = std::max<double>(1, static_cast<double>(row_.each_ms.size()));
+  const double maps = std::max(1.0, maps_);
+  row.map_features = static_cast<std::size_t>(std::lround(map_features_ / maps));
+  row.build_seconds = build_seconds_ / maps;
+  row.bytes_per_feature = bytes_per_feature_ / maps;
+  row.observed = observed_ / scenes;
+  row.signature_pairs = static_cast<double>(counters_.signature_pairs) / scenes;
+  row.hypotheses = static_cast<double>(counters_.hypotheses) / scenes;
+  row.checks = static_cast<double>(counters_.checks) / scenes;
+  row.cut_short = counters_.cut_short;
+  row.time_ms = quantilesOf(row_.each_ms);
+  return row;
+}
+}  // namespace sigloc::detail

@@ -1,0 +1,175 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "eval/protocols/reliability.h"
+
+#include <mrpt/math/wrap2pi.h>
+#include <mrpt/obs/CObservation2DRangeScanWithUncertainty.h>
+#include <mrpt/poses/CPosePDFGaussian.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <mutex>
+#include <optional>
+#include <stdexcept>
+
+#include "eval/data/evaluation_data.h"
+#include "eval/data/occupancy_grid.h"
+#include "eval/process/run_parallel.h"
+#include "eval/worlds/robot_simulation.h"
+#include "eval/worlds/simulation_files.h"
+#include "eval/worlds/world_generators.h"
+#include "matching/candidate_probabilities.h"
+#include "matching/dense/DenseVerifier.h"
+#include "sigloc/features/observe_scans.h"
+#include "sigloc/matching/SignatureMatcher.h"
+
+namespace sigloc
+{
+namespace
+{
+using mrpt::maps::COccupancyGridMap2D;
+using mrpt::math::TPose2D;
+
+constexpr double kClearance = 0.35;  // [m]
+constexpr double kMapSpacing = 1.2;  // [m] between the mapping scans
+constexpr std::size_t kBeams = 180;  // that a tracker judges a pose by
+constexpr double kTrackSigma = 0.05;  // [m] of a pose that a tracker predicts
+constexpr double kTrackTurnSigma = 0.02;  // [rad]
+constexpr int kRefineSteps = 6;
+constexpr std::uint64_t kPoseStream = 600;  // of the random numbers, see Random
+
+/// One simulated building, mapped, and what asks about scans in it.
+class MappedWorld
+{
+ public:
+  MappedWorld(WorldKind kind, std::uint64_t seed)
+      : world_(makeWorld(kind, {}, seed)),
+        space_(world_, kClearance),
+        map_(evaluationMapFromScans(
+            simulateMapping(world_, kMapSpacing, kClearance, LaserOptions(), seed))),
+        matcher_(map_.features),
+        grid_(detail::occupancyGridOf(rasterOf(*map_.features->field()))),
+        random_(seed, kPoseStream)
+  {
+  }
+
+  /// A scan asked about at its own pose and at a look-alike; none where there is no look-alike.
+  std::optional<std::pair<ReliabilityCase, ReliabilityCase>> ask(double clutter);
+
+ private:
+  ReliabilityCase judge(const LaserScan& scan, const DenseScan& dense, const TPose2D& pose,
+                        const TPose2D& truth) const;
+  double mrptsMeasure(const LaserScan& scan, const GaussianPose& pose) const;
+
+  World world_;
+  FreeSpace space_;
+  EvaluationMap map_;
+  SignatureMatcher matcher_;
+  COccupancyGridMap2D::Ptr grid_;
+  Random random_;
+};
+
+std::optional<std::pair<ReliabilityCase, ReliabilityCase>> MappedWorld::ask(double clutter)
+{
+  LaserOptions laser;
+  laser.clutter_share = clutter;
+  const auto place = space_.randomPlace(random_);
+  const TPose2D truth(place.x, place.y, random_.uniform(-M_PI, M_PI));
+  const LaserScan scan = LaserSimulator(world_, laser).scan(truth, random_);
+  const TPose2D predicted(truth.x + kTrackSigma * random_.normal(),
+                          truth.y + kTrackSigma * random_.normal(),
+                          mrpt::math::wrapToPi(truth.phi + kTrackTurnSigma * random_.normal()));
+  const ObservedScene scene = observeScene({scan});
+  const DenseScan dense = makeDenseScan(scene, kBeams);
+
+  std::vector<TPose2D> look_alikes;
+  for (const Candidate& candidate : matcher_.localize(scene).candidates)
+  {
+    const PoseError error = poseError(candidate.pose.mean, truth);
+    if (judgeClaim(error, {}) == Claim::wrong) look_alikes.push_back(candidate.pose.mean);
+  }
+  const std::size_t chosen = look_alikes.empty() ? 0 : random_.index(look_alikes.size());
+  if (look_alikes.empty()) return std::nullopt;
+  const TPose2D held = matcher_.verifier()->refine(dense, predicted, kRefineSteps, dense.size());
+  auto right = judge(scan, dense, held, truth);
+  auto wrong = judge(scan, dense, look_alikes[chosen], truth);
+  if (!isRight(right.error, {})) return std::nullopt;
+  right.right = true;
+  right.clutter = wrong.clutter = clutter;
+  return std::make_pair(right, wrong);
+}
+
+ReliabilityCase MappedWorld::judge(const LaserScan& scan, const DenseScan& dense,
+                                   const TPose2D& pose, const TPose2D& truth) const
+{
+  const DenseVerifier& verifier = *matcher_.verifier();
+  ReliabilityCase judged;
+  judged.error = poseError(pose, truth);
+  judged.signature = reliabilityOf(verifier.evaluate(dense, pose));
+  judged.mrpt = mrptsMeasure(
+      scan, withCommonError({pose, verifier.covarianceAt(dense, pose)}, map_.features->error()));
+  return judged;
+}
+
+/// As pf-localization computes it with DO_RELIABILITY_ESTIMATE, and never uses it.
+double MappedWorld::mrptsMeasure(const LaserScan& scan, const GaussianPose& pose) const
+{
+  const auto observed = toRangeScan(scan, 0);
+  COccupancyGridMap2D::TLaserSimulUncertaintyParams simulation;
+  simulation.method = COccupancyGridMap2D::sumUnscented;
+  simulation.robotPose.mean = mrpt::poses::CPose2D(pose.mean);
+  simulation.robotPose.cov = pose.covariance;
+  simulation.aperture = observed->aperture;
+  simulation.rangeNoiseStd = observed->stdError;
+  simulation.nRays = observed->getScanSize();
+  simulation.rightToLeft = observed->rightToLeft;
+  simulation.sensorPose = observed->sensorPose;
+  simulation.maxRange = observed->maxRange;
+  COccupancyGridMap2D::TLaserSimulUncertaintyResult expected;
+  grid_->laserScanSimulatorWithUncertainty(simulation, expected);
+  return expected.scanWithUncert.evaluateScanLikelihood(*observed, {});
+}
+}  // namespace
+
+ReliabilityReport runReliability(const ReliabilityOptions& options)
+{
+  if (options.worlds == 0 || options.poses == 0 || options.clutter.empty())
+  {
+    throw std::invalid_argument("reliability needs worlds, poses and shares of clutter");
+  }
+  constexpr WorldKind kKinds[] = {WorldKind::office, WorldKind::corridor, WorldKind::hall};
+  std::vector<std::vector<ReliabilityCase>> of_world(options.worlds);
+  std::atomic<std::size_t> skipped{0};
+  std::atomic<std::size_t> done{0};
+  std::mutex mutex;
+  runParallel(options.worlds, options.threads,
+              [&](std::size_t i)
+              {
+                MappedWorld world(kKinds[i % std::size(kKinds)], options.seed * 1000003U + i);
+                for (const double clutter : options.clutter)
+                {
+                  for (std::uint32_t k = 0; k < options.poses; ++k)
+                  {
+                    const auto pair = world.ask(clutter);
+                    if (!pair) ++skipped;
+                    if (!pair) continue;
+                    of_world[i].push_back(pair->first);
+                    of_world[i].push_back(pair->second);
+                  }
+                }
+                for (ReliabilityCase& judged : of_world[i]) judged.world = i;
+                const double share = static_cast<double>(++done) / options.worlds;
+                const std::lock_guard<std::mutex> lock(mutex);
+                if (options.progress) options.progress("worlds", share);
+              });
+  ReliabilityReport report;
+  for (const auto& cases : of_world)
+  {
+    report.cases.insert(report.cases.end(), cases.begin(), cases.end());
+  }
+  report.skipped = skipped;
+  report.provenance = {options.command, options.seed, {}};
+  return report;
+}
+}  // namespace sigloc

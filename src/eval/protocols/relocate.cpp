@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "eval/protocols/relocate.h"
+
+#include <algorithm>
+#include <limits>
+#include <mutex>
+#include <stdexcept>
+
+#include "eval/data/method_names.h"
+#include "eval/process/cpu_time.h"
+#include "eval/process/run_parallel.h"
+
+namespace sigloc
+{
+namespace
+{
+double nsPerLookup(const RelocationMethod& method, const std::vector<RelocationRecord>& records)
+{
+  double lookups = 0;
+  double milliseconds = 0;
+  for (const RelocationRecord& record : records)
+  {
+    lookups += static_cast<double>(record.poses_scored) * method.lookupsPerPose();
+    milliseconds += record.time_ms;
+  }
+  return lookups > 0 ? 1e6 * milliseconds / lookups : std::numeric_limits<double>::quiet_NaN();
+}
+
+RelocateMethodReport runMethod(const std::string& name, const EvaluationData& data,
+                               const RelocateOptions& options)
+{
+  RelocateMethodReport report;
+  report.name = name;
+  resetPeakMemory();
+  const double before = threadCpuSeconds();
+  const auto method = makeRelocationMethod(name, data.map, options.method);
+  report.prepare_seconds = threadCpuSeconds() - before;
+  const auto done = [&](std::size_t count)
+  {
+    if (!options.progress) return;
+    options.progress(name, static_cast<double>(count) / static_cast<double>(data.queries.size()));
+  };
+  report.records = askQueries(*method, data.queries, options.gates, options.threads, done);
+  report.summary = summarize(report.records, options.gates);
+  report.summary.ns_per_lookup = nsPerLookup(*method, report.records);
+  report.summary.peak_rss_mb = peakMemoryMb();
+  report.failures =
+      collectFailures(name, *method, data.map, data.queries, report.records, options.keep_failures);
+  return report;
+}
+}  // namespace
+
+std::vector<RelocationRecord> askQueries(const RelocationMethod& method,
+                                         const std::vector<EvaluationQuery>& queries,
+                                         const AccuracyGates& gates, std::uint32_t threads,
+                                         const std::function<void(std::size_t)>& done)
+{
+  std::vector<RelocationRecord> records(queries.size());
+  std::size_t answered = 0;
+  std::mutex mutex;
+  const auto ask = [&](std::size_t i)
+  {
+    const EvaluationQuery& query = queries[i];
+    const double start = threadCpuSeconds();
+    const RelocationResult answer = method.localize(query.scans);
+    const double time = threadCpuSeconds() - start;
+    records[i] =
+        judgeRelocation(query, answer, method.claimsVerdict(), method.propose(query.scans), gates);
+    records[i].time_ms = 1e3 * time;
+    const std::lock_guard<std::mutex> lock(mutex);
+    done(++answered);
+  };
+  runParallel(queries.size(), threads, ask);
+  return records;
+}
+
+void checkRelocationMethods(const std::vector<std::string>& names)
+{
+  checkMethodNames(names, relocationMethodNames());
+}
+
+RelocateReport runRelocate(const RelocateOptions& options)
+{
+  checkRelocationMethods(options.methods);
+  RelocateReport report;
+  report.provenance.command = options.command;
+  report.provenance.seed = options.method.seed;
+  for (const auto& path : {options.sources.map, options.sources.queries, options.sources.rawlog,
+                           options.sources.ground_truth})
+  {
+    if (!path.empty()) report.provenance.data_files.push_back(path);
+  }
+  const EvaluationData data = readEvaluationData(options.sources);
+  report.map.add(*data.map.features, data.map.build_seconds);
+  report.without_truth = data.without_truth;
+  report.complete = data.complete;
+  report.foreign = options.sources.foreign;
+  for (const std::string& name : options.methods)
+  {
+    report.methods.push_back(runMethod(name, data, options));
+  }
+  return report;
+}
+}  // namespace sigloc

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "eval/reports/query_plots.h"
+
+#include <algorithm>
+
+namespace sigloc::detail
+{
+std::vector<std::pair<std::string, Plot>> lookPlots(const std::vector<LookCurve>& curves,
+                                                    const std::string& timed)
+{
+  Plot errors{"Error of the first candidate",
+              "distance from the truth [m]",
+              "share of queries",
+              true,
+              false,
+              {}};
+  Plot times{timed, "CPU time [ms]", "share of queries", true, false, {}};
+  for (const LookCurve& curve : curves)
+  {
+    std::vector<double> distances;
+    for (const double error : curve.errors_m)
+    {
+      // A logarithmic axis has no zero: a millimetre stands for less.
+      if (error >= 0) distances.push_back(std::max(0.001, error));
+    }
+    errors.series.push_back(cumulativeShare(curve.title, distances, curve.errors_m.size()));
+    times.series.push_back(cumulativeShare(curve.title, curve.times_ms, curve.times_ms.size()));
+  }
+  return {{"errors.png", errors}, {"times.png", times}};
+}
+}  // namespace sigloc::detail

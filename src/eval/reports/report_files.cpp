@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "eval/reports/report_files.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iomanip>
+#include <set>
+#include <stdexcept>
+
+#include "config/fixed_number.h"
+#include "config/TextStream.h"
+#include "eval/data/folder_output.h"
+#include "sigloc/io/file_output.h"
+
+namespace sigloc
+{
+namespace
+{
+constexpr const char* kReportTool = "sigloc-eval";
+
+/// The provenance as a Markdown list.
+std::string provenanceSection(const nlohmann::ordered_json& provenance)
+{
+  TextStream out;
+  for (const auto& [key, value] : provenance.items())
+  {
+    if (key == "data") continue;
+    out << "* " << key << ": `" << (value.is_string() ? value.get<std::string>() : value.dump())
+        << "`\n";
+  }
+  for (const auto& file : provenance.at("data"))
+  {
+    out << "* data: `" << file.at("file").get<std::string>() << "`, MD5 `"
+        << file.at("md5").get<std::string>() << "`\n";
+  }
+  return out.str();
+}
+
+/// Writes all files of a report into a folder that exists.
+void writeFiles(const RunReport& report, const std::filesystem::path& folder)
+{
+  nlohmann::ordered_json summary = report.summary;
+  summary["provenance"] = toJson(report.provenance);
+  writeFile(folder / "results.csv", report.results);
+  for (const auto& [file, content] : report.tables) writeFile(folder / file, content);
+  writeFile(folder / "summary.json", summary.dump(2) + "\n");
+  std::string text = report.text;
+  for (const auto& [file, plot] : report.plots)
+  {
+    if (drawPlot(plot, folder / file)) text += "\n![" + plot.title + "](" + file + ")\n";
+  }
+  text += report.notes + "\n## Provenance\n\n" + provenanceSection(summary["provenance"]);
+  writeFile(folder / "report.md", text);
+}
+
+bool isReportFile(const std::string& name)
+{
+  static const std::set<std::string> kNames = {"summary.json", "results.csv", "runs.csv",
+                                               "report.md", "failures"};
+  return kNames.count(name) > 0 || std::filesystem::path(name).extension() == ".png";
+}
+
+/// Whether sigloc-eval wrote the folder's summary.
+bool isReportFolder(const std::filesystem::path& folder)
+{
+  std::ifstream file(folder / "summary.json");
+  const auto summary = nlohmann::json::parse(file, nullptr, false);
+  const nlohmann::json::json_pointer command("/provenance/command");
+  if (!summary.is_object() || !summary.contains(command)) return false;
+  const auto& line = summary.at(command);
+  return line.is_string() && line.get<std::string>().rfind(kReportTool, 0) == 0;
+}
+}  // namespace
+
+void checkWritableFolder(const std::filesystem::path& folder)
+{
+  if (folder.empty()) throw std::runtime_error("the name of the folder to write to is empty");
+  auto existing = std::filesystem::absolute(folder).lexically_normal();
+  std::error_code error;
+  while (existing.has_relative_path() && !std::filesystem::exists(existing, error))
+  {
+    existing = existing.parent_path();
+  }
+  if (!std::filesystem::is_directory(existing, error))
+  {
+    throw std::runtime_error(folder.string() + ": " + existing.string() + " is no folder");
+  }
+  if (access(existing.c_str(), W_OK | X_OK) != 0)
+  {
+    throw std::runtime_error(folder.string() + ": no right to write into " + existing.string());
+  }
+}
+
+void checkReportFolder(const std::filesystem::path& folder,
+                       const std::vector<std::filesystem::path>& inputs)
+{
+  checkWritableFolder(folder);
+  checkOutputFolder(folder, {isReportFile, isReportFolder, kReportTool}, inputs);
+}
+
+std::string withInterval(const Proportion& proportion)
+{
+  if (proportion.cases == 0) return "-";
+  return fixedNumber(proportion.value(), 3) + " (" + fixedNumber(proportion.low(), 2) + "-" +
+         fixedNumber(proportion.high(), 2) + ")";
+}
+
+nlohmann::ordered_json toJson(const Quantiles& quantiles)
+{
+  return {{"median", quantiles.median}, {"p95", quantiles.p95}, {"mean", quantiles.mean}};
+}
+
+void addProportion(nlohmann::ordered_json& object, const std::string& name,
+                   const Proportion& proportion)
+{
+  object[name] = proportion.value();
+  object[name + "_counts"] = {proportion.count, proportion.cases};
+  object[name + "_interval"] = nullptr;
+  if (proportion.cases > 0)
+  {
+    object[name + "_interval"] =
+        nlohmann::ordered_json::array({proportion.low(), proportion.high()});
+  }
+}
+
+std::string markdownTable(const std::vector<std::vector<std::string>>& rows)
+{
+  std::vector<std::size_t> widths;
+  for (const auto& row : rows)
+  {
+    widths.resize(std::max(widths.size(), row.size()), 3);
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+  }
+  TextStream out;
+  for (std::size_t r = 0; r < rows.size(); ++r)
+  {
+    out << "|";
+    for (std::size_t i = 0; i < widths.size(); ++i)
+    {
+      const std::string cell = i < rows[r].size() ? rows[r][i] : "";
+      out << " " << cell << std::string(widths[i] - cell.size(), ' ') << " |";
+    }
+    out << "\n";
+    if (r > 0) continue;
+    out << "|";
+    for (const std::size_t width : widths) out << std::string(width + 2, '-') << "|";
+    out << "\n";
+  }
+  return out.str();
+}
+
+void writeRunReport(const RunReport& report, const std::filesystem::path& folder)
+{
+  fillFolder(folder, [&](const std::filesystem::path& part) { writeFiles(report, part); });
+}
+}  // namespace sigloc

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "eval/reports/plot.h"
+#include "eval/scoring/provenance.h"
+#include "eval/scoring/relocation_scoring.h"
+
+namespace sigloc
+{
+/// "0.968 (0.94-0.98)", or "-" without cases.
+std::string withInterval(const Proportion& proportion);
+
+/// {"median", "p95", "mean"}.
+nlohmann::ordered_json toJson(const Quantiles& quantiles);
+
+/// Adds `name`, `name_counts` ([count, cases]) and `name_interval` ([low, high], 95 %) to an
+/// object; share and interval are null without cases.
+void addProportion(nlohmann::ordered_json& object, const std::string& name,
+                   const Proportion& proportion);
+
+/// Rows of cells as a Markdown table, columns aligned; the first row is the head.
+std::string markdownTable(const std::vector<std::vector<std::string>>& rows);
+
+/// What every sub-command leaves behind.
+struct RunReport
+{
+  nlohmann::ordered_json summary;  ///< summary.json, all but the provenance
+  std::string results;  ///< results.csv
+  std::vector<std::pair<std::string, std::string>> tables;  ///< further files: name, content
+  std::string text;  ///< report.md: title and tables
+  std::vector<std::pair<std::string, Plot>> plots;  ///< name of the PNG file, figure
+  std::string notes;  ///< report.md below the plots: what the columns mean, may be empty
+  Provenance provenance;
+};
+
+/// Throws std::runtime_error ("path: reason") unless a folder can be written into, or be made.
+/// Leaves nothing behind: to be asked before hours of work.
+void checkWritableFolder(const std::filesystem::path& folder);
+
+/// Throws std::runtime_error ("path: reason") unless a report can be written into a folder, or
+/// where it could replace one of `inputs` or a file that no earlier run wrote: one of the names of
+/// a report's files, or any PNG, in a folder without the summary.json of one. Other files may lie
+/// there. To be asked before hours of work, too.
+void checkReportFolder(const std::filesystem::path& folder,
+                       const std::vector<std::filesystem::path>& inputs);
+
+/// Writes summary.json, results.csv, further tables, the plots that gnuplot can draw, and report.md
+/// into a folder, making it if need be: all of it or, throwing std::runtime_error ("path: reason"),
+/// nothing.
+void writeRunReport(const RunReport& report, const std::filesystem::path& folder);
+}  // namespace sigloc

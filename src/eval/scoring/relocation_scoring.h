@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "eval/data/evaluation_data.h"
+#include "sigloc/matching/SignatureMatcher.h"
+
+namespace sigloc
+{
+/// How far off an answer may be. \cite evaluation "What counts"
+struct AccuracyGates
+{
+  double right_distance = 0.5;  ///< [m]
+  double right_angle_deg = 10;
+  double tight_angle_deg = 3.6;  ///< with right_distance
+  /// A confident answer farther off than these is confidently wrong; between right and these it is
+  /// inaccurate. The truth of public logs is itself off by up to 0.5 m; in simulation they equal
+  /// the gates of a right answer.
+  double wrong_distance = 1.0;  ///< [m]
+  double wrong_angle_deg = 20;
+};
+
+/// In simulation the truth is exact: a confident answer that is not right is wrong.
+AccuracyGates simulationGates();
+
+/// What a confident answer turned out to be.
+enum class Claim : std::uint8_t
+{
+  none,  ///< not confident
+  right,
+  inaccurate,
+  wrong,
+};
+const char* toString(Claim claim);
+
+/// Distance and heading difference of a pose from the truth.
+struct PoseError
+{
+  double distance = std::numeric_limits<double>::quiet_NaN();  ///< [m]
+  double angle_deg = std::numeric_limits<double>::quiet_NaN();
+};
+PoseError poseError(const mrpt::math::TPose2D& pose, const mrpt::math::TPose2D& truth);
+bool isRight(const PoseError& error, const AccuracyGates& gates);
+/// What a confident claim of a pose is worth; without truth (a foreign map) it is wrong.
+Claim judgeClaim(const std::optional<PoseError>& error, const AccuracyGates& gates);
+
+/// Fewer valid beams than this and a query has seen nothing.
+constexpr std::size_t kBeamsToSee = 10;
+std::size_t countValidBeams(const std::vector<LaserScan>& scans);
+
+/// One query's answer, judged: a row of results.csv.
+struct RelocationRecord
+{
+  std::string query;
+  std::optional<mrpt::math::TPose2D> truth;
+  std::size_t valid_beams = 0;
+  Verdict verdict = Verdict::too_little_seen;
+  double probability = 0;
+  std::optional<mrpt::math::TPose2D> first;  ///< the first candidate
+  double first_score = 0;
+  PoseError error;  ///< of the first candidate
+  std::size_t candidates = 0;
+  std::size_t rank_of_right = 0;  ///< from 1; 0: none of the first ten is right
+  std::optional<bool> proposed;  ///< a right pose was proposed; none: not asked or no truth
+  std::size_t proposals = 0;
+  bool claims_verdict = false;  ///< the method says whether it is sure
+  Claim claim = Claim::none;
+  std::uint64_t poses_scored = 0;
+  bool cut_short = false;  ///< the search ended at its budget, unfinished
+  double time_ms = 0;
+
+  bool sawNothing() const { return valid_beams < kBeamsToSee; }
+};
+
+/// Judges an answer. `proposals` as `RelocationMethod::propose` returns them.
+RelocationRecord judgeRelocation(const EvaluationQuery& query, const RelocationResult& answer,
+                                 bool claims_verdict,
+                                 const std::optional<std::vector<mrpt::math::TPose2D>>& proposals,
+                                 const AccuracyGates& gates);
+
+/// A share with its Wilson 95 % interval; NaN when there are no cases.
+struct Proportion
+{
+  std::size_t count = 0;
+  std::size_t cases = 0;
+  double value() const;
+  double low() const;
+  double high() const;
+};
+
+struct Quantiles
+{
+  double median = std::numeric_limits<double>::quiet_NaN();
+  double p95 = std::numeric_limits<double>::quiet_NaN();
+  double mean = std::numeric_limits<double>::quiet_NaN();
+};
+/// Nearest-rank quantiles; NaN for an empty list.
+Quantiles quantilesOf(std::vector<double> values);
+
+struct RelocationSummary
+{
+  std::size_t queries = 0;
+  std::size_t saw_nothing = 0;  ///< counted in `queries`, left out of the shares
+  bool claims_verdict = false;
+  std::size_t confident = 0;
+  std::size_t confident_right = 0;
+  std::size_t confidently_wrong = 0;
+  std::size_t inaccurate = 0;
+  std::size_t cut_short = 0;  ///< answers of searches that ended at their budget
+  Proportion recall_at_1;
+  Proportion recall_at_1_tight;
+  Proportion recall_at_10;
+  Proportion proposed;
+  double median_error_m = std::numeric_limits<double>::quiet_NaN();  ///< of right answers
+  double median_error_deg = std::numeric_limits<double>::quiet_NaN();  ///< of right answers
+  Quantiles poses_scored;
+  Quantiles proposals;
+  Quantiles time_ms;
+  double ns_per_lookup = std::numeric_limits<double>::quiet_NaN();
+  double peak_rss_mb = 0;
+};
+RelocationSummary summarize(const std::vector<RelocationRecord>& records,
+                            const AccuracyGates& gates);
+}  // namespace sigloc

@@ -1,0 +1,270 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "eval/wakeup/wakeup.h"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <stdexcept>
+
+#include "config/fixed_number.h"
+#include "eval/process/cpu_time.h"
+#include "eval/process/run_parallel.h"
+#include "eval/wakeup/wakeup_drive.h"
+#include "io/GroundTruth.h"
+#include "sigloc/config/plural.h"
+#include "sigloc/io/map_files.h"
+
+namespace sigloc
+{
+namespace
+{
+using detail::TrackDrive;
+using detail::TrackDriveStep;
+using detail::TrackLeg;
+using mrpt::math::TPose2D;
+
+/// A drive in another place than the map: any step may start, and distance is what odometry says.
+TrackDrive readForeignDrive(const std::filesystem::path& rawlog)
+{
+  RawlogReader reader(rawlog);
+  TrackDrive drive;
+  drive.foreign = true;
+  double travelled = 0;
+  while (auto step = reader.next())
+  {
+    if (step->motion) travelled += std::hypot(step->motion->mean.x, step->motion->mean.y);
+    if (step->scans.empty()) continue;
+    TrackDriveStep out;
+    out.travelled = travelled;
+    out.may_start = true;
+    out.step = std::move(*step);
+    drive.steps.push_back(std::move(out));
+  }
+  drive.complete = !reader.truncated();
+  return drive;
+}
+
+// Stamped earlier than a step before it: steps were delayed, and the truth of this one's time is
+// that of another's. Far earlier the clock was set anew.
+bool isStampedLate(double time, double& latest)
+{
+  constexpr double kClockSet = 10.0;  // [s]
+  const bool is_late = time < latest && latest - time < kClockSet;
+  if (!is_late) latest = time;
+  return is_late;
+}
+
+TrackDrive readDrive(const TrackOptions& options, const std::vector<TPose2D>& mapped_poses)
+{
+  const auto truth = GroundTruth::read(options.ground_truth, options.map_from_truth);
+  std::optional<GroundTruth> start_frames;
+  if (!options.start_from.empty()) start_frames = GroundTruth::read(options.start_from);
+  constexpr double kSameScan = 0.5;  // [s] between the log's scan and the key frame
+  RawlogReader reader(options.rawlog);
+  TrackDrive drive;
+  std::optional<TPose2D> last;
+  double travelled = 0;
+  double latest = 0;  // [s]
+  for (std::size_t i = 0; auto step = reader.next(); ++i)
+  {
+    if (step->scans.empty()) continue;
+    TrackDriveStep out;
+    if (!isStampedLate(step->time, latest)) out.truth = truth.at(i, step->time);
+    if (out.truth && last) travelled += std::hypot(out.truth->x - last->x, out.truth->y - last->y);
+    if (out.truth) last = out.truth;
+    out.travelled = travelled;
+    out.mapped = !out.truth || detail::isMapped(*out.truth, mapped_poses);
+    out.may_start = out.truth.has_value() &&
+                    (!start_frames || start_frames->at(i, step->time, kSameScan).has_value());
+    out.step = std::move(*step);
+    drive.steps.push_back(std::move(out));
+  }
+  drive.complete = !reader.truncated();
+  return drive;
+}
+
+detail::LoggedDrive readLog(const TrackOptions& options)
+{
+  if (!options.landmarks.empty())
+  {
+    return detail::readLandmarkDrive(options.landmarks, options.landmark_folder);
+  }
+  detail::LoggedDrive log;
+  log.map = readEvaluationMap(options.map);
+  log.files = {options.map, options.rawlog};
+  if (options.foreign)
+  {
+    log.drive = readForeignDrive(options.rawlog);
+    return log;
+  }
+  log.drive = readDrive(options, log.map.mapped_poses);
+  log.files.push_back(options.ground_truth);
+  if (!options.start_from.empty()) log.files.push_back(options.start_from);
+  return log;
+}
+
+// Summed in another order, the same way has another last digit.
+constexpr double kRounding = 1e-6;  // [m]
+
+constexpr double kLongestStep = 1.0;  // [m] that the way between two allowed starts counts at most
+
+/// A step that the robot may wake up at, and how far along the allowed steps it is.
+struct Place
+{
+  std::size_t step;
+  double way;  // [m]
+};
+
+// Where the log leaves the places that are allowed, the way counts no more: else the last place
+// before would be asked again and again. A robot that stands still is at one place only.
+std::vector<Place> placesOf(const TrackDrive& drive, double travel)
+{
+  std::vector<Place> places;
+  const double last = drive.steps.empty() ? 0 : drive.steps.back().travelled - travel;
+  double way = 0;
+  double before = 0;
+  for (std::size_t i = 0; i < drive.steps.size(); ++i)
+  {
+    const TrackDriveStep& step = drive.steps[i];
+    if (!step.may_start || step.travelled > last + kRounding) continue;
+    if (!places.empty()) way += std::min(step.travelled - before, kLongestStep);
+    before = step.travelled;
+    if (places.empty() || way > places.back().way) places.push_back({i, way});
+  }
+  return places;
+}
+
+// Equally spaced in the distance travelled, so that no luck is chosen; none twice, for what is
+// asked again tells nothing new.
+std::vector<std::size_t> spacedStarts(const std::vector<Place>& places, std::size_t count)
+{
+  std::vector<std::size_t> starts;
+  std::size_t next = 0;
+  for (std::size_t k = 0; k < count; ++k)
+  {
+    const double wanted = places.back().way * static_cast<double>(k) /
+                          static_cast<double>(std::max<std::size_t>(1, count - 1));
+    const auto nearer = [&](const Place& a, const Place& b)
+    { return std::abs(a.way - wanted) < std::abs(b.way - wanted); };
+    // Enough are left over for those to come.
+    const auto first = places.begin() + static_cast<std::ptrdiff_t>(next);
+    const auto end = places.end() - static_cast<std::ptrdiff_t>(count - 1 - k);
+    const auto chosen = std::min_element(first, end, nearer);
+    starts.push_back(chosen->step);
+    next = static_cast<std::size_t>(chosen - places.begin()) + 1;
+  }
+  return starts;
+}
+
+std::vector<std::size_t> startsOf(const TrackDrive& drive, const TrackOptions& options)
+{
+  const std::vector<Place> places = placesOf(drive, options.travel);
+  const auto& path = options.landmarks.empty() ? options.rawlog : options.landmark_folder;
+  const std::string after = fixedNumber(options.travel, 1) + " m of drive after it";
+  if (places.empty())
+  {
+    throw std::runtime_error(path.string() + ": no step" + (options.foreign ? "" : " with truth") +
+                             " has " + after);
+  }
+  if (options.starts > places.size())
+  {
+    throw std::runtime_error("--starts " + std::to_string(options.starts) + ": " + path.string() +
+                             " has only " + counted(places.size(), "place") + " with " + after);
+  }
+  return spacedStarts(places, options.starts);
+}
+
+TrackLeg legFrom(const TrackDrive& drive, std::size_t start, double travel)
+{
+  std::size_t last = start;
+  while (last < drive.steps.size() &&
+         drive.steps[last].travelled - drive.steps[start].travelled <= travel + kRounding)
+  {
+    ++last;
+  }
+  return {&drive, start, last};
+}
+
+/// The way of one wake-up; with `kidnap` carried half-way to the start half the list away.
+std::vector<TrackLeg> legsOf(const TrackDrive& drive, const std::vector<std::size_t>& starts,
+                             std::size_t which, const TrackOptions& options)
+{
+  std::vector<TrackLeg> legs = {legFrom(drive, starts[which], options.travel)};
+  if (options.kidnap)
+  {
+    const std::size_t elsewhere = starts[(which + starts.size() / 2) % starts.size()];
+    legs.push_back(legFrom(drive, elsewhere, options.travel));
+  }
+  return legs;
+}
+
+void check(const TrackOptions& options)
+{
+  if (options.starts == 0) throw std::invalid_argument("--starts must be at least 1");
+  if (!(options.travel >= 0 && std::isfinite(options.travel)))
+  {
+    throw std::invalid_argument("--travel must be a length of at least 0 m");
+  }
+  if (options.kidnap && options.starts < 2)
+  {
+    throw std::invalid_argument("--kidnap carries a robot to another start: --starts 2 or more");
+  }
+  if (options.kidnap && options.foreign)
+  {
+    throw std::invalid_argument("--kidnap: in a foreign map there is nothing to notice");
+  }
+  checkTrackingMethods(options.methods);
+}
+
+/// All wake-ups of one method, in the order of the starts.
+TrackMethodReport runMethod(const std::string& name, const detail::LoggedDrive& log,
+                            const std::vector<std::size_t>& starts, const TrackOptions& options)
+{
+  resetPeakMemory();
+  const auto factory = makeTrackingMethod(name, log.map, options.method);
+  TrackMethodReport method;
+  method.name = name;
+  method.runs.resize(starts.size());
+  std::size_t done = 0;
+  std::mutex mutex;
+  const auto wake_up = [&](std::size_t i)
+  {
+    const std::uint32_t seed =
+        options.method.seed * 1000003U + static_cast<std::uint32_t>(starts[i]);
+    method.runs[i] =
+        detail::runLegs(*factory, legsOf(log.drive, starts, i, options), seed, options.gates);
+    const std::lock_guard<std::mutex> lock(mutex);
+    const double share = static_cast<double>(++done) / static_cast<double>(starts.size());
+    if (options.progress) options.progress(name, share);
+  };
+  runParallel(starts.size(), options.threads, wake_up);
+  method.peak_rss_mb = peakMemoryMb();
+  for (std::size_t i = 0; i < starts.size() && method.failures.size() < options.keep_failures; ++i)
+  {
+    if (!isFailedRun(method.runs[i])) continue;
+    method.failures.push_back(detail::failureOf(
+        method.runs[i], legsOf(log.drive, starts, i, options), name, log.map.features));
+  }
+  return method;
+}
+}  // namespace
+
+TrackReport runTrack(const TrackOptions& options)
+{
+  check(options);
+  const detail::LoggedDrive log = readLog(options);
+  const std::vector<std::size_t> starts = startsOf(log.drive, options);
+  TrackReport report;
+  report.map.add(*log.map.features, log.map.build_seconds);
+  report.complete = log.drive.complete;
+  report.foreign = options.foreign;
+  report.gates = options.gates;
+  report.provenance = {options.command, options.method.seed, log.files};
+  for (const std::string& name : options.methods)
+  {
+    report.methods.push_back(runMethod(name, log, starts, options));
+  }
+  return report;
+}
+}  // namespace sigloc

@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "eval/wakeup/wakeup_drive.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "eval/process/cpu_time.h"
+#include "eval/wakeup/own_process.h"
+
+namespace sigloc::detail
+{
+namespace
+{
+void judge(const TrackDriveStep& step, bool foreign, const AccuracyGates& gates,
+           TrackStepRecord& record)
+{
+  const TrackClaim& claim = record.claim;
+  record.mapped = step.mapped;
+  if (foreign)
+  {
+    if (claim.confident) record.judged = Claim::wrong;
+    return;
+  }
+  if (!step.truth || !claim.has_pose) return;
+  record.error = poseError(claim.pose, *step.truth);
+  if (claim.confident) record.judged = judgeClaim(record.error, gates);
+  if (claim.belief) record.nees = squaredNormalisedError(claim, *step.truth);
+}
+
+/// What a run's method is shown: the steps of all legs, one after another.
+std::vector<RawlogStep> shownSteps(const std::vector<TrackLeg>& legs)
+{
+  std::vector<RawlogStep> shown;
+  for (const TrackLeg& leg : legs)
+  {
+    for (std::size_t i = leg.first; i < leg.last; ++i)
+    {
+      shown.push_back(leg.drive->steps[i].step);
+      if (i > leg.first) continue;
+      // Whoever wakes up, or is carried, has not driven the way before.
+      if (shown.back().motion) shown.back().motion = MotionIncrement{};
+      shown.back().actions = nullptr;
+    }
+  }
+  return shown;
+}
+
+void judgeLeg(const TrackLeg& leg, const std::vector<TimedClaim>& claims,
+              const AccuracyGates& gates, TrackRun& run)
+{
+  const std::vector<TrackDriveStep>& steps = leg.drive->steps;
+  const double before = run.steps.empty() ? 0 : run.steps.back().travelled;
+  const double seconds_before = run.steps.empty() ? 0 : run.steps.back().seconds;
+  for (std::size_t i = leg.first; i < leg.last; ++i)
+  {
+    const TimedClaim& timed = claims.at(run.steps.size());
+    TrackStepRecord record;
+    record.claim = timed.claim;
+    record.time_ms = timed.time_ms;
+    record.step = i;
+    record.travelled = before + steps[i].travelled - steps[leg.first].travelled;
+    record.seconds = seconds_before + steps[i].step.time - steps[leg.first].step.time;
+    record.saw_nothing =
+        countValidBeams(steps[i].step.scans) < kBeamsToSee && steps[i].step.landmarks.empty();
+    judge(steps[i], leg.drive->foreign, gates, record);
+    run.steps.push_back(record);
+  }
+}
+}  // namespace
+
+bool isMapped(const mrpt::math::TPose2D& truth,
+              const std::vector<mrpt::math::TPose2D>& mapped_poses)
+{
+  constexpr double kMappedDistance = 1.0;  // [m]
+  return mapped_poses.empty() ||
+         std::any_of(mapped_poses.begin(), mapped_poses.end(),
+                     [&](const mrpt::math::TPose2D& pose)
+                     { return std::hypot(pose.x - truth.x, pose.y - truth.y) <= kMappedDistance; });
+}
+
+TrackRun runLegs(const TrackingMethodFactory& factory, const std::vector<TrackLeg>& legs,
+                 std::uint32_t seed, const AccuracyGates& gates)
+{
+  const auto drive_all = [&]
+  {
+    TrackRun run;
+    run.start = legs.front().first;
+    // Building the filter is part of what waking up costs.
+    const double before = threadCpuSeconds();
+    const auto method = factory.start(seed);
+    const double set_up_ms = 1e3 * (threadCpuSeconds() - before);
+    const std::vector<TimedClaim> claims = method->drive(shownSteps(legs));
+    for (const TrackLeg& leg : legs)
+    {
+      if (&leg != &legs.front()) run.kidnapped_at = run.steps.size();
+      judgeLeg(leg, claims, gates, run);
+    }
+    run.steps.front().time_ms += set_up_ms;
+    return run;
+  };
+  TrackRun run = factory.needsOwnProcess() ? runInOwnProcess(drive_all) : drive_all();
+  judgeRun(run);
+  return run;
+}
+}  // namespace sigloc::detail

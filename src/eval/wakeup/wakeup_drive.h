@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mrpt/math/TPose2D.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "eval/wakeup/wakeup.h"
+#include "sigloc/io/RawlogReader.h"
+
+namespace sigloc::detail
+{
+/// A step of a drive with what it is judged by.
+struct TrackDriveStep
+{
+  RawlogStep step;
+  std::optional<mrpt::math::TPose2D> truth;
+  double travelled = 0;  ///< [m] since the drive began, along the truth
+  bool may_start = false;
+  bool mapped = true;  ///< see TrackStepRecord
+};
+
+struct TrackDrive
+{
+  std::vector<TrackDriveStep> steps;
+  bool foreign = false;  ///< the drive is of another place than the map: every claim is wrong
+  bool complete = true;  ///< false when the log was truncated
+};
+
+/// A log to wake up in, and the map.
+struct LoggedDrive
+{
+  EvaluationMap map;
+  TrackDrive drive;
+  std::vector<std::filesystem::path> files;
+};
+
+/// Reads a landmark log, "dlr" or "victoria-park", from its folder. The map of the first is what
+/// the first half of the path saw, the drive the second half. Throws std::invalid_argument for
+/// another name and std::runtime_error ("path: reason").
+LoggedDrive readLandmarkDrive(const std::string& dataset, const std::filesystem::path& folder);
+
+/// Steps [first, last) of a drive.
+struct TrackLeg
+{
+  const TrackDrive* drive = nullptr;
+  std::size_t first = 0;
+  std::size_t last = 0;
+};
+
+/// True where the map's scans were taken within 1 m; always for a map without poses.
+bool isMapped(const mrpt::math::TPose2D& truth,
+              const std::vector<mrpt::math::TPose2D>& mapped_poses);
+
+/// Runs a method, lost at first, over one leg after another, carried from the end of each to the
+/// start of the next, and judges every step.
+TrackRun runLegs(const TrackingMethodFactory& factory, const std::vector<TrackLeg>& legs,
+                 std::uint32_t seed, const AccuracyGates& gates);
+
+/// Returns the step of a failed run that shows best what went wrong: the first wrong claim, else
+/// the step that it was judged by. `legs` as the run had them.
+FailedQuery failureOf(const TrackRun& run, const std::vector<TrackLeg>& legs,
+                      const std::string& method, std::shared_ptr<const FeatureMap> map);
+}  // namespace sigloc::detail

@@ -1,0 +1,256 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "eval/worlds/simulation_files.h"
+
+#include <mrpt/core/Clock.h>
+#include <mrpt/maps/COccupancyGridMap2D.h>
+#include <mrpt/maps/CSimpleMap.h>
+#include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CObservationBearingRange.h>
+#include <mrpt/obs/CObservationOdometry.h>
+#include <mrpt/obs/CSensoryFrame.h>
+#include <mrpt/poses/CPose3DPDFGaussian.h>
+#include <mrpt/serialization/CArchive.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <stdexcept>
+#include <string>
+
+#include "config/fixed_number.h"
+#include "eval/worlds/motion_model.h"
+#include "sigloc/io/file_output.h"
+
+namespace sigloc
+{
+namespace
+{
+namespace fs = std::filesystem;
+using mrpt::serialization::CArchive;
+constexpr const char* kNote = "README.md";
+constexpr const char* kNoteHead = "# A simulated world\n\nMade by\n\n    ";
+
+mrpt::obs::CObservationBearingRange::Ptr toBearingRange(const std::vector<Feature>& landmarks,
+                                                        double time)
+{
+  auto out = mrpt::obs::CObservationBearingRange::Create();
+  out->timestamp = mrpt::Clock::fromDouble(time);
+  out->sensorLabel = "LANDMARKS";
+  out->fieldOfView_yaw = static_cast<float>(2 * M_PI);
+  out->fieldOfView_pitch = 0;
+  out->validCovariances = true;
+  for (const Feature& landmark : landmarks)
+  {
+    const double range = std::hypot(landmark.position.x, landmark.position.y);
+    const double variance = landmark.position_covariance(0, 0);
+    mrpt::obs::CObservationBearingRange::TMeasurement measurement;
+    measurement.range = static_cast<float>(range);
+    measurement.yaw = static_cast<float>(std::atan2(landmark.position.y, landmark.position.x));
+    measurement.pitch = 0;
+    measurement.landmarkID = -1;
+    measurement.covariance.setZero();
+    measurement.covariance(0, 0) = variance;
+    measurement.covariance(1, 1) = variance / std::max(1e-6, range * range);
+    measurement.covariance(2, 2) = 1e-6;
+    out->sensedData.push_back(measurement);
+  }
+  return out;
+}
+
+/// What the robot saw in a step, as MRPT's observations.
+mrpt::obs::CSensoryFrame frameOf(const DriveStep& step)
+{
+  mrpt::obs::CSensoryFrame frame;
+  if (step.scan) frame.insert(toRangeScan(*step.scan, step.time));
+  if (!step.landmarks.empty()) frame.insert(toBearingRange(step.landmarks, step.time));
+  return frame;
+}
+
+/// Sets every cell that a surface runs through.
+void drawSurfaces(const World& world, mrpt::maps::COccupancyGridMap2D& grid)
+{
+  constexpr float kOccupied = 0.01F;
+  const double stride = 0.25 * static_cast<double>(grid.getResolution());
+  const auto mark = [&](double x, double y)
+  { grid.setPos(static_cast<float>(x), static_cast<float>(y), kOccupied); };
+  for (const WallSegment& segment : visibleSegments(world))
+  {
+    const auto along = segment.end - segment.start;
+    const int steps = static_cast<int>(std::hypot(along.x, along.y) / stride) + 1;
+    for (int i = 0; i <= steps; ++i)
+    {
+      const auto p = segment.start + along * (static_cast<double>(i) / steps);
+      mark(p.x, p.y);
+    }
+  }
+  for (const Disc& disc : world.discs)
+  {
+    const int steps = static_cast<int>(2 * M_PI * disc.radius / stride) + 1;
+    for (int i = 0; i < steps; ++i)
+    {
+      const double angle = 2 * M_PI * i / steps;
+      mark(disc.centre.x + disc.radius * std::cos(angle),
+           disc.centre.y + disc.radius * std::sin(angle));
+    }
+  }
+}
+}  // namespace
+
+mrpt::obs::CObservation2DRangeScan::Ptr toRangeScan(const LaserScan& scan, double time)
+{
+  auto out = mrpt::obs::CObservation2DRangeScan::Create();
+  out->timestamp = mrpt::Clock::fromDouble(time);
+  out->sensorLabel = "LASER";
+  out->aperture = static_cast<float>(scan.angle_step * static_cast<double>(scan.ranges.size() - 1));
+  out->rightToLeft = true;
+  out->maxRange = static_cast<float>(scan.max_range);
+  out->stdError = static_cast<float>(scan.range_sigma);
+  out->sensorPose = mrpt::poses::CPose3D(mrpt::poses::CPose2D(scan.robot_from_sensor));
+  out->resizeScan(scan.ranges.size());
+  for (std::size_t i = 0; i < scan.ranges.size(); ++i)
+  {
+    const bool valid = scan.valid[i] != 0;
+    // Scanners report the largest range where nothing came back; programs that use such beams as
+    // free space then do the right thing.
+    out->setScanRange(i, valid ? scan.ranges[i] : out->maxRange);
+    out->setScanRangeValidity(i, valid);
+  }
+  return out;
+}
+
+void writeSimpleMap(const std::vector<PosedScans>& scans, const fs::path& path)
+{
+  constexpr double kPoseSigma = 0.001;  // [m], [rad]
+  mrpt::maps::CSimpleMap map;
+  double time = kSimulationEpoch;
+  for (const PosedScans& key_frame : scans)
+  {
+    mrpt::poses::CPose3DPDFGaussian pose;
+    pose.mean = mrpt::poses::CPose3D(mrpt::poses::CPose2D(key_frame.map_from_robot));
+    pose.cov.setIdentity();
+    pose.cov *= kPoseSigma * kPoseSigma;
+    mrpt::obs::CSensoryFrame frame;
+    for (const LaserScan& scan : key_frame.scans) frame.insert(toRangeScan(scan, time));
+    map.insert(pose, frame);
+    time += 1.0;
+  }
+  writeObjects(
+      path, [&](CArchive& archive) { archive << map; }, kBestCompression);
+}
+
+void writeGridMap(const World& world, double resolution, const fs::path& path)
+{
+  constexpr float kFree = 0.99F;
+  constexpr double kMargin = 0.5;  // [m] of unknown around the world
+  if (!(resolution >= 0.005 && resolution <= 1))
+  {
+    throw std::invalid_argument("the resolution of a grid map must lie in [0.005, 1] m");
+  }
+  const Bounds& b = world.bounds;
+  mrpt::maps::COccupancyGridMap2D grid;
+  grid.setSize(static_cast<float>(b.x_min - kMargin), static_cast<float>(b.x_max + kMargin),
+               static_cast<float>(b.y_min - kMargin), static_cast<float>(b.y_max + kMargin),
+               static_cast<float>(resolution), 0.5F);
+  const FreeSpace space(world, 0.0, resolution);
+  // Free space ends up to a cell before a surface; the cells between are free unless drawn over.
+  const auto near_free_space = [&](int c, int r)
+  {
+    const double x = grid.idx2x(c);
+    const double y = grid.idx2y(r);
+    return space.contains({x, y}) || space.contains({x - resolution, y}) ||
+           space.contains({x + resolution, y}) || space.contains({x, y - resolution}) ||
+           space.contains({x, y + resolution});
+  };
+  for (unsigned row = 0; row < grid.getSizeY(); ++row)
+  {
+    for (unsigned column = 0; column < grid.getSizeX(); ++column)
+    {
+      const auto c = static_cast<int>(column);
+      const auto r = static_cast<int>(row);
+      if (near_free_space(c, r)) grid.setCell(c, r, kFree);
+    }
+  }
+  drawSurfaces(world, grid);
+  writeObjects(
+      path, [&](CArchive& archive) { archive << grid; }, kBestCompression);
+}
+
+void writeRawlog(const std::vector<DriveStep>& steps, const OdometryOptions& odometry,
+                 RawlogKind kind, const fs::path& path)
+{
+  const auto write = [&](CArchive& archive)
+  {
+    for (const DriveStep& step : steps)
+    {
+      const auto time = mrpt::Clock::fromDouble(step.time);
+      if (kind == RawlogKind::action_frame)
+      {
+        auto action = odometryAction(step.motion.mean, odometry);
+        action.timestamp = time;
+        mrpt::obs::CActionCollection actions;
+        actions.insert(action);
+        archive << actions << frameOf(step);
+        continue;
+      }
+      mrpt::obs::CObservationOdometry reading;
+      reading.timestamp = time;
+      reading.sensorLabel = "ODOMETRY";
+      reading.odometry = mrpt::poses::CPose2D(step.odometry);
+      archive << reading;
+      for (const auto& observation : frameOf(step)) archive << *observation;
+    }
+  };
+  writeObjects(path, write, kBestCompression);
+}
+
+void checkSimulationFolder(const fs::path& folder)
+{
+  static const std::set<std::string> kNames = {"map.simplemap", "map.gridmap.gz", "map.txt",
+                                               "drive.rawlog",  "truth.txt",      kNote};
+  const auto writes = [](const std::string& name) { return kNames.count(name) > 0; };
+  const auto is_own = [](const fs::path& path)
+  {
+    std::ifstream note(path / kNote);
+    const std::string text{std::istreambuf_iterator<char>(note), {}};
+    return text.rfind(kNoteHead, 0) == 0;
+  };
+  checkOutputFolder(folder, {writes, is_own, "sigloc-simulate"}, {});
+}
+
+void writeSimulationNote(const std::string& command, const std::string& files,
+                         const fs::path& folder)
+{
+  writeFile(folder / kNote,
+            kNoteHead + command +
+                "\n\nwhich gives the same bytes each time. Lengths are in metres, angles in "
+                "radians.\n\n" +
+                files);
+}
+
+void writeTruth(const std::vector<DriveStep>& steps, const fs::path& path)
+{
+  std::string text;
+  for (const DriveStep& step : steps)
+  {
+    const auto& pose = step.world_from_robot;
+    text += fixedNumber(step.time, 3) + " " + fixedNumber(pose.x, 6) + " " +
+            fixedNumber(pose.y, 6) + " " + fixedNumber(pose.phi, 6) + "\n";
+  }
+  writeFile(path, text);
+}
+
+void writeLandmarks(const std::vector<Feature>& landmarks, const fs::path& path)
+{
+  std::string text;
+  for (const Feature& landmark : landmarks)
+  {
+    text += fixedNumber(landmark.position.x, 4) + " " + fixedNumber(landmark.position.y, 4) + " " +
+            fixedNumber(landmark.size, 3) + " " +
+            fixedNumber(std::sqrt(landmark.position_covariance(0, 0)), 4) + "\n";
+  }
+  writeFile(path, text);
+}
+}  // namespace sigloc

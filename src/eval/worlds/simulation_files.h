@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mrpt/obs/CObservation2DRangeScan.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "eval/worlds/FreeSpace.h"
+#include "eval/worlds/robot_simulation.h"
+
+namespace sigloc
+{
+/// The two kinds of rawlog MRPT knows.
+enum class RawlogKind : std::uint8_t
+{
+  action_frame = 0,  ///< pairs of action collection and sensory frame
+  observations = 1,  ///< observations only, odometry among them, as rawlog-grabber writes
+};
+
+// All writers below make ordinary files of MRPT's own classes. Equal arguments give equal bytes.
+// Each throws as writeFile() does and leaves no half-written file.
+
+/// Returns a scan as MRPT stores it, at `time` [s since 1970], labelled "LASER".
+mrpt::obs::CObservation2DRangeScan::Ptr toRangeScan(const LaserScan& scan, double time);
+
+/// Writes a `.simplemap`: one key frame an entry, with a pose known to a millimetre.
+void writeSimpleMap(const std::vector<PosedScans>& scans, const std::filesystem::path& path);
+
+/// Writes a `.gridmap.gz`: cells that a surface touches are occupied, those the robot's space
+/// reaches free, the others unknown. `resolution` in metres.
+void writeGridMap(const World& world, double resolution, const std::filesystem::path& path);
+
+/// Writes a `.rawlog`. Steps with a scan get a CObservation2DRangeScan, steps with landmarks a
+/// CObservationBearingRange without identities.
+void writeRawlog(const std::vector<DriveStep>& steps, const OdometryOptions& odometry,
+                 RawlogKind kind, const std::filesystem::path& path);
+
+/// Writes the true path: rows `time x y phi`.
+void writeTruth(const std::vector<DriveStep>& steps, const std::filesystem::path& path);
+
+/// Writes a landmark file: rows `x y radius sigma`.
+void writeLandmarks(const std::vector<Feature>& landmarks, const std::filesystem::path& path);
+
+/// Throws std::runtime_error ("folder: reason") where a simulation could replace a file that none
+/// wrote: a folder that holds one of its names, but not the note of an earlier one.
+void checkSimulationFolder(const std::filesystem::path& folder);
+
+/// Writes the note that goes with a simulation's files, `README.md` in their folder: `command`
+/// makes them again, `files` tells what they are, a Markdown list.
+void writeSimulationNote(const std::string& command, const std::string& files,
+                         const std::filesystem::path& folder);
+}  // namespace sigloc

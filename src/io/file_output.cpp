@@ -1,0 +1,200 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sigloc/io/file_output.h"
+
+#include <fcntl.h>
+#include <mrpt/io/CStream.h>
+#include <mrpt/serialization/CArchive.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <ostream>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+namespace sigloc
+{
+namespace
+{
+namespace fs = std::filesystem;
+constexpr const char* kTemporaryEnding = ".part-";
+
+[[noreturn]] void fail(const std::string& name, int code)
+{
+  throw std::runtime_error(name + ": cannot be written: " + std::generic_category().message(code));
+}
+
+/// The code of the last error, where the system or zlib gives one at all.
+int lastError()
+{
+  return errno != 0 ? errno : EIO;
+}
+
+/// The temporary file beside a file, removed with the object unless it got the file's name.
+class TemporaryFile
+{
+ public:
+  explicit TemporaryFile(const fs::path& path) : path_(path)
+  {
+    std::error_code unnameable;
+    const bool is_link = fs::is_symlink(path, unnameable) && fs::exists(path, unnameable);
+    target_ = is_link ? fs::canonical(path) : path;
+    // A name as long as names may be leaves no room for the ending.
+    constexpr std::size_t kLongestStem = 200;
+    temporary_ = target_.parent_path() / (target_.filename().string().substr(0, kLongestStem) +
+                                          kTemporaryEnding + std::to_string(getpid()));
+  }
+  ~TemporaryFile()
+  {
+    std::error_code ignored;
+    if (!kept_) fs::remove(temporary_, ignored);
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+  const fs::path& path() const { return temporary_; }
+
+  /// Takes the error, 0 for none, that writing ended with.
+  void keepUnless(int error)
+  {
+    if (error != 0) fail(path_.string(), error);
+    std::error_code code;
+    fs::rename(temporary_, target_, code);
+    if (code) fail(path_.string(), code.value());
+    kept_ = true;
+  }
+
+ private:
+  fs::path path_;  // as the user named it
+  fs::path target_;
+  fs::path temporary_;
+  bool kept_ = false;
+};
+
+/// Returns the code of the first error, 0 for none.
+int writeBytes(int file, std::string_view bytes)
+{
+  while (!bytes.empty())
+  {
+    const ssize_t written = ::write(file, bytes.data(), bytes.size());
+    if (written < 0 && errno != EINTR) return lastError();
+    bytes.remove_prefix(static_cast<std::size_t>(std::max<ssize_t>(0, written)));
+  }
+  return 0;
+}
+
+/// A gz-compressed file. An error is kept until close(): thrown into MRPT's serialization, it would
+/// come out wrapped in a call stack, and MRPT's own stream loses those of closing.
+class GzipOutput final : public mrpt::io::CStream
+{
+ public:
+  GzipOutput(const fs::path& path, int compression)
+  {
+    errno = 0;
+    file_ = gzopen(path.c_str(), ("wb" + std::to_string(compression)).c_str());
+    if (file_ == nullptr) error_ = lastError();
+    if (file_ != nullptr) gzbuffer(file_, kBufferBytes);
+  }
+  ~GzipOutput() override { close(); }
+  GzipOutput(const GzipOutput&) = delete;
+  GzipOutput& operator=(const GzipOutput&) = delete;
+
+  std::size_t Write(const void* buffer, std::size_t count) override
+  {
+    errno = 0;
+    const auto* bytes = static_cast<const char*>(buffer);
+    for (std::size_t done = 0; done < count && error_ == 0;)
+    {
+      // gzwrite takes at most INT_MAX bytes a call.
+      const auto chunk = static_cast<unsigned>(std::min<std::size_t>(count - done, 1U << 30U));
+      if (gzwrite(file_, bytes + done, chunk) != static_cast<int>(chunk)) error_ = lastError();
+      done += chunk;
+    }
+    position_ += count;
+    return count;
+  }
+
+  /// Returns the code of the first error, 0 for none.
+  int close()
+  {
+    errno = 0;
+    const bool closed = file_ == nullptr || gzclose(std::exchange(file_, nullptr)) == Z_OK;
+    if (!closed && error_ == 0) error_ = lastError();
+    return error_;
+  }
+
+  std::size_t Read(void*, std::size_t) override
+  {
+    throw std::logic_error("GzipOutput is for writing only");
+  }
+  std::uint64_t Seek(std::int64_t, TSeekOrigin) override
+  {
+    throw std::logic_error("GzipOutput writes front to back only");
+  }
+  std::uint64_t getTotalBytesCount() const override { return position_; }
+  std::uint64_t getPosition() const override { return position_; }
+
+ private:
+  static constexpr unsigned kBufferBytes = 256U * 1024U;
+
+  gzFile file_ = nullptr;
+  std::uint64_t position_ = 0;
+  int error_ = 0;
+};
+}  // namespace
+
+void writeFile(const fs::path& path, std::string_view bytes)
+{
+  TemporaryFile temporary(path);
+  constexpr mode_t kPermissions = 0666;  // less the user's mask
+  errno = 0;
+  const int file =
+      ::open(temporary.path().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, kPermissions);
+  if (file < 0) fail(path.string(), lastError());
+  const int error = writeBytes(file, bytes);
+  const bool closed = ::close(file) == 0;
+  temporary.keepUnless(error == 0 && !closed ? lastError() : error);
+}
+
+void writeObjects(const fs::path& path,
+                  const std::function<void(mrpt::serialization::CArchive&)>& write, int compression)
+{
+  TemporaryFile temporary(path);
+  GzipOutput output(temporary.path(), compression);
+  auto archive = mrpt::serialization::archiveFrom(output);
+  write(archive);
+  temporary.keepUnless(output.close());
+}
+
+std::string withoutTemporaryEnding(const std::string& name)
+{
+  const std::size_t ending = name.rfind(kTemporaryEnding);
+  if (ending == std::string::npos) return name;
+  const std::size_t digits = ending + std::string_view(kTemporaryEnding).size();
+  const bool numbered =
+      digits < name.size() && name.find_first_not_of("0123456789", digits) == std::string::npos;
+  return numbered ? name.substr(0, ending) : name;
+}
+
+void finishOutput(std::ostream& out)
+{
+  errno = 0;
+  if (!out.flush()) fail("standard output", lastError());
+}
+
+std::string firstLine(const std::string& message)
+{
+  // MRPT's exceptions wrap the reason in a header, the source position and a call stack.
+  std::size_t begin = 0;
+  for (const std::string marker : {"==== MRPT exception ====", "Message:"})
+  {
+    const std::size_t found = message.find(marker, begin);
+    if (found != std::string::npos) begin = found + marker.size();
+    begin = std::min(message.find_first_not_of(" \n", begin), message.size());
+  }
+  return message.substr(begin, message.find('\n', begin) - begin);
+}
+}  // namespace sigloc

@@ -1,0 +1,195 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/gzip_input.h"
+
+#include <mrpt/serialization/CArchive.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+#include <fstream>
+#include <memory>
+#include <stdexcept>
+#include <string_view>
+#include <vector>
+
+namespace sigloc::detail
+{
+namespace
+{
+constexpr unsigned kBufferBytes = 256U * 1024U;
+constexpr std::size_t kLongestClassName = 120;
+
+[[noreturn]] void fail(const std::filesystem::path& path, const std::string& reason)
+{
+  throw std::runtime_error(path.string() + ": " + reason);
+}
+
+bool isClassNameCharacter(char c)
+{
+  return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+         std::string_view("_:<>, *").find(c) != std::string_view::npos;
+}
+
+/// Returns how many bytes a file holds when unpacked; a guess for a truncated one.
+std::uint64_t unpackedSize(const std::filesystem::path& path, std::uint64_t file_size)
+{
+  constexpr std::uint64_t kTrailerBytes = 4;  // gzip's last field, little-endian
+  std::ifstream file(path, std::ios::binary);
+  const bool packed = file.get() == 0x1F && file.get() == 0x8B;
+  if (!packed || file_size < kTrailerBytes) return file_size;
+  file.seekg(-static_cast<std::streamoff>(kTrailerBytes), std::ios::end);
+  std::uint64_t size = 0;
+  for (std::uint64_t i = 0; i < kTrailerBytes; ++i)
+  {
+    size |= static_cast<std::uint64_t>(file.get() & 0xFF) << (8 * i);
+  }
+  return size;
+}
+}  // namespace
+
+void requireFile(const std::filesystem::path& path)
+{
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (status.type() == std::filesystem::file_type::none) fail(path, error.message());
+  if (!std::filesystem::exists(status)) fail(path, "no such file");
+  if (std::filesystem::is_directory(status)) fail(path, "is a folder, not a file");
+  if (!std::ifstream(path, std::ios::binary)) fail(path, "cannot be read");
+  if (std::filesystem::is_regular_file(status) && std::filesystem::file_size(path, error) == 0)
+  {
+    fail(path, "is empty");
+  }
+}
+
+void requireIntact(const std::filesystem::path& path)
+{
+  const std::unique_ptr<gzFile_s, int (*)(gzFile_s*)> file(gzopen(path.c_str(), "rb"), gzclose);
+  if (!file) fail(path, "cannot be opened");
+  gzbuffer(file.get(), kBufferBytes);
+  std::vector<char> content(kBufferBytes);
+  int got = gzread(file.get(), content.data(), kBufferBytes);
+  if (gzdirect(file.get()) != 0) return;  // not compressed: nothing to check it by
+  while (got > 0) got = gzread(file.get(), content.data(), kBufferBytes);
+  int code = Z_OK;
+  gzerror(file.get(), &code);
+  if (code == Z_DATA_ERROR) fail(path, "damaged");
+}
+
+GzipInput::GzipInput(const std::filesystem::path& path) : path_(path)
+{
+  requireFile(path);
+  std::error_code error;
+  const auto size = std::filesystem::file_size(path, error);
+  file_size_ = error ? 0 : size;
+  unpacked_size_ = unpackedSize(path, file_size_);
+  file_ = gzopen(path.c_str(), "rb");
+  if (file_ == nullptr) fail(path, "cannot be opened");
+  gzbuffer(file_, kBufferBytes);
+}
+
+GzipInput::~GzipInput()
+{
+  gzclose(file_);
+}
+
+std::size_t GzipInput::Read(void* buffer, std::size_t count)
+{
+  const std::size_t from_ahead = std::min(count, ahead_.size());
+  std::memcpy(buffer, ahead_.data(), from_ahead);
+  ahead_.erase(0, from_ahead);
+  std::size_t done = from_ahead;
+  while (done < count)
+  {
+    // gzread takes at most INT_MAX bytes a call.
+    const auto chunk = static_cast<unsigned>(std::min<std::size_t>(count - done, 1U << 30U));
+    const int got = gzread(file_, static_cast<char*>(buffer) + done, chunk);
+    if (got > 0) done += static_cast<std::size_t>(got);
+    if (got == static_cast<int>(chunk)) continue;
+    int code = Z_OK;
+    gzerror(file_, &code);
+    damaged_ = damaged_ || got < 0 || (code != Z_OK && code != Z_STREAM_END);
+    break;
+  }
+  position_ += done;
+  return done;
+}
+
+void GzipInput::lookAhead(std::size_t count)
+{
+  if (ahead_.size() >= count) return;
+  std::string all(count, '\0');
+  const std::uint64_t position = position_;
+  all.resize(Read(all.data(), count));
+  position_ = position;
+  ahead_ = std::move(all);
+}
+
+bool GzipInput::atEnd()
+{
+  lookAhead(1);
+  return ahead_.empty();
+}
+
+double GzipInput::progress() const
+{
+  if (unpacked_size_ == 0) return 1.0;
+  // By unpacked bytes: a small packed file is read into the buffer at once.
+  return std::min(1.0, static_cast<double>(position_) / static_cast<double>(unpacked_size_));
+}
+
+std::string GzipInput::nextClassName()
+{
+  // Header: length of the name (with the top bit set in one byte; in the oldest files in four
+  // bytes, little-endian), name, version.
+  constexpr std::size_t kOldLengthBytes = 4;
+  lookAhead(kLongestClassName + kOldLengthBytes);
+  if (ahead_.size() < kOldLengthBytes) return {};
+  const auto byte = static_cast<unsigned char>(ahead_[0]);
+  const bool old = byte < 0x80U;
+  if (old && ahead_.compare(1, 3, std::string(3, '\0')) != 0) return {};
+  const std::size_t length = byte & 0x7FU;
+  const std::size_t start = old ? kOldLengthBytes : 1;
+  if (length == 0 || length > kLongestClassName || ahead_.size() < start + length) return {};
+  std::string name = ahead_.substr(start, length);
+  return std::all_of(name.begin(), name.end(), isClassNameCharacter) ? name : std::string{};
+}
+
+std::size_t GzipInput::Write(const void*, std::size_t)
+{
+  throw std::logic_error("GzipInput is for reading only");
+}
+
+std::uint64_t GzipInput::Seek(std::int64_t, TSeekOrigin)
+{
+  throw std::logic_error("GzipInput reads front to back only");
+}
+
+void readObjectFile(const std::filesystem::path& path, mrpt::serialization::CSerializable& object)
+{
+  requireFile(path);
+  requireIntact(path);
+  GzipInput input(path);
+  const std::string name = input.nextClassName();
+  const auto* const expected = object.GetRuntimeClass();
+  if (input.damaged()) fail(path, "truncated or damaged");
+  if (name.empty()) fail(path, "not an MRPT file");
+  if (mrpt::rtti::findRegisteredClass(name) != expected)
+  {
+    fail(path, "holds a '" + name + "', not a '" + expected->className + "'");
+  }
+  try
+  {
+    auto archive = mrpt::serialization::archiveFrom(input);
+    archive.ReadObject(&object);
+    // The checksum of a compressed file comes after its last byte.
+    input.atEnd();
+  }
+  catch (const std::exception&)
+  {
+    fail(path, "truncated or damaged");
+  }
+  if (input.damaged()) fail(path, "truncated or damaged");
+}
+}  // namespace sigloc::detail

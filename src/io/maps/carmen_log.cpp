@@ -1,0 +1,174 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "io/maps/map_source_readers.h"
+#include "io/text_rows.h"
+
+namespace sigloc::detail
+{
+namespace
+{
+constexpr double kDegree = M_PI / 180.0;
+constexpr double kFlaserMaxRange = 80.0;  // [m], a SICK LMS; it writes 81.83 for "no return"
+constexpr std::size_t kMostBeams = 100000;
+
+/// The words of one message, taken front to back; a missing or bad one is an error of the line.
+class Message
+{
+ public:
+  Message(std::string_view line, const std::filesystem::path& path, std::size_t index)
+      : words_(words(line)), path_(path), index_(index)
+  {
+  }
+
+  std::string_view name() const { return words_.empty() ? std::string_view{} : words_.front(); }
+
+  double number()
+  {
+    if (next_ >= words_.size()) failAtLine(path_, index_, "cut off");
+    const auto value = toNumber(words_[next_]);
+    if (!value) failAtLine(path_, index_, "bad number '" + std::string(words_[next_]) + "'");
+    ++next_;
+    return *value;
+  }
+
+  /// A range reading: what is no number counts as "no return".
+  double range()
+  {
+    if (next_ >= words_.size()) failAtLine(path_, index_, "cut off");
+    return toNumber(words_[next_++]).value_or(0.0);
+  }
+
+  std::size_t count()
+  {
+    const double value = number();
+    if (value < 0 || value > static_cast<double>(kMostBeams) || value != std::floor(value))
+    {
+      failAtLine(path_, index_, "bad count of readings");
+    }
+    return static_cast<std::size_t>(value);
+  }
+
+  void skip(std::size_t n) { next_ += n; }
+
+ private:
+  std::vector<std::string_view> words_;
+  const std::filesystem::path& path_;
+  std::size_t index_;
+  std::size_t next_ = 1;
+};
+
+void readRanges(Message& message, std::size_t n, LaserScan& scan)
+{
+  scan.ranges.resize(n);
+  scan.valid.resize(n);
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    const double range = message.range();
+    const bool usable = range > 0 && range < scan.max_range;
+    scan.ranges[i] = usable ? static_cast<float>(range) : 0.0F;
+    scan.valid[i] = usable ? 1 : 0;
+  }
+}
+
+mrpt::math::TPose2D readPose(Message& message)
+{
+  const double x = message.number();
+  const double y = message.number();
+  const double phi = message.number();
+  return {x, y, std::remainder(phi, 2 * M_PI)};
+}
+
+PosedScans readFlaser(Message& message)
+{
+  LaserScan scan;
+  const std::size_t n = message.count();
+  scan.max_range = kFlaserMaxRange;
+  // The LMS's settings: 100 degrees in 0.25 or 0.5 degrees, else 180 degrees, of which an even
+  // count leaves out the last beam.
+  const double span = n == 401 || n == 201 ? 100.0 : 180.0;
+  const auto steps = static_cast<double>(n % 2 == 0 ? n : n - 1);
+  scan.first_angle = -0.5 * span * kDegree;
+  scan.angle_step = span * kDegree / std::max(1.0, steps);
+  readRanges(message, n, scan);
+  PosedScans posed;
+  posed.map_from_robot = readPose(message);
+  posed.scans.push_back(std::move(scan));
+  return posed;
+}
+
+PosedScans readRobotLaser(Message& message)
+{
+  LaserScan scan;
+  message.skip(1);  // laser type
+  scan.first_angle = message.number();
+  message.skip(1);  // field of view: follows from the resolution
+  scan.angle_step = message.number();
+  scan.max_range = message.number();
+  scan.range_sigma = std::max(0.01, message.number());
+  message.skip(1);  // remission mode
+  const std::size_t n = message.count();
+  readRanges(message, n, scan);
+  message.skip(message.count());  // remissions
+  PosedScans posed;
+  posed.map_from_robot = readPose(message);
+  posed.scans.push_back(std::move(scan));
+  return posed;
+}
+
+/// Some logs clip far readings to one value: many readings at the very maximum are no returns.
+void dropClippedReadings(std::vector<PosedScans>& log)
+{
+  constexpr float kSame = 0.005F;  // [m]
+  constexpr double kShare = 0.001;
+  float farthest = 0;
+  for (const auto& posed : log)
+  {
+    for (const float range : posed.scans.front().ranges) farthest = std::max(farthest, range);
+  }
+  std::size_t all = 0;
+  std::size_t at_farthest = 0;
+  const float limit = farthest - kSame;
+  for (const auto& posed : log)
+  {
+    const auto& ranges = posed.scans.front().ranges;
+    all += ranges.size();
+    at_farthest += static_cast<std::size_t>(
+        std::count_if(ranges.begin(), ranges.end(), [&](float r) { return r >= limit; }));
+  }
+  if (static_cast<double>(at_farthest) < std::max(10.0, kShare * static_cast<double>(all))) return;
+  for (auto& posed : log)
+  {
+    LaserScan& scan = posed.scans.front();
+    scan.max_range = std::min(scan.max_range, static_cast<double>(farthest));
+    for (std::size_t i = 0; i < scan.ranges.size(); ++i)
+    {
+      if (scan.ranges[i] >= limit) scan.valid[i] = 0;
+    }
+  }
+}
+}  // namespace
+
+std::vector<PosedScans> readCarmenLog(const std::filesystem::path& path)
+{
+  const std::vector<std::string> lines = readLines(path);
+  std::vector<PosedScans> log;
+  for (std::size_t i = 0; i < lines.size(); ++i)
+  {
+    Message message(lines[i], path, i);
+    const bool flaser = message.name() == "FLASER";
+    if (!flaser && message.name() != "ROBOTLASER1") continue;
+    PosedScans posed = flaser ? readFlaser(message) : readRobotLaser(message);
+    const LaserScan& scan = posed.scans.front();
+    if (!(scan.angle_step > 0)) failAtLine(path, i, "angle step is not positive");
+    if (scan.ranges.size() >= 2) log.push_back(std::move(posed));
+  }
+  if (log.empty()) throw std::runtime_error(path.string() + ": no FLASER or ROBOTLASER1 message");
+  dropClippedReadings(log);
+  return log;
+}
+}  // namespace sigloc::detail

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/maps/feature_archive.h"
+
+#include <stdexcept>
+
+namespace sigloc::detail
+{
+using mrpt::serialization::CArchive;
+
+void writeFeature(const Feature& feature, CArchive& out)
+{
+  out << static_cast<std::uint8_t>(feature.type) << static_cast<std::uint8_t>(feature.side)
+      << feature.start_seen << feature.end_seen << feature.position.x << feature.position.y
+      << feature.direction << feature.size << feature.position_covariance(0, 0)
+      << feature.position_covariance(0, 1) << feature.position_covariance(1, 0)
+      << feature.position_covariance(1, 1) << feature.direction_variance << feature.size_variance
+      << feature.label << feature.sightings << feature.parent;
+}
+
+Feature readFeature(CArchive& in)
+{
+  Feature feature;
+  std::uint8_t type = 0;
+  std::uint8_t side = 0;
+  auto& covariance = feature.position_covariance;
+  in >> type >> side >> feature.start_seen >> feature.end_seen >> feature.position.x >>
+      feature.position.y >> feature.direction >> feature.size >> covariance(0, 0) >>
+      covariance(0, 1) >> covariance(1, 0) >> covariance(1, 1) >> feature.direction_variance >>
+      feature.size_variance >> feature.label >> feature.sightings >> feature.parent;
+  if (type > static_cast<std::uint8_t>(FeatureType::wall_end) ||
+      side > static_cast<std::uint8_t>(WallSide::end))
+  {
+    throw std::runtime_error("unknown feature type");
+  }
+  feature.type = static_cast<FeatureType>(type);
+  feature.side = static_cast<WallSide>(side);
+  return feature;
+}
+}  // namespace sigloc::detail

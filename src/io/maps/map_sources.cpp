@@ -1,0 +1,266 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sigloc/io/map_files.h"
+
+#include <mrpt/system/md5.h>
+
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include "config/TextStream.h"
+#include "io/gzip_input.h"
+#include "io/maps/map_reach.h"
+#include "io/maps/map_source_readers.h"
+#include "io/scan_conversion.h"
+#include "sigloc/config/plural.h"
+
+namespace sigloc
+{
+namespace
+{
+/// Raised whenever the same source and options give another map than before.
+constexpr int kBuildVersion = 8;
+
+enum class Format
+{
+  simplemap,
+  gridmap,
+  ros_map,
+  carmen_log,
+  landmarks,
+  sigmap
+};
+
+Format formatOf(const std::filesystem::path& path)
+{
+  std::filesystem::path name = path.filename();
+  if (name.extension() == ".gz") name = name.stem();
+  std::string extension = name.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (extension == ".simplemap") return Format::simplemap;
+  if (extension == ".gridmap") return Format::gridmap;
+  if (extension == ".yaml" || extension == ".yml") return Format::ros_map;
+  if (extension == ".log" || extension == ".clf" || extension == ".carmen")
+  {
+    return Format::carmen_log;
+  }
+  if (extension == ".csv" || extension == ".txt") return Format::landmarks;
+  if (extension == ".sigmap") return Format::sigmap;
+  throw std::runtime_error(
+      path.string() +
+      ": unknown kind of map (known: .simplemap, .gridmap, .yaml, .log, .clf, .carmen, .csv, .txt, "
+      ".sigmap)");
+}
+
+void appendBytes(const std::filesystem::path& path, std::string& bytes)
+{
+  detail::requireFile(path);
+  std::ifstream in(path, std::ios::binary);
+  bytes.append(std::istreambuf_iterator<char>(in), {});
+}
+
+std::string checksumOf(const std::filesystem::path& path)
+{
+  std::string bytes;
+  for (const std::filesystem::path& file : filesOfMapSource(path)) appendBytes(file, bytes);
+  return mrpt::system::md5(bytes);
+}
+
+MapSource read(const std::filesystem::path& path)
+{
+  switch (formatOf(path))
+  {
+    case Format::simplemap:
+      return detail::readSimplemap(path);
+    case Format::gridmap:
+      return detail::readGridmap(path);
+    case Format::ros_map:
+      return detail::readRosMap(path);
+    case Format::carmen_log:
+      return detail::readCarmenLog(path);
+    case Format::landmarks:
+      return detail::readLandmarks(path);
+    case Format::sigmap:
+      break;
+  }
+  return loadSigmap(path);
+}
+
+template <class Options>
+void appendOptions(const Options& options, std::ostream& out)
+{
+  Options::visitFields([&](const auto& field)
+                       { out << field.key << '=' << options.*(field.member) << '\n'; });
+}
+
+std::string digestOf(const MapBuildingOptions& building, const FeatureExtractorOptions& extraction)
+{
+  TextStream text;
+  text.precision(17);
+  text << "build " << kBuildVersion << '\n';
+  appendOptions(building, text);
+  appendOptions(extraction, text);
+  return mrpt::system::md5(text.str());
+}
+
+bool isFinite(const mrpt::poses::CPose2D& pose)
+{
+  return std::isfinite(pose.x()) && std::isfinite(pose.y()) && std::isfinite(pose.phi());
+}
+
+MapProvenance provenanceOf(const std::filesystem::path& path, const MapBuildingOptions& building,
+                           const FeatureExtractorOptions& extraction)
+{
+  return {path.string(), checksumOf(path), digestOf(building, extraction)};
+}
+
+FeatureMap build(const std::filesystem::path& path, const MapBuildingOptions& building,
+                 const FeatureExtractorOptions& extraction, const MapProvenance& provenance)
+{
+  MapSource source = readMapSource(path);
+  try
+  {
+    if (const auto* scans = std::get_if<std::vector<PosedScans>>(&source))
+    {
+      return buildMapFromScans(*scans, building, extraction, provenance);
+    }
+    if (const auto* raster = std::get_if<OccupancyRaster>(&source))
+    {
+      return buildMapFromRaster(*raster, building, extraction, provenance);
+    }
+    const auto& landmarks = std::get<FeatureMap>(source);
+    return FeatureMap(landmarks.features(), landmarks.field(), landmarks.error(), provenance);
+  }
+  catch (const std::invalid_argument& error)
+  {
+    throw std::runtime_error(path.string() + ": " + error.what());
+  }
+}
+}  // namespace
+
+std::vector<PosedScans> posedScansOf(const mrpt::maps::CSimpleMap& simplemap)
+{
+  std::vector<PosedScans> posed_scans;
+  for (std::size_t i = 0; i < simplemap.size(); ++i)
+  {
+    const auto [pose, frame] = simplemap.get(i);
+    if (!pose || !frame) continue;
+    const mrpt::poses::CPose2D mean(pose->getMeanVal());
+    PosedScans posed;
+    posed.map_from_robot = mean.asTPose();
+    posed.scans = laserScansOf(*frame);
+    if (isFinite(mean) && !posed.scans.empty()) posed_scans.push_back(std::move(posed));
+  }
+  return posed_scans;
+}
+
+std::string warningOfMapSource(const std::filesystem::path& path)
+{
+  constexpr double kOneFloor = 0.5;  // [m]
+  if (formatOf(path) != Format::simplemap) return {};
+  mrpt::maps::CSimpleMap simplemap;
+  detail::readObjectFile(path, simplemap);
+  std::size_t nowhere = 0;
+  std::vector<double> heights;
+  for (std::size_t i = 0; i < simplemap.size(); ++i)
+  {
+    const auto pose = std::get<0>(simplemap.get(i));
+    if (!pose) continue;
+    const mrpt::poses::CPose3D mean = pose->getMeanVal();
+    if (!isFinite(mrpt::poses::CPose2D(mean)))
+    {
+      ++nowhere;
+    }
+    else if (std::isfinite(mean.z()))
+    {
+      heights.push_back(mean.z());
+    }
+  }
+  if (nowhere > 0) return counted(nowhere, "key frame") + " left out, whose pose is no number";
+  if (heights.empty()) return {};
+  const auto [lowest, highest] = std::minmax_element(heights.begin(), heights.end());
+  if (*highest - *lowest <= kOneFloor) return {};
+  return "its key frames are at heights that differ; all are taken to be on one floor";
+}
+
+namespace detail
+{
+std::vector<PosedScans> readSimplemap(const std::filesystem::path& path)
+{
+  mrpt::maps::CSimpleMap simplemap;
+  readObjectFile(path, simplemap);
+  std::vector<PosedScans> scans = posedScansOf(simplemap);
+  if (scans.empty()) throw std::runtime_error(path.string() + ": no usable 2D laser scan in it");
+  return scans;
+}
+}  // namespace detail
+
+MapSource readMapSource(const std::filesystem::path& path)
+{
+  detail::requireFile(path);
+  MapSource source = read(path);
+  detail::requireWithinReach(source, path);
+  return source;
+}
+
+std::vector<std::filesystem::path> filesOfMapSource(const std::filesystem::path& path)
+{
+  std::vector<std::filesystem::path> files = {path};
+  if (formatOf(path) == Format::ros_map) files.push_back(detail::imageOfRosMap(path));
+  return files;
+}
+
+FeatureMap buildMapFromFile(const std::filesystem::path& path, const MapBuildingOptions& building,
+                            const FeatureExtractorOptions& extraction)
+{
+  detail::requireFile(path);
+  FeatureMap map =
+      formatOf(path) == Format::sigmap
+          ? loadSigmap(path)
+          : build(path, building, extraction, provenanceOf(path, building, extraction));
+  if (map.empty()) throw std::runtime_error(path.string() + ": no feature found in it");
+  return map;
+}
+
+CachedMap mapWithCache(const std::filesystem::path& source, const std::filesystem::path& cache,
+                       const MapBuildingOptions& building,
+                       const FeatureExtractorOptions& extraction)
+{
+  const auto start = std::chrono::steady_clock::now();
+  detail::requireFile(source);
+  if (formatOf(source) == Format::sigmap)
+  {
+    return {buildMapFromFile(source, building, extraction), true, 0.0};
+  }
+  const MapProvenance wanted = provenanceOf(source, building, extraction);
+  try
+  {
+    CachedMap cached{loadSigmap(cache), true, 0.0};
+    const MapProvenance& found = cached.map.provenance();
+    if (found.source_checksum == wanted.source_checksum &&
+        found.options_digest == wanted.options_digest && !cached.map.empty())
+    {
+      return cached;
+    }
+  }
+  catch (const std::runtime_error&)
+  {
+    // Missing or unreadable: built and written anew below.
+  }
+  CachedMap fresh;
+  fresh.map = buildMapFromFile(source, building, extraction);
+  saveSigmap(fresh.map, cache);
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  fresh.build_seconds = elapsed.count();
+  return fresh;
+}
+}  // namespace sigloc

@@ -1,0 +1,280 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sigloc/localize/LocalizationRun.h"
+
+#include <mrpt/core/bits_math.h>
+#include <mrpt/math/wrap2pi.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "io/GroundTruth.h"
+#include "plugin/ParticleTracker.h"
+#include "sigloc/io/map_files.h"
+#include "sigloc/plugin/pose_pdf.h"
+#include "sigloc/plugin/SignatureMap.h"
+#include "sigloc/tracking/HypothesisTracker.h"
+
+namespace sigloc
+{
+namespace
+{
+namespace fs = std::filesystem;
+using mrpt::math::TPose2D;
+
+// What counts as right and as wrong is fixed, so that runs compare.
+constexpr double kRightDistance = 0.5;  // [m]
+constexpr double kRightAngle = 10 * M_PI / 180;  // [rad]
+constexpr double kWrongDistance = 1.0;  // [m]
+constexpr double kWrongAngle = 20 * M_PI / 180;  // [rad]
+
+class Stopwatch
+{
+ public:
+  double milliseconds() const
+  {
+    const auto elapsed = std::chrono::steady_clock::now() - start_;
+    return std::chrono::duration<double, std::milli>(elapsed).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// Returns the value below which a share of the values lies; 0 for none.
+double quantile(std::vector<double> values, double share)
+{
+  if (values.empty()) return 0;
+  const double position = share * static_cast<double>(values.size() - 1);
+  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(std::lround(position));
+  std::nth_element(values.begin(), nth, values.end());
+  return *nth;
+}
+
+/// Reads up to the first step that counts, so that a log without any fails before the map is built.
+RawlogStep firstStep(RawlogReader& reader, const LocalizationSetup& setup)
+{
+  for (std::uint32_t skipped = 0;; ++skipped)
+  {
+    auto step = reader.next();
+    if (!step)
+    {
+      throw std::runtime_error(setup.rawlog_file.string() +
+                               (skipped == 0 ? ": no usable laser scan in it"
+                                             : ": fewer steps than rawlog_offset skips"));
+    }
+    if (skipped == setup.rawlog_offset) return std::move(*step);
+  }
+}
+
+CachedMap makeMap(const LocalizationSetup& setup, const fs::path& cache)
+{
+  CachedMap made;
+  const bool ready = setup.map_file.extension() == ".sigmap";
+  if (cache.empty() || ready)
+  {
+    const Stopwatch watch;
+    made.map = buildMapFromFile(setup.map_file, setup.map, setup.features);
+    made.build_seconds = watch.milliseconds() / 1000;
+  }
+  else
+  {
+    made = mapWithCache(setup.map_file, cache, setup.map, setup.features);
+  }
+  if (made.map.empty())
+  {
+    if (!cache.empty() && !made.reused) fs::remove(cache);
+    throw std::runtime_error(setup.map_file.string() + ": no feature found in it");
+  }
+  return made;
+}
+
+std::optional<double> travelOf(const StepRecord& step)
+{
+  return step.travel_known ? std::optional(step.travelled) : std::nullopt;
+}
+
+/// pf-localization's test: one pose, not far from the truth.
+bool hasConverged(const StepRecord& step)
+{
+  constexpr double kConvergedVolume = 2;  // sqrt of the covariance's determinant
+  constexpr double kConvergedDistance = 2;  // [m]
+  if (!step.truth || step.belief.hypotheses.empty()) return false;
+  const GaussianPose pose = momentsOf(step.belief);
+  return std::sqrt(std::max(0.0, pose.covariance.det())) < kConvergedVolume &&
+         errorBetween(pose.mean, *step.truth).distance < kConvergedDistance;
+}
+}  // namespace
+
+PoseError errorBetween(const TPose2D& pose, const TPose2D& truth)
+{
+  return {std::hypot(pose.x - truth.x, pose.y - truth.y),
+          std::abs(mrpt::math::wrapToPi(pose.phi - truth.phi))};
+}
+
+struct LocalizationRun::State
+{
+  explicit State(const LocalizationSetup& setup)
+      : reader(setup.rawlog_file), pending(firstStep(reader, setup))
+  {
+    if (!setup.ground_truth_file.empty())
+    {
+      truth = GroundTruth::read(setup.ground_truth_file, setup.mapFromTruth());
+    }
+  }
+
+  RawlogReader reader;
+  std::optional<RawlogStep> pending;  // read, not yet taken; none at the end
+  std::optional<GroundTruth> truth;
+  std::unique_ptr<HypothesisTracker> tracker;  // the one or
+  std::unique_ptr<ParticleTracker> particles;  // the other
+  bool map_reused = false;
+  double map_seconds = 0;
+};
+
+LocalizationRun::LocalizationRun(const LocalizationSetup& setup, const fs::path& map_cache)
+    : setup_(setup), state_(std::make_unique<State>(setup_))
+{
+  CachedMap made = makeMap(setup_, map_cache);
+  map_ = std::make_shared<const FeatureMap>(std::move(made.map));
+  state_->map_reused = made.reused;
+  state_->map_seconds = made.build_seconds;
+  const auto matcher = std::make_shared<const SignatureMatcher>(map_, setup_.matcher);
+  if (setup_.use_particles)
+  {
+    const auto map = std::make_shared<const SignatureMap>(FeatureMap(*map_));
+    state_->particles = std::make_unique<ParticleTracker>(
+        map, matcher, setup_.tracker, setup_.particles, setup_.matcher.seed, setup_.features);
+    state_->particles->reset(setup_.prior);
+    return;
+  }
+  state_->tracker = std::make_unique<HypothesisTracker>(matcher, setup_.tracker);
+  state_->tracker->reset(setup_.prior);
+}
+
+LocalizationRun::~LocalizationRun() = default;
+
+const StepRecord* LocalizationRun::next()
+{
+  if (!state_->pending) return nullptr;
+  std::optional<RawlogStep> input = std::move(state_->pending);
+  const std::size_t index = setup_.rawlog_offset + steps_.size();
+  // One ahead: the last step may have a truth of its own.
+  state_->pending = setup_.convergence_test_step == index ? std::nullopt : state_->reader.next();
+  const bool last = !state_->pending && !state_->reader.truncated();
+
+  StepRecord step;
+  step.number = steps_.size() + 1;
+  step.entry = input->entry;
+  step.time = input->time;
+  // How the robot came to the first step is motion in another run.
+  if (steps_.empty()) input->motion.reset();
+  step.travelled = steps_.empty() ? 0 : steps_.back().travelled;
+  step.travel_known = steps_.empty() || input->motion.has_value() ||
+                      (steps_.size() > 1 && steps_.back().travel_known);
+  step.odometry = steps_.empty() ? setup_.initial_odometry : steps_.back().odometry;
+  if (input->motion)
+  {
+    step.travelled += std::hypot(input->motion->mean.x, input->motion->mean.y);
+    step.odometry = step.odometry + input->motion->mean;
+  }
+
+  const Stopwatch extraction;
+  scene_ = observeScene(input->scans, setup_.features);
+  scene_.features.insert(scene_.features.end(), input->landmarks.begin(), input->landmarks.end());
+  step.extraction_ms = extraction.milliseconds();
+  const Stopwatch tracking;
+  step.belief = state_->particles ? state_->particles->step(*input)
+                                  : state_->tracker->step(input->motion, scene_);
+  step.tracking_ms = tracking.milliseconds();
+  step.relocated =
+      state_->particles ? state_->particles->relocated() : state_->tracker->relocated();
+
+  if (state_->truth)
+  {
+    step.truth = state_->truth->at(index, step.time);
+  }
+  if (last && setup_.finalTruth()) step.truth = setup_.finalTruth();
+  score(step);
+  steps_.push_back(std::move(step));
+  return &steps_.back();
+}
+
+void LocalizationRun::score(StepRecord& step) const
+{
+  if (!step.truth || step.belief.hypotheses.empty()) return;
+  step.error = errorBetween(step.belief.hypotheses.front().pose.mean, *step.truth);
+  step.confidently_wrong =
+      step.belief.verdict == Verdict::localized &&
+      (step.error->distance > kWrongDistance || step.error->angle > kWrongAngle);
+  step.any_right =
+      std::any_of(step.belief.hypotheses.begin(), step.belief.hypotheses.end(),
+                  [&](const TrackedHypothesis& hypothesis)
+                  {
+                    const PoseError error = errorBetween(hypothesis.pose.mean, *step.truth);
+                    return error.distance <= kRightDistance && error.angle <= kRightAngle;
+                  });
+}
+
+double LocalizationRun::progress() const
+{
+  return state_->reader.progress();
+}
+
+bool LocalizationRun::atEnd() const
+{
+  return !state_->pending;
+}
+
+RunSummary LocalizationRun::summary() const
+{
+  RunSummary summary;
+  summary.map_features = map_->features().size();
+  summary.map_reused = state_->map_reused;
+  summary.map_seconds = state_->map_seconds;
+  summary.seed = setup_.matcher.seed;
+  summary.left_out = state_->reader.leftOut();
+  summary.truncated = state_->reader.truncated();
+  summary.steps = steps_.size();
+  std::vector<double> relocation_times;
+  std::vector<double> tracking_times;
+  for (const StepRecord& step : steps_)
+  {
+    const double total_ms = step.extraction_ms + step.tracking_ms;
+    (step.relocated ? relocation_times : tracking_times).push_back(total_ms);
+    if (step.confidently_wrong) ++summary.confidently_wrong_steps;
+    if (step.any_right && state_->truth && !summary.steps_to_first_right)
+    {
+      summary.steps_to_first_right = step.number;
+      summary.metres_to_first_right = travelOf(step);
+    }
+    if (step.belief.verdict == Verdict::localized && !summary.steps_to_localized)
+    {
+      summary.steps_to_localized = step.number;
+      summary.metres_to_localized = travelOf(step);
+    }
+    if (step.truth) summary.final_error = step.error;
+  }
+  summary.relocations = relocation_times.size();
+  summary.relocation_ms_median = quantile(relocation_times, 0.5);
+  summary.relocation_ms_p95 = quantile(relocation_times, 0.95);
+  summary.step_ms_median = quantile(tracking_times, 0.5);
+  summary.step_ms_p95 = quantile(tracking_times, 0.95);
+  if (steps_.empty()) return summary;
+  if (setup_.convergence_test_step == setup_.rawlog_offset + steps_.size() - 1)
+  {
+    summary.converged = hasConverged(steps_.back());
+  }
+  const StepRecord& last = steps_.back();
+  summary.distance = travelOf(last).value_or(std::numeric_limits<double>::quiet_NaN());
+  summary.final_verdict = last.belief.verdict;
+  if (!last.belief.hypotheses.empty())
+  {
+    summary.final_pose = last.belief.hypotheses.front().pose.mean;
+  }
+  return summary;
+}
+}  // namespace sigloc

@@ -1,0 +1,303 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sigloc/localize/LocalizationSetup.h"
+
+#include <mrpt/config/CConfigFileMemory.h>
+#include <mrpt/core/bits_math.h>
+#include <mrpt/math/wrap2pi.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <vector>
+
+#include "io/gzip_input.h"
+#include "io/text_rows.h"
+#include "localize/ini_warnings.h"
+#include "sigloc/io/file_output.h"
+#include "sigloc/io/map_files.h"
+
+namespace sigloc
+{
+namespace
+{
+namespace fs = std::filesystem;
+using mrpt::config::CConfigFileMemory;
+
+constexpr const char* kExperiment = "LocalizationExperiment";
+constexpr const char* kPrefix = "sigloc.";
+constexpr const char* kMatcher = "sigloc.matcher";
+constexpr const char* kTracker = "sigloc.tracker";
+constexpr const char* kParticles = "sigloc.particles";
+constexpr const char* kFeatures = "sigloc.features";
+constexpr const char* kMap = "sigloc.map";
+constexpr const char* kReport = "sigloc.localize";
+constexpr std::array<const char*, 6> kSections = {kMatcher,  kTracker, kParticles,
+                                                  kFeatures, kMap,     kReport};
+
+/// Returns the text of a file that is there; throws std::runtime_error where it is none.
+std::string readText(const fs::path& path)
+{
+  std::ifstream file(path, std::ios::binary);
+  std::stringstream text;
+  text << file.rdbuf();
+  if (!file) throw std::runtime_error("cannot be read, or is empty");
+  if (text.str().find('\0') != std::string::npos) throw std::runtime_error("not an ini file");
+  return text.str();
+}
+
+void readSections(const CConfigFileMemory& ini, LocalizationSetup& setup)
+{
+  std::vector<std::string> sections;
+  ini.getAllSections(sections);
+  for (const std::string& section : sections)
+  {
+    const bool ours = section.rfind(kPrefix, 0) == 0;
+    const bool known = std::find(kSections.begin(), kSections.end(), section) != kSections.end();
+    if (ours && !known) throw std::runtime_error("unknown section [" + section + "]");
+  }
+  setup.matcher = loadOptions<MatcherOptions>(ini, kMatcher);
+  setup.tracker = loadOptions<TrackerOptions>(ini, kTracker);
+  setup.particles = loadOptions<ParticleOptions>(ini, kParticles);
+  setup.features = loadOptions<FeatureExtractorOptions>(ini, kFeatures);
+  setup.map = loadOptions<MapBuildingOptions>(ini, kMap);
+  setup.report = loadOptions<ReportOptions>(ini, kReport);
+}
+
+double readNumber(const CConfigFileMemory& ini, const char* key, double fallback)
+{
+  const std::string text = ini.read_string_first_word(kExperiment, key, "");
+  if (text.empty()) return fallback;
+  const std::optional<double> value = detail::toNumber(text);
+  if (!value)
+  {
+    throw std::runtime_error(std::string("[") + kExperiment + "]: bad value '" + text + "' for '" +
+                             key + "'");
+  }
+  return *value;
+}
+
+std::uint32_t readCount(const CConfigFileMemory& ini, const char* key, std::uint32_t fallback)
+{
+  const double value = readNumber(ini, key, fallback);
+  if (value < 0 || value > 1e9 || value != std::floor(value))
+  {
+    throw std::runtime_error(std::string("[") + kExperiment + "]: '" + key +
+                             "' is not a count of at least 0");
+  }
+  return static_cast<std::uint32_t>(value);
+}
+
+/// The box that pf-localization spreads its particles over, in either init_PDF_mode; a narrower one
+/// than a pose is told apart by is widened to that.
+std::optional<PoseRegion> readPrior(const CConfigFileMemory& ini)
+{
+  constexpr double kLeastHalfWidth = 0.5;  // [m]
+  constexpr double kLeastHalfTurn = 10 * M_PI / 180;
+  PoseRegion region{readNumber(ini, "init_PDF_min_x", 0), readNumber(ini, "init_PDF_max_x", 0),
+                    readNumber(ini, "init_PDF_min_y", 0), readNumber(ini, "init_PDF_max_y", 0)};
+  if (region.x_min > region.x_max || region.y_min > region.y_max)
+  {
+    throw std::runtime_error(std::string("[") + kExperiment +
+                             "]: the box init_PDF_* ends before it begins");
+  }
+  const bool has_box = region.x_min < region.x_max || region.y_min < region.y_max ||
+                       ini.keyExists(kExperiment, "init_PDF_min_x");
+  if (!has_box) return std::nullopt;
+  const auto widen = [&](double& low, double& high)
+  {
+    const double missing = std::max(0.0, kLeastHalfWidth - 0.5 * (high - low));
+    low -= missing;
+    high += missing;
+  };
+  widen(region.x_min, region.x_max);
+  widen(region.y_min, region.y_max);
+  const double min_yaw = mrpt::DEG2RAD(readNumber(ini, "init_PDF_min_yaw_deg", -180));
+  double max_yaw = mrpt::DEG2RAD(readNumber(ini, "init_PDF_max_yaw_deg", 180));
+  if (max_yaw < min_yaw) max_yaw += 2 * M_PI;  // across the turn of the heading
+  if (max_yaw - min_yaw < 2 * M_PI - 1e-6)
+  {
+    region.heading = mrpt::math::wrapToPi(0.5 * (min_yaw + max_yaw));
+    region.heading_tolerance = std::max(kLeastHalfTurn, 0.5 * (max_yaw - min_yaw));
+  }
+  return region;
+}
+
+std::uint32_t readRepetitions(const CConfigFileMemory& ini)
+{
+  constexpr std::uint32_t kMost = 100000;
+  const std::uint32_t count = readCount(ini, "experimentRepetitions", 1);
+  if (count > kMost)
+  {
+    throw std::runtime_error(std::string("[") + kExperiment +
+                             "]: 'experimentRepetitions' is more than " + std::to_string(kMost));
+  }
+  return std::max(1U, count);
+}
+
+/// Numbers of particles, one experiment each.
+std::vector<std::uint32_t> readParticleCounts(const CConfigFileMemory& ini)
+{
+  std::vector<std::uint32_t> counts;
+  std::istringstream words(ini.read_string(kExperiment, "particles_count", ""));
+  for (std::string word; words >> word;)
+  {
+    const auto count = detail::parseValue<std::uint32_t>(word);
+    if (!count || *count == 0 || *count > ParticleOptions::kMostParticles)
+    {
+      throw std::runtime_error(std::string("[") + kExperiment + "]: bad value '" + word +
+                               "' for 'particles_count': from 1 to " +
+                               std::to_string(ParticleOptions::kMostParticles));
+    }
+    counts.push_back(*count);
+  }
+  return counts;
+}
+
+/// Reads what pf-localization judges a run by.
+void readJudgement(const CConfigFileMemory& ini, LocalizationSetup& setup)
+{
+  // Below 0, the default there, means that the step is not tested for.
+  if (readNumber(ini, "experimentTestConvergenceAtStep", -1) >= 0)
+  {
+    setup.convergence_test_step = readCount(ini, "experimentTestConvergenceAtStep", 0);
+  }
+  setup.confidence_share = readNumber(ini, "STATS_CONF_INTERVAL", setup.confidence_share);
+  if (setup.confidence_share <= 0 || setup.confidence_share >= 1)
+  {
+    throw std::runtime_error(std::string("[") + kExperiment +
+                             "]: 'STATS_CONF_INTERVAL' is not between 0 and 1");
+  }
+  setup.initial_odometry = {readNumber(ini, "initial_odo_x", 0),
+                            readNumber(ini, "initial_odo_y", 0),
+                            readNumber(ini, "initial_odo_phi", 0)};
+}
+
+/// Whether MRPT's particle filter is to follow the robot instead of our own tracker.
+bool readTracker(const CConfigFileMemory& ini)
+{
+  const std::string name = ini.read_string_first_word(kExperiment, "tracker", "gaussians");
+  if (name != "gaussians" && name != "particles")
+  {
+    throw std::runtime_error(std::string("[") + kExperiment + "]: 'tracker' is '" + name +
+                             "', neither gaussians nor particles");
+  }
+  return name == "particles";
+}
+
+/// Where that cannot be told, whoever reads the file says why.
+bool mayExist(const fs::path& path)
+{
+  std::error_code error;
+  return fs::status(path, error).type() != fs::file_type::not_found;
+}
+
+/// Finds a file that an ini names: beside the ini, then from the current folder.
+fs::path findFile(const fs::path& named, const fs::path& ini, const char* key)
+{
+  if (named.empty()) throw std::runtime_error(std::string("'") + key + "' is missing");
+  const fs::path beside = ini.parent_path() / named;  // `named` itself where it is absolute
+  if (mayExist(beside)) return beside.lexically_normal();
+  if (mayExist(named)) return named;
+  throw std::runtime_error(std::string("'") + key + "' names " + named.string() +
+                           ", which does not exist");
+}
+
+void readExperiment(const CConfigFileMemory& ini, const fs::path& path, const fs::path& rawlog,
+                    LocalizationSetup& setup)
+{
+  if (!ini.sectionExists(kExperiment))
+  {
+    throw std::runtime_error(std::string("no section [") + kExperiment + "]");
+  }
+  const std::string unread = detail::warningOfUnreadKeys(ini, kExperiment);
+  if (!unread.empty()) setup.warnings.push_back(unread);
+  const auto named = [&](const char* key) { return ini.read_string(kExperiment, key, ""); };
+  setup.map_file = findFile(named("map_file"), path, "map_file");
+  setup.rawlog_file = rawlog.empty() ? findFile(named("rawlog_file"), path, "rawlog_file") : rawlog;
+  const std::string truth = named("ground_truth_path_file");
+  if (!truth.empty()) setup.ground_truth_file = findFile(truth, path, "ground_truth_path_file");
+  setup.output_folder = named("logOutput_dir");
+  setup.rawlog_offset = readCount(ini, "rawlog_offset", 0);
+  setup.scene_frequency = readCount(ini, "3DSceneFrequency", 0);
+  setup.repetitions = readRepetitions(ini);
+  readJudgement(ini, setup);
+  setup.prior = readPrior(ini);
+  setup.use_particles = readTracker(ini);
+  if (setup.use_particles) setup.particle_counts = readParticleCounts(ini);
+}
+
+/// Runs `read` on the parsed ini and puts the path before whatever it throws.
+template <class Read>
+LocalizationSetup parse(const fs::path& path, Read&& read)
+{
+  detail::requireFile(path);
+  try
+  {
+    CConfigFileMemory ini;
+    const std::string text = readText(path);
+    ini.setContent(text);
+    LocalizationSetup setup;
+    std::vector<std::string> sections(kSections.begin(), kSections.end());
+    sections.emplace_back(kExperiment);
+    setup.warnings = detail::warningsOfRepeatedKeys(text, sections);
+    setup.config_file = path;
+    readSections(ini, setup);
+    read(ini, setup);
+    return setup;
+  }
+  catch (const std::exception& error)
+  {
+    throw std::runtime_error(path.string() + ": " + firstLine(error.what()));
+  }
+}
+}  // namespace
+
+std::vector<fs::path> LocalizationSetup::inputFiles() const
+{
+  std::vector<fs::path> files = filesOfMapSource(map_file);
+  files.insert(files.end(), {config_file, rawlog_file, ground_truth_file});
+  return files;
+}
+
+mrpt::math::TPose2D LocalizationSetup::mapFromTruth() const
+{
+  return {report.map_from_truth_x, report.map_from_truth_y,
+          mrpt::DEG2RAD(report.map_from_truth_phi_deg)};
+}
+
+std::optional<mrpt::math::TPose2D> LocalizationSetup::finalTruth() const
+{
+  if (!report.use_final_truth) return std::nullopt;
+  return mrpt::math::TPose2D(report.final_truth_x, report.final_truth_y,
+                             mrpt::DEG2RAD(report.final_truth_phi_deg));
+}
+
+LocalizationSetup readLocalizationSetup(const fs::path& ini_path, const fs::path& rawlog)
+{
+  return parse(ini_path, [&](const CConfigFileMemory& ini, LocalizationSetup& setup)
+               { readExperiment(ini, ini_path, rawlog, setup); });
+}
+
+LocalizationSetup readOptionSections(const fs::path& ini_path)
+{
+  return parse(ini_path, [](const CConfigFileMemory&, LocalizationSetup&) {});
+}
+
+std::string defaultOptionSections()
+{
+  CConfigFileMemory ini;
+  const LocalizationSetup setup;
+  saveOptions(setup.matcher, ini, kMatcher);
+  saveOptions(setup.tracker, ini, kTracker);
+  saveOptions(setup.particles, ini, kParticles);
+  saveOptions(setup.features, ini, kFeatures);
+  saveOptions(setup.map, ini, kMap);
+  saveOptions(setup.report, ini, kReport);
+  return ini.getContent();
+}
+
+}  // namespace sigloc

@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "localize/ini_warnings.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <sstream>
+#include <utility>
+
+namespace sigloc::detail
+{
+namespace
+{
+constexpr const char* kSpaces = " \t\r";
+
+// pf-localization 2.5.8 reads all of them but `tracker`.
+const std::set<std::string>& readKeys()
+{
+  static const std::set<std::string> kKeys = {
+      "3DSceneFollowRobot",
+      "3DSceneFrequency",
+      "DO_RELIABILITY_ESTIMATE",
+      "DO_SCAN_LIKELIHOOD_DEBUG",
+      "SAVE_STATS_ONLY",
+      "SHOW_PROGRESS_3D_REAL_TIME",
+      "SHOW_PROGRESS_3D_REAL_TIME_DELAY_MS",
+      "STATS_CONF_INTERVAL",
+      "experimentRepetitions",
+      "experimentTestConvergenceAtStep",
+      "ground_truth_path_file",
+      "init_PDF_max_pitch_deg",
+      "init_PDF_max_roll_deg",
+      "init_PDF_max_x",
+      "init_PDF_max_y",
+      "init_PDF_max_yaw_deg",
+      "init_PDF_max_z",
+      "init_PDF_min_pitch_deg",
+      "init_PDF_min_roll_deg",
+      "init_PDF_min_x",
+      "init_PDF_min_y",
+      "init_PDF_min_yaw_deg",
+      "init_PDF_min_z",
+      "init_PDF_mode",
+      "initial_odo_phi",
+      "initial_odo_x",
+      "initial_odo_y",
+      "logOutput_dir",
+      "map_file",
+      "particles_count",
+      "rawlog_file",
+      "rawlog_offset",
+      "tracker",
+      "use_3D_poses",
+  };
+  return kKeys;
+}
+
+std::string trimmed(const std::string& text)
+{
+  const std::size_t begin = text.find_first_not_of(kSpaces);
+  if (begin == std::string::npos) return {};
+  return text.substr(begin, text.find_last_not_of(kSpaces) + 1 - begin);
+}
+
+bool isComment(const std::string& line)
+{
+  return line.front() == ';' || line.front() == '#' || line.rfind("//", 0) == 0;
+}
+}  // namespace
+
+std::string warningOfUnreadKeys(const mrpt::config::CConfigFileBase& ini,
+                                const std::string& section)
+{
+  std::vector<std::string> present;
+  ini.getAllKeys(section, present);
+  std::string unread;
+  for (const std::string& key : present)
+  {
+    if (readKeys().count(key) > 0) continue;
+    unread += (unread.empty() ? "'" : ", '") + key + "'";
+  }
+  return unread.empty() ? "" : "[" + section + "]: nothing reads " + unread;
+}
+
+std::vector<std::string> warningsOfRepeatedKeys(const std::string& text,
+                                                const std::vector<std::string>& sections)
+{
+  std::map<std::pair<std::string, std::string>, int> counts;
+  std::istringstream lines(text);
+  std::string section;
+  bool goes_on = false;  // a value over several lines
+  for (std::string line; std::getline(lines, line);)
+  {
+    line = trimmed(line);
+    if (line.empty()) continue;
+    if (std::exchange(goes_on, line.back() == '\\') || isComment(line)) continue;
+    const std::size_t equals = line.find('=');
+    if (line.front() == '[')
+    {
+      section = line.substr(1, line.find(']') - 1);
+    }
+    else if (equals != std::string::npos)
+    {
+      ++counts[{section, trimmed(line.substr(0, equals))}];
+    }
+  }
+  std::vector<std::string> warnings;
+  for (const auto& [key, count] : counts)
+  {
+    if (count == 1 || std::count(sections.begin(), sections.end(), key.first) == 0) continue;
+    warnings.push_back("[" + key.first + "]: '" + key.second + "' is there " +
+                       std::to_string(count) + " times, the last counts");
+  }
+  return warnings;
+}
+}  // namespace sigloc::detail

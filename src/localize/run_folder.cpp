@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "localize/run_folder.h"
+
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <string>
+
+#include "localize/pf_localization_files.h"
+#include "sigloc/io/file_output.h"
+
+namespace sigloc::detail
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse(const fs::path& folder, const std::string& reason)
+{
+  throw std::runtime_error(folder.string() + ": " + reason + "; not overwritten");
+}
+
+bool isRunFile(const std::string& name)
+{
+  static const std::set<std::string> kNames = []
+  {
+    std::set<std::string> names = {"path.tum", "steps.csv", "annotated.rawlog", kRunSummaryFile};
+    names.insert(pfLocalizationFiles().begin(), pfLocalizationFiles().end());
+    return names;
+  }();
+  return kNames.count(withoutTemporaryEnding(name)) > 0;
+}
+
+/// The first entry of a folder's entry that no run writes, or nullopt.
+std::optional<fs::path> foreignPartOf(const fs::directory_entry& entry)
+{
+  static const std::map<std::string, std::set<std::string>> kParts = {
+      {"belief", {".CPosePDFSOG", ".txt"}},
+      {"3D", {".3Dscene"}},
+      {"pictures", {".png"}},
+      {"particles", {".txt"}}};
+  const auto part = kParts.find(entry.path().filename().string());
+  if (part == kParts.end() || !entry.is_directory())
+  {
+    return isRunFile(entry.path().filename().string()) ? std::nullopt : std::optional(entry.path());
+  }
+  for (const fs::directory_entry& file : fs::directory_iterator(entry.path()))
+  {
+    const fs::path name = withoutTemporaryEnding(file.path().filename().string());
+    if (part->second.count(name.extension().string()) == 0) return file.path();
+  }
+  return std::nullopt;
+}
+
+/// Throws for what no run writes; returns whether there is anything besides `other`.
+bool requireRunFilesOnly(const fs::path& folder, const char* other = "")
+{
+  bool holds_something = false;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+  {
+    if (entry.path().filename() == other) continue;
+    holds_something = true;
+    if (const auto foreign = foreignPartOf(entry))
+    {
+      refuse(folder,
+             "holds " + foreign->lexically_relative(folder).string() + ", which no run writes");
+    }
+  }
+  return holds_something;
+}
+
+bool isRunSummary(const fs::path& path)
+{
+  std::ifstream file(path);
+  const auto summary = nlohmann::json::parse(file, nullptr, false);
+  return summary.is_object() && summary.contains("steps_to_first_right") &&
+         summary.contains("confidently_wrong_steps");
+}
+
+bool isMissing(const fs::path& folder)
+{
+  std::error_code unnameable;
+  if (!fs::exists(folder, unnameable)) return true;
+  if (!fs::is_directory(folder)) throw std::runtime_error(folder.string() + ": is not a folder");
+  return false;
+}
+}  // namespace
+
+void requireFinishedRun(const fs::path& folder)
+{
+  if (isMissing(folder)) return;
+  requireUnfinishedRun(folder / kInnerWork);
+  if (!requireRunFilesOnly(folder, kInnerWork)) return;
+  if (isRunSummary(folder / kRunSummaryFile)) return;
+  refuse(folder, std::string("is not empty, and has no ") + kRunSummaryFile +
+                     " that tells an earlier run of sigloc-localize");
+}
+
+// A run makes this part before anything else, and the user's folder of that name has hardly one.
+void requireUnfinishedRun(const fs::path& folder)
+{
+  if (isMissing(folder) || !requireRunFilesOnly(folder)) return;
+  if (!fs::is_directory(folder / "belief")) refuse(folder, "is not the work folder of a run");
+}
+}  // namespace sigloc::detail

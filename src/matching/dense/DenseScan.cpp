@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "matching/dense/DenseVerifier.h"
+
+namespace sigloc
+{
+using mrpt::math::TPoint2D;
+
+namespace
+{
+constexpr float kOnSegment = 0.05F;  // [m], a return this near a fitted segment lies on it
+constexpr double kSharedLength = 0.2;  // [m] of wall whose returns share one weight
+constexpr double kLeastShare = 0.01;  // of a return that repeats those beside it
+
+/// Indices 0..n-1 in van der Corput order: every prefix is spread evenly.
+std::vector<std::uint32_t> interleavedOrder(std::uint32_t n)
+{
+  // Between any two of the indices so far comes one of the next half.
+  std::vector<std::uint32_t> order = {0};
+  while (order.size() < n)
+  {
+    for (std::uint32_t& index : order) index *= 2;
+    const std::size_t half = order.size();
+    order.resize(2 * half);
+    for (std::size_t i = 0; i < half; ++i) order[half + i] = order[i] + 1;
+  }
+  order.erase(std::remove_if(order.begin(), order.end(), [&](std::uint32_t i) { return i >= n; }),
+              order.end());
+  return order;
+}
+
+/// How far [m] a beam's neighbour may end from it on the same surface.
+double gapAt(const BeamEnd& beam)
+{
+  constexpr double kGap = 0.3;  // [m]
+  constexpr double kGapPerRange = 0.05;  // [m/m], beams fan out
+  return kGap + kGapPerRange * beam.point.norm();
+}
+
+/// What the beams beside a return tell of it.
+struct Surroundings
+{
+  bool isolated = true;  ///< none ends near it: a speck of clutter, or something thin and far
+  /// The share of kSharedLength that it stands for, in [kLeastShare, 1]: its mean distance to the
+  /// beams beside it on the same surface.
+  double length_share = 1;
+};
+
+Surroundings surroundingsOf(const std::vector<BeamEnd>& beams, std::size_t i)
+{
+  const BeamEnd& beam = beams[i];
+  const double gap = gapAt(beam);
+  Surroundings surroundings;
+  double sum = 0;
+  int neighbours = 0;
+  for (const std::size_t k : {i - 2, i - 1, i + 1, i + 2})
+  {
+    // Before the first beam is far beyond the last.
+    if (k >= beams.size() || beams[k].origin != beam.origin) continue;
+    const double dx = beams[k].point.x - beam.point.x;
+    const double dy = beams[k].point.y - beam.point.y;
+    const double squared = dx * dx + dy * dy;
+    if (!(squared < gap * gap)) continue;
+    surroundings.isolated = false;
+    if (k + 2 == i || k == i + 2) continue;
+    sum += std::sqrt(squared);
+    ++neighbours;
+  }
+  if (neighbours > 0)
+  {
+    surroundings.length_share = std::clamp(sum / neighbours / kSharedLength, kLeastShare, 1.0);
+  }
+  return surroundings;
+}
+
+/// Says how each return pulls: along the normal of the wall it lies on, or to both sides alike. Of
+/// several walls the first one counts.
+void setPulls(const std::vector<Feature>& features, DenseScan& scan)
+{
+  const std::size_t n = scan.x.size();
+  scan.pull_xx.assign(n, 0.5F);
+  scan.pull_xy.assign(n, 0.0F);
+  scan.pull_yy.assign(n, 0.5F);
+  for (auto feature = features.rbegin(); feature != features.rend(); ++feature)
+  {
+    if (feature->type != FeatureType::segment) continue;
+    const TPoint2D normal = directionVector(*feature);
+    const auto nx = static_cast<float>(normal.x);
+    const auto ny = static_cast<float>(normal.y);
+    const auto x0 = static_cast<float>(feature->position.x);
+    const auto y0 = static_cast<float>(feature->position.y);
+    const auto reach = static_cast<float>(0.5 * feature->size + kOnSegment);
+    const float xx = nx * nx;
+    const float xy = nx * ny;
+    const float yy = ny * ny;
+    // Without branches, so that compilers take several returns at a time.
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      const float dx = scan.x[i] - x0;
+      const float dy = scan.y[i] - y0;
+      const float off =
+          std::max(std::abs(nx * dx + ny * dy) - kOnSegment, std::abs(ny * dx - nx * dy) - reach);
+      const float kept = off > 0 ? 1.0F : 0.0F;
+      scan.pull_xx[i] = xx + kept * (scan.pull_xx[i] - xx);
+      scan.pull_xy[i] = xy + kept * (scan.pull_xy[i] - xy);
+      scan.pull_yy[i] = yy + kept * (scan.pull_yy[i] - yy);
+    }
+  }
+}
+}  // namespace
+
+DenseScan makeDenseScan(const ObservedScene& scene, std::size_t max_beams)
+{
+  const std::size_t total = scene.beams.size();
+  const std::size_t count = std::min(total, max_beams);
+  DenseScan scan;
+  scan.origins = scene.sensor_origins;
+  for (auto* column : {&scan.x, &scan.y, &scan.balance}) column->reserve(count);
+  scan.isolated.reserve(count);
+  scan.origin.reserve(count);
+  for (const std::uint32_t i : interleavedOrder(static_cast<std::uint32_t>(count)))
+  {
+    const std::size_t at = i * total / count;
+    const BeamEnd& beam = scene.beams[at];
+    scan.x.push_back(static_cast<float>(beam.point.x));
+    scan.y.push_back(static_cast<float>(beam.point.y));
+    const Surroundings surroundings = surroundingsOf(scene.beams, at);
+    scan.balance.push_back(static_cast<float>(std::sqrt(surroundings.length_share)));
+    scan.isolated.push_back(surroundings.isolated ? 1 : 0);
+    scan.origin.push_back(beam.origin);
+  }
+  setPulls(scene.features, scan);
+  const float sum = std::accumulate(scan.balance.begin(), scan.balance.end(), 0.0F);
+  for (float& weight : scan.balance) weight *= static_cast<float>(count) / sum;
+  return scan;
+}
+}  // namespace sigloc

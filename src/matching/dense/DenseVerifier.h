@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mrpt/math/TPose2D.h>
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "matching/dense/DenseEvidence.h"
+#include "matching/dense/DenseScan.h"
+#include "sigloc/geometry/GaussianPose.h"
+#include "sigloc/map/DenseField.h"
+
+namespace sigloc
+{
+struct QuickLook;
+class QuickField;
+class SolidWalls;
+
+/// Judges poses by the dense field. Never searches: every pose comes from a proposal and is refined
+/// in a few stages, by at most 0.5 m and 10 degrees each. Const and thread-safe. \cite algorithm
+/// section 6
+class DenseVerifier
+{
+ public:
+  /// A pose that scores less than this behind the best may still win, or be its rival.
+  static constexpr double kContender = 0.2;
+
+  /// Keeps a reference to the field, which must outlive the verifier. Throws std::invalid_argument
+  /// for a field without cells.
+  explicit DenseVerifier(const DenseField& field);
+  ~DenseVerifier();
+
+  /// Returns at most `max_ranked` distinct poses (more than 0.5 m or 17 degrees apart), best first.
+  /// `poses_scored` is increased by the number of poses looked up. Those that were ranked `before`
+  /// for the same scan compete with what the proposals lead to.
+  std::vector<RankedPose> rank(const DenseScan& scan, const std::vector<PoseProposal>& proposals,
+                               std::size_t max_ranked, std::uint64_t& poses_scored,
+                               std::vector<RankedPose> before = {}) const;
+
+  /// Returns the pose moved to fit the returns, within 0.5 m and 10 degrees of the start, by
+  /// `steps` of iterated closest points on the first `beams` returns. \cite algorithm eq. (6.7)
+  mrpt::math::TPose2D refine(const DenseScan& scan, const mrpt::math::TPose2D& start, int steps,
+                             std::size_t beams) const;
+
+  /// Returns the full evidence for a pose. \cite algorithm eq. (6.8)
+  DenseEvidence evaluate(const DenseScan& scan, const mrpt::math::TPose2D& pose) const;
+
+  /// Returns how far the map explains each return of the scan, in [0, 1]: as the score (6.8) does,
+  /// but with a sharper eye for where a wall is; of beams that pass walls only those of the 64
+  /// first returns count. \cite algorithm eq. (8.26)
+  std::vector<float> explainedReturns(const DenseScan& scan, const mrpt::math::TPose2D& pose) const;
+
+  /// Returns the 3x3 covariance of a refined pose [m^2, m rad, rad^2]: the returns' information
+  /// of 0.05 m each, tempered; the map's own error is not in it. \cite algorithm eq. (6.9)
+  mrpt::math::CMatrixDouble33 covarianceAt(const DenseScan& scan,
+                                           const mrpt::math::TPose2D& pose) const;
+
+  /// Returns the same, wider in the direction that is least known as far as the fit does not suffer
+  /// from a move that way. \cite algorithm eq. (6.13)
+  mrpt::math::CMatrixDouble33 testedCovarianceAt(const DenseScan& scan,
+                                                 const mrpt::math::TPose2D& pose) const;
+
+  const DenseField& field() const { return field_; }
+
+ private:
+  std::vector<RankedPose> refineBest(const DenseScan& scan,
+                                     const std::vector<PoseProposal>& proposals,
+                                     std::vector<QuickLook> looks) const;
+  void refineAll(const DenseScan& scan, std::vector<mrpt::math::TPose2D>& poses, int steps,
+                 std::size_t beams, float least) const;
+  void settle(const DenseScan& scan, const DenseScan& balanced, RankedPose& pose) const;
+  DenseEvidence evaluate(const DenseScan& scan, const mrpt::math::TPose2D& pose,
+                         std::size_t rays) const;
+  double likelihood(const DenseScan& scan, const mrpt::math::TPose2D& pose,
+                    std::size_t beams) const;
+  double fineLikelihood(const DenseScan& scan, const mrpt::math::TPose2D& pose) const;
+
+  const DenseField& field_;
+  std::unique_ptr<const QuickField> quick_;
+  std::unique_ptr<const SolidWalls> solid_walls_;
+};
+}  // namespace sigloc

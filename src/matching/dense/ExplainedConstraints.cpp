@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "matching/dense/ExplainedConstraints.h"
+
+#include <mrpt/math/wrap2pi.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "matching/dense/CellView.h"
+#include "matching/dense/likelihood_table.h"
+
+namespace sigloc
+{
+using mrpt::math::TPoint2D;
+using mrpt::math::TPose2D;
+using mrpt::math::wrapToPi;
+
+namespace
+{
+constexpr double kSampleStep = 0.1;  // [m] along an observed wall
+constexpr double kExplained = 0.5;  // mean fine likelihood of what the map explains
+constexpr double kSameDirection = 0.2;  // [rad], of two pieces of one wall
+constexpr double kSameOffset = 0.2;  // [m]
+constexpr double kBend = 0.6;  // [rad], from one piece of a curved wall to the next
+constexpr double kJoint = 0.3;  // [m] between their ends
+constexpr std::uint32_t kCurveFacts = 3;  // a centre and a radius
+constexpr double kInside = 0.1;  // [m] before its end a wall must be mapped,
+constexpr double kBeyond = 0.3;  // [m] and beyond it, not
+constexpr double kOnWall = 0.13;  // [m], of a place on a mapped wall
+constexpr double kOffWall = 0.16;  // [m], of one that is not
+}  // namespace
+
+/// Look-ups of places given in the robot frame.
+class SceneFacts::PlacedField
+{
+ public:
+  PlacedField(const DenseField& field, const TPose2D& pose) : cells_(field), place_(pose) {}
+
+  double likelihood(const TPoint2D& p) const
+  {
+    return static_cast<double>(fineTable()[cellAt(p).distance]);
+  }
+  double distance(const TPoint2D& p) const
+  {
+    return cellAt(p).distance * DenseField::kDistanceUnit;
+  }
+
+ private:
+  const DenseCell& cellAt(const TPoint2D& p) const
+  {
+    const auto x = static_cast<float>(p.x);
+    const auto y = static_cast<float>(p.y);
+    return cells_.at(place_.placedX(x, y), place_.placedY(x, y));
+  }
+
+  CellView cells_;
+  Placement place_;
+};
+
+/// Counts walls: pieces of one wall once, the pieces of a curved one as what it is made by.
+class SceneFacts::WallCount
+{
+ public:
+  /// Adds a wall; returns whether it tells something that those before it did not.
+  bool add(const Wall& wall)
+  {
+    const auto is_known = [&](const Counted& other) { return isSameWall(wall, *other.wall); };
+    if (std::any_of(walls_.begin(), walls_.end(), is_known)) return false;
+    const auto before =
+        std::find_if(walls_.begin(), walls_.end(),
+                     [&](const Counted& other) { return bendsOn(*other.wall, wall); });
+    const std::size_t curve = before != walls_.end() ? before->curve : facts_of_curve_.size();
+    if (curve == facts_of_curve_.size()) facts_of_curve_.push_back(0);
+    walls_.push_back({&wall, curve});
+    return ++facts_of_curve_[curve] <= kCurveFacts;
+  }
+
+ private:
+  struct Counted
+  {
+    const Wall* wall;
+    std::size_t curve;
+  };
+  std::vector<Counted> walls_;
+  std::vector<std::uint32_t> facts_of_curve_;
+};
+
+SceneFacts::SceneFacts(const std::vector<Feature>& observed)
+{
+  for (const Feature& feature : observed)
+  {
+    const TPoint2D along = directionVector(feature);
+    const TPoint2D& place = feature.position;
+    if (feature.type == FeatureType::segment)
+    {
+      const TPoint2D half = TPoint2D(along.y, -along.x) * (0.5 * feature.size);
+      walls_.push_back({feature.direction, feature.size, place, along, place - half, place + half});
+    }
+    if (feature.type == FeatureType::wall_end)
+    {
+      wall_ends_.push_back({place + along * kInside, place - along * kBeyond});
+    }
+    if (feature.type == FeatureType::circle) circles_.push_back(place + along * feature.size);
+  }
+}
+
+bool SceneFacts::isSameWall(const Wall& a, const Wall& b)
+{
+  const TPoint2D d = a.middle - b.middle;
+  return std::abs(b.normal.x * d.x + b.normal.y * d.y) < kSameOffset &&
+         std::abs(wrapToPi(a.direction - b.direction)) < kSameDirection;
+}
+
+/// True for a piece that goes on where another ends, and bends less than a corner does.
+bool SceneFacts::bendsOn(const Wall& a, const Wall& b)
+{
+  const double joint = std::min((a.end - b.start).norm(), (a.start - b.end).norm());
+  return joint < kJoint && std::abs(wrapToPi(a.direction - b.direction)) < kBend;
+}
+
+bool SceneFacts::isExplained(const Wall& wall, const PlacedField& field)
+{
+  const TPoint2D along = wall.end - wall.start;
+  const int samples = std::max(2, static_cast<int>(std::lround(wall.length / kSampleStep)));
+  double sum = 0;
+  for (int i = 0; i < samples; ++i)
+  {
+    sum += field.likelihood(wall.start + along * ((i + 0.5) / samples));
+  }
+  return sum > kExplained * samples;
+}
+
+std::uint32_t SceneFacts::explainedAt(const TPose2D& pose, const DenseField& field) const
+{
+  const PlacedField placed(field, pose);
+  WallCount walls;
+  std::uint32_t facts = 0;
+  for (const Wall& wall : walls_)
+  {
+    if (isExplained(wall, placed)) facts += walls.add(wall);
+  }
+  for (const WallEnd& end : wall_ends_)
+  {
+    facts += placed.distance(end.before) < kOnWall && placed.distance(end.beyond) > kOffWall;
+  }
+  for (const TPoint2D& circle : circles_)
+  {
+    if (placed.likelihood(circle) > kExplained) facts += 2;
+  }
+  return facts;
+}
+}  // namespace sigloc

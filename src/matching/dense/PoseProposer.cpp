@@ -1,0 +1,246 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "matching/dense/PoseProposer.h"
+
+#include <mrpt/math/wrap2pi.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sigloc
+{
+using mrpt::math::TPoint2D;
+using mrpt::math::wrapToPi;
+
+namespace
+{
+constexpr double kParallel = 0.35;  // [rad], walls closer than this tell the same
+constexpr double kMinPairDistance = 0.8;  // [m], shorter pairs give poor headings
+constexpr std::uint32_t kUsualProposals = 16384;  // room is made for at once
+constexpr double kRadiusTolerance = 0.3;  // [m], an observed radius is good to this only
+
+/// The pose that turns by `phi`, with cosine `c` and sine `s`, and carries a point of the robot
+/// frame to one of the map.
+PoseProposal poseCarrying(const TPoint2D& in_robot, const TPoint2D& in_map, double phi, double c,
+                          double s)
+{
+  return {static_cast<float>(in_map.x - c * in_robot.x + s * in_robot.y),
+          static_cast<float>(in_map.y - s * in_robot.x - c * in_robot.y), static_cast<float>(phi)};
+}
+}  // namespace
+
+BaseProposer::BaseProposer(const FeatureMap& map, const BaseProposerOptions& options)
+    : options_(options)
+{
+  checkOptions(options);
+  const std::vector<Feature>& features = map.features();
+  std::vector<std::uint32_t> circles;
+  for (std::uint32_t k = 0; k < features.size(); ++k)
+  {
+    const Feature& feature = features[k];
+    if (feature.type == FeatureType::wall_end)
+    {
+      wall_ends_[static_cast<std::size_t>(feature.side)].push_back(
+          {feature.position, feature.size, feature.direction, std::cos(feature.direction),
+           std::sin(feature.direction)});
+    }
+    if (feature.type == FeatureType::circle) circles.push_back(k);
+  }
+  for (auto& ends : wall_ends_)
+  {
+    std::stable_sort(ends.begin(), ends.end(),
+                     [](const MappedEnd& a, const MappedEnd& b) { return a.length > b.length; });
+  }
+  for (const WallLine& line : map.lines())
+  {
+    const Feature& first = features[line.members.front()];
+    const TPoint2D tangent(std::sin(line.direction), -std::cos(line.direction));
+    const TPoint2D start = segmentStart(first);
+    double length = 0;
+    for (const std::uint32_t k : line.members)
+    {
+      const TPoint2D d = segmentEnd(features[k]) - start;
+      length = std::max(length, tangent.x * d.x + tangent.y * d.y);
+    }
+    walls_.push_back({line.direction, -tangent.y, tangent.x, start, length});
+  }
+  std::stable_sort(walls_.begin(), walls_.end(),
+                   [](const MappedWall& a, const MappedWall& b) { return a.length > b.length; });
+  for (const std::uint32_t a : circles)
+  {
+    for (const std::uint32_t b : circles)
+    {
+      if (a == b) continue;
+      const TPoint2D d = features[b].position - features[a].position;
+      const double distance = d.norm();
+      if (distance < kMinPairDistance || distance > options.pair_range) continue;
+      pairs_.push_back({distance, a, b, (features[a].position + features[b].position) * 0.5,
+                        features[a].size, features[b].size, std::atan2(d.y, d.x), d.x / distance,
+                        d.y / distance});
+    }
+  }
+  std::sort(pairs_.begin(), pairs_.end(),
+            [](const CirclePair& a, const CirclePair& b)
+            {
+              return a.distance != b.distance ? a.distance < b.distance
+                     : a.from != b.from       ? a.from < b.from
+                                              : a.to < b.to;
+            });
+}
+
+std::vector<PoseProposal> BaseProposer::propose(const std::vector<Feature>& observed) const
+{
+  std::vector<PoseProposal> proposals;
+  proposals.reserve(std::min(options_.budget, kUsualProposals));
+  proposeWallEnds(observed, proposals);
+  proposeCirclePairs(observed, 0, options_.max_pairs, proposals);
+  const std::vector<const Feature*> walls = wallsToSlide(observed);
+  for (std::size_t i = 0; i < walls.size(); ++i)
+  {
+    if (i >= options_.slid_walls && proposals.size() >= options_.enough) break;
+    slide(*walls[i], options_.budget, proposals);
+  }
+  if (proposals.size() > options_.budget) proposals.resize(options_.budget);
+  return proposals;
+}
+
+std::vector<PoseProposal> BaseProposer::proposeFurther(const std::vector<Feature>& observed) const
+{
+  std::vector<PoseProposal> proposals;
+  proposals.reserve(std::min(options_.thorough_budget, kUsualProposals));
+  proposeCirclePairs(observed, options_.max_pairs, options_.thorough_pairs, proposals);
+  const std::vector<const Feature*> walls = wallsToSlide(observed);
+  for (std::size_t i = options_.slid_walls; i < walls.size(); ++i)
+  {
+    slide(*walls[i], options_.thorough_budget, proposals);
+  }
+  if (proposals.size() > options_.thorough_budget) proposals.resize(options_.thorough_budget);
+  return proposals;
+}
+
+void BaseProposer::proposeWallEnds(const std::vector<Feature>& observed,
+                                   std::vector<PoseProposal>& out) const
+{
+  for (const Feature& end : observed)
+  {
+    if (end.type != FeatureType::wall_end) continue;
+    const double c = std::cos(end.direction);
+    const double s = std::sin(end.direction);
+    for (const MappedEnd& mapped : wall_ends_[static_cast<std::size_t>(end.side)])
+    {
+      if (mapped.length + options_.length_tolerance < end.size * (1.0 - options_.overhang)) break;
+      out.push_back(poseCarrying(end.position, mapped.position, mapped.direction - end.direction,
+                                 mapped.c * c + mapped.s * s, mapped.s * c - mapped.c * s));
+    }
+  }
+}
+
+/// The longest observed walls that tell different things.
+std::vector<const Feature*> BaseProposer::wallsToSlide(const std::vector<Feature>& observed) const
+{
+  std::vector<const Feature*> walls;
+  for (const Feature& feature : observed)
+  {
+    if (feature.type == FeatureType::segment) walls.push_back(&feature);
+  }
+  std::stable_sort(walls.begin(), walls.end(),
+                   [](const Feature* a, const Feature* b) { return a->size > b->size; });
+  std::vector<const Feature*> slid;
+  for (const Feature* wall : walls)
+  {
+    if (slid.size() == std::max(options_.slid_walls, options_.thorough_slid_walls)) break;
+    const bool fresh =
+        std::all_of(slid.begin(), slid.end(),
+                    [&](const Feature* other)
+                    { return std::abs(wrapToPi(wall->direction - other->direction)) > kParallel; });
+    if (fresh) slid.push_back(wall);
+  }
+  return slid;
+}
+
+/// Lays an observed wall on every mapped one that is long enough, until there are `most` proposals.
+void BaseProposer::slide(const Feature& wall, std::size_t most,
+                         std::vector<PoseProposal>& out) const
+{
+  const TPoint2D normal = directionVector(wall);
+  const double inside = wall.size * (0.5 - options_.overhang);
+  for (const MappedWall& mapped : walls_)
+  {
+    const bool is_long =
+        mapped.length + options_.length_tolerance >= wall.size * (1.0 - options_.overhang);
+    if (!is_long || out.size() >= most) break;
+    const double phi = mapped.direction - wall.direction;
+    const double c = mapped.c * normal.x + mapped.s * normal.y;
+    const double s = mapped.s * normal.x - mapped.c * normal.y;
+    const TPoint2D tangent(mapped.s, -mapped.c);
+    const double low = std::min(inside, 0.5 * mapped.length);
+    const double high = std::max(mapped.length - inside, 0.5 * mapped.length);
+    const int steps = static_cast<int>(std::ceil((high - low) / options_.slide_step));
+    const double step = steps == 0 ? 0 : (high - low) / steps;
+    PoseProposal next = poseCarrying(wall.position, mapped.start + tangent * low, phi, c, s);
+    const auto dx = static_cast<float>(tangent.x * step);
+    const auto dy = static_cast<float>(tangent.y * step);
+    // Room first: what is pushed back keeps nothing in registers.
+    const std::size_t size = out.size();
+    out.resize(size + static_cast<std::size_t>(steps) + 1);
+    for (auto to = out.begin() + static_cast<std::ptrdiff_t>(size); to != out.end(); ++to)
+    {
+      *to = next;
+      next.x += dx;
+      next.y += dy;
+    }
+  }
+}
+
+/// By the observed pairs from the `first` rarest to before the `last`.
+void BaseProposer::proposeCirclePairs(const std::vector<Feature>& observed, std::size_t first,
+                                      std::size_t last, std::vector<PoseProposal>& out) const
+{
+  struct Choice
+  {
+    std::size_t count;
+    const Feature* a;
+    const Feature* b;
+    std::vector<CirclePair>::const_iterator begin, end;
+  };
+  std::vector<Choice> choices;
+  for (std::size_t i = 0; i < observed.size(); ++i)
+  {
+    if (observed[i].type != FeatureType::circle) continue;
+    for (std::size_t j = i + 1; j < observed.size(); ++j)
+    {
+      if (observed[j].type != FeatureType::circle) continue;
+      const double distance = (observed[i].position - observed[j].position).norm();
+      if (distance < kMinPairDistance || distance > options_.pair_range) continue;
+      const auto less = [](const CirclePair& p, double d) { return p.distance < d; };
+      const auto begin =
+          std::lower_bound(pairs_.begin(), pairs_.end(), distance - options_.pair_tolerance, less);
+      const auto end =
+          std::lower_bound(begin, pairs_.end(), distance + options_.pair_tolerance, less);
+      choices.push_back(
+          {static_cast<std::size_t>(end - begin), &observed[i], &observed[j], begin, end});
+    }
+  }
+  std::stable_sort(choices.begin(), choices.end(),
+                   [](const Choice& a, const Choice& b) { return a.count < b.count; });
+  for (std::size_t k = first; k < std::min(last, choices.size()); ++k)
+  {
+    const Choice& choice = choices[k];
+    const TPoint2D seen = choice.b->position - choice.a->position;
+    const double bearing = std::atan2(seen.y, seen.x);
+    const double c = std::cos(bearing);
+    const double s = std::sin(bearing);
+    const TPoint2D middle_seen = (choice.a->position + choice.b->position) * 0.5;
+    for (auto pair = choice.begin; pair != choice.end; ++pair)
+    {
+      if (std::abs(pair->from_radius - choice.a->size) > kRadiusTolerance ||
+          std::abs(pair->to_radius - choice.b->size) > kRadiusTolerance)
+      {
+        continue;
+      }
+      out.push_back(poseCarrying(middle_seen, pair->middle, pair->bearing - bearing,
+                                 pair->c * c + pair->s * s, pair->s * c - pair->c * s));
+    }
+  }
+}
+}  // namespace sigloc

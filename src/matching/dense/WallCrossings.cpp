@@ -1,0 +1,236 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "matching/dense/WallCrossings.h"
+
+#include <algorithm>
+#include <array>
+#include <bitset>
+#include <cmath>
+
+#include "matching/dense/CellView.h"
+#include "matching/dense/simd.h"
+
+namespace sigloc
+{
+using mrpt::math::TPoint2D;
+using mrpt::math::TPose2D;
+
+namespace
+{
+constexpr float kMargin = 0.4F;  // [m] before its end a beam must be clear of walls
+constexpr float kBeyondRim = 0.7F;  // [cells] on from the rim; a grazed cell is no wall
+constexpr float kTiny = 1e-6F;
+
+/// Chessboard distance [cells] to the nearest zero cell, in two passes, exact up to 255.
+void spreadRings(std::vector<std::uint8_t>& rings, std::uint32_t width, std::uint32_t height)
+{
+  const auto relax = [&](std::size_t cell, std::size_t neighbour)
+  {
+    if (rings[neighbour] + 1 < rings[cell])
+    {
+      rings[cell] = static_cast<std::uint8_t>(rings[neighbour] + 1);
+    }
+  };
+  for (std::uint32_t y = 0; y < height; ++y)
+  {
+    for (std::uint32_t x = 0; x < width; ++x)
+    {
+      const std::size_t cell = static_cast<std::size_t>(y) * width + x;
+      if (x > 0) relax(cell, cell - 1);
+      if (y == 0) continue;
+      relax(cell, cell - width);
+      if (x > 0) relax(cell, cell - width - 1);
+      if (x + 1 < width) relax(cell, cell - width + 1);
+    }
+  }
+  for (std::uint32_t y = height; y-- > 0;)
+  {
+    for (std::uint32_t x = width; x-- > 0;)
+    {
+      const std::size_t cell = static_cast<std::size_t>(y) * width + x;
+      if (x + 1 < width) relax(cell, cell + 1);
+      if (y + 1 == height) continue;
+      relax(cell, cell + width);
+      if (x > 0) relax(cell, cell + width - 1);
+      if (x + 1 < width) relax(cell, cell + width + 1);
+    }
+  }
+}
+
+constexpr std::size_t kRays = SolidWalls::kRays;
+
+/// In cells of the frame, from its origin.
+struct Rays
+{
+  std::size_t count;  // a multiple of eight
+  std::array<float, kRays> x, y;
+  std::array<float, kRays> dx, dy;  // unit vectors
+  std::array<float, kRays> start, length;  // of what of them lies in the frame
+  std::array<float, kRays> per_column, per_row;  // length that leads on by one, signed
+};
+
+/// The `count` beams from `first` on, up to the margin before their ends, as far as they lie in the
+/// frame; those that fill up the last eight have no length.
+Rays raysOf(const RasterFrame& frame, const DenseScan& scan, const Placement& place,
+            std::size_t first, std::size_t count)
+{
+  const auto scale = static_cast<float>(1.0 / frame.resolution);
+  const auto width = static_cast<float>(frame.width);
+  const auto height = static_cast<float>(frame.height);
+  const auto x0 = static_cast<float>(frame.origin.x);
+  const auto y0 = static_cast<float>(frame.origin.y);
+  Rays rays;
+  rays.count = (count + kWideFloats - 1) / kWideFloats * kWideFloats;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const TPoint2D& origin = scan.origins[scan.origin[first + i]];
+    const auto ox = static_cast<float>(origin.x);
+    const auto oy = static_cast<float>(origin.y);
+    rays.x[i] = (place.placedX(ox, oy) - x0) * scale;
+    rays.y[i] = (place.placedY(ox, oy) - y0) * scale;
+    rays.dx[i] = (place.placedX(scan.x[first + i], scan.y[first + i]) - x0) * scale - rays.x[i];
+    rays.dy[i] = (place.placedY(scan.x[first + i], scan.y[first + i]) - y0) * scale - rays.y[i];
+  }
+  for (std::size_t i = count; i < rays.count; ++i)
+  {
+    rays.x[i] = rays.y[i] = rays.dx[i] = rays.dy[i] = 0;
+  }
+  for (std::size_t i = 0; i < rays.count; ++i)
+  {
+    const float length =
+        std::max(std::sqrt(rays.dx[i] * rays.dx[i] + rays.dy[i] * rays.dy[i]), kTiny);
+    rays.dx[i] /= length;
+    rays.dy[i] /= length;
+    rays.per_column[i] = 1.0F / (rays.dx[i] + std::copysign(kTiny, rays.dx[i]));
+    rays.per_row[i] = 1.0F / (rays.dy[i] + std::copysign(kTiny, rays.dy[i]));
+    // However far a beam goes, beyond the frame it meets nothing.
+    const float left = -rays.x[i] * rays.per_column[i];
+    const float right = (width - rays.x[i]) * rays.per_column[i];
+    const float bottom = -rays.y[i] * rays.per_row[i];
+    const float top = (height - rays.y[i]) * rays.per_row[i];
+    rays.start[i] = std::max(0.0F, std::max(std::min(left, right), std::min(bottom, top)));
+    rays.length[i] =
+        std::min(length - kMargin * scale, std::min(std::max(left, right), std::max(bottom, top)));
+  }
+  return rays;
+}
+
+/// Tells of eight rays that have come `along` [cells] how many rings of cells around them are
+/// clear, and how far they may go on: to the rim of those, and a little beyond.
+inline void lookAround(const RasterFrame& frame, const std::uint8_t* clear_rings, const Rays& rays,
+                       std::size_t first, const WideFloat& along, WideInt& rings, WideFloat& clear)
+{
+  WideFloat x, y, dx, dy, per_column, per_row;
+  loadWide(&rays.x[first], kWideFloats, x);
+  loadWide(&rays.y[first], kWideFloats, y);
+  loadWide(&rays.dx[first], kWideFloats, dx);
+  loadWide(&rays.dy[first], kWideFloats, dy);
+  loadWide(&rays.per_column[first], kWideFloats, per_column);
+  loadWide(&rays.per_row[first], kWideFloats, per_row);
+  x += along * dx;
+  y += along * dy;
+  const WideInt column = __builtin_convertvector(x, WideInt);
+  const WideInt row = __builtin_convertvector(y, WideInt);
+  const auto width = static_cast<std::int32_t>(frame.width);
+  const auto height = static_cast<std::int32_t>(frame.height);
+  const std::int32_t outside = width * height;
+  const WideInt is_inside = (column >= 0) & (row >= 0) & (column < width) & (row < height);
+  const WideInt cell = ((row * width + column) & is_inside) | (outside & ~is_inside);
+  rings = WideInt{clear_rings[cell[0]], clear_rings[cell[1]], clear_rings[cell[2]],
+                  clear_rings[cell[3]], clear_rings[cell[4]], clear_rings[cell[5]],
+                  clear_rings[cell[6]], clear_rings[cell[7]]};
+  const WideFloat reach = __builtin_convertvector(rings, WideFloat) - 0.5F;
+  const WideFloat right = x - __builtin_convertvector(column, WideFloat) - 0.5F;
+  const WideFloat up = y - __builtin_convertvector(row, WideFloat) - 0.5F;
+  const WideFloat to_column =
+      reach * (per_column < 0.0F ? -per_column : per_column) - right * per_column;
+  const WideFloat to_row = reach * (per_row < 0.0F ? -per_row : per_row) - up * per_row;
+  const WideFloat to_rim = to_column < to_row ? to_column : to_row;
+  clear = (to_rim > 0.0F ? to_rim : WideFloat{}) + kBeyondRim;
+}
+}  // namespace
+
+SolidWalls::SolidWalls(const DenseField& field) : frame_(field.frame)
+{
+  clear_rings_.reserve(field.cells.size() + 1);
+  for (const DenseCell& cell : field.cells)
+  {
+    clear_rings_.push_back(cell.state == CellState::solid_wall ? 0 : 255);
+  }
+  spreadRings(clear_rings_, frame_.width, frame_.height);
+  // Outside nothing is near but what may be just inside.
+  clear_rings_.push_back(1);
+}
+
+double SolidWalls::throughShare(const DenseScan& scan, const TPose2D& pose, std::size_t beams) const
+{
+  const std::size_t count = std::min(beams, scan.size());
+  const Placement place(pose);
+  std::size_t crossed = 0;
+  for (std::size_t first = 0; first < count; first += kRays)
+  {
+    const std::uint64_t bits = crossings(scan, place, first, std::min(kRays, count - first));
+    crossed += std::bitset<kRays>(bits).count();
+  }
+  return static_cast<double>(crossed) / static_cast<double>(count);
+}
+
+std::uint64_t SolidWalls::throughBits(const DenseScan& scan, const TPose2D& pose,
+                                      std::size_t beams) const
+{
+  return crossings(scan, Placement(pose), 0, std::min({beams, kRays, scan.size()}));
+}
+
+/// Which of the beams meet a solid wall. They advance eight at a time, and the eights in turns: a
+/// ray's next look-up waits for its last, those of different rays don't wait for each other.
+SIGLOC_WIDE_VECTORS std::uint64_t SolidWalls::crossings(const DenseScan& scan,
+                                                        const Placement& place, std::size_t first,
+                                                        std::size_t count) const
+{
+  struct Eight
+  {
+    std::size_t first;
+    WideFloat along;  // [cells] that they have come
+    WideInt under_way;  // all bits of those that are
+  };
+  const Rays rays = raysOf(frame_, scan, place, first, count);
+  std::array<Eight, kRays / kWideFloats> eights;
+  std::size_t advancing = 0;
+  for (std::size_t i = 0; i < rays.count; i += kWideFloats)
+  {
+    WideFloat start, length;
+    loadWide(&rays.start[i], kWideFloats, start);
+    loadWide(&rays.length[i], kWideFloats, length);
+    eights[advancing++] = {i, start, start < length};
+  }
+  std::array<WideInt, kRays / kWideFloats> crossed{};  // all bits of those that do
+  while (advancing > 0)
+  {
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < advancing; ++k)
+    {
+      Eight eight = eights[k];
+      const WideFloat before = eight.along;
+      WideInt rings;
+      WideFloat clear;
+      WideFloat length;
+      lookAround(frame_, clear_rings_.data(), rays, eight.first, eight.along, rings, clear);
+      loadWide(&rays.length[eight.first], kWideFloats, length);
+      eight.along += clear;
+      crossed[eight.first / kWideFloats] |= eight.under_way & (rings == 0);
+      // A ray so far away that a step is lost in rounding gets no farther.
+      eight.under_way &= (rings != 0) & (eight.along < length) & (eight.along > before);
+      eights[kept] = eight;
+      kept += anyOf(eight.under_way) ? 1 : 0;
+    }
+    advancing = kept;
+  }
+  std::uint64_t bits = 0;
+  for (std::size_t i = 0; i < rays.count; ++i)
+  {
+    const bool meets = crossed[i / kWideFloats][i % kWideFloats] != 0;
+    bits |= static_cast<std::uint64_t>(meets) << i;
+  }
+  return bits;
+}
+}  // namespace sigloc

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "matching/dense/distinguishing_place.h"
+
+#include "matching/dense/CellView.h"
+
+namespace sigloc
+{
+using mrpt::math::TPoint2D;
+using mrpt::math::TPose2D;
+
+namespace
+{
+constexpr double kReach = 8.0;  // [m]
+constexpr double kNearest = 0.5;  // [m], nearer is the robot's own place
+constexpr double kSpacing = 0.3;  // [m]
+constexpr double kWall = 0.2;  // [m], a wall is so near that no sample steps over it
+constexpr double kClear = 0.5;  // [m]
+
+bool differ(const DenseCell& a, const DenseCell& b)
+{
+  constexpr auto kWallUnits = static_cast<int>(kWall / DenseField::kDistanceUnit);
+  constexpr auto kClearUnits = static_cast<int>(kClear / DenseField::kDistanceUnit);
+  const auto wall = [](const DenseCell& cell) { return cell.distance <= kWallUnits; };
+  const auto clear = [](const DenseCell& cell)
+  { return cell.state == CellState::free && cell.distance >= kClearUnits; };
+  return (wall(a) && clear(b)) || (wall(b) && clear(a));
+}
+}  // namespace
+
+std::optional<TPoint2D> distinguishingPlace(const DenseField& field, const TPose2D& a,
+                                            const TPose2D& b)
+{
+  const CellView cells(field);
+  const Placement at_a(a);
+  const Placement at_b(b);
+  std::optional<TPoint2D> nearest;
+  double least = kReach * kReach;
+  const int samples = static_cast<int>(kReach / kSpacing);
+  for (int iy = -samples; iy <= samples; ++iy)
+  {
+    for (int ix = -samples; ix <= samples; ++ix)
+    {
+      const double square = kSpacing * kSpacing * (ix * ix + iy * iy);
+      if (square >= least || square < kNearest * kNearest) continue;
+      const auto x = static_cast<float>(kSpacing * ix);
+      const auto y = static_cast<float>(kSpacing * iy);
+      if (!differ(cells.at(at_a.placedX(x, y), at_a.placedY(x, y)),
+                  cells.at(at_b.placedX(x, y), at_b.placedY(x, y))))
+      {
+        continue;
+      }
+      least = square;
+      nearest = TPoint2D(kSpacing * ix, kSpacing * iy);
+    }
+  }
+  return nearest;
+}
+}  // namespace sigloc

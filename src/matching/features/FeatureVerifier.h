@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "geometry/chi_square.h"
+#include "matching/features/HypothesisSet.h"
+#include "matching/features/PreparedScene.h"
+#include "signature/binary_constraint.h"
+#include "signature/pose_fit.h"
+
+#include <memory>
+#include <vector>
+
+namespace sigloc
+{
+/// The pairings a hypothesis starts from and the pose they fix.
+struct HypothesisBase
+{
+  std::vector<FeaturePairing> pairings;
+  PoseEstimate pose;
+};
+
+/// For every observed feature, the map features it may be: the lists L_q of the plain mode.
+using CandidateLists = std::vector<std::vector<std::uint32_t>>;
+
+/// Verifies pose hypotheses from features alone: a sequential Kalman filter over the observed
+/// features, nearest to the base first, with location-dependent gates, extension, one-to-one
+/// pairing and joint compatibility; then least squares, a recount with tight gates, and log-odds.
+///
+/// Const and thread-safe; what changes lives in a Workspace, one a query.
+class FeatureVerifier
+{
+ public:
+  FeatureVerifier(std::shared_ptr<const PreparedMap> map, const GeneratorOptions& options);
+
+  /// Buffers reused from hypothesis to hypothesis.
+  struct Workspace
+  {
+    HypothesisBase base;
+    std::vector<FeaturePairing> pairings;
+    std::vector<FeaturePairing> before;
+    std::vector<DirectedPairing> fitted;
+    struct Match
+    {
+      double squared_distance;
+      FeaturePairing pairing;
+    };
+    std::vector<Match> matches;
+  };
+
+  /// Turns two pairings into a base with its pose. False when they fix none.
+  bool makeBase(const PreparedScene& scene, const FeaturePairing& first,
+                const FeaturePairing& second, HypothesisBase& base,
+                MatchingCounters& counters) const;
+
+  /// Verifies workspace.base and adds what it grows into to `found`. With `lists` the partners are
+  /// sought there and nothing is given up early (the plain mode); otherwise near the predicted
+  /// place in the spatial hash, until a sequential test finds the base worthless.
+  void verify(const PreparedScene& scene, const CandidateLists* lists, HypothesisSet& found,
+              Workspace& workspace, MatchingCounters& counters) const;
+
+  /// Expected number of hypotheses of this support among `bases` retrieved by chance, each base
+  /// of `base_size` features. \cite algorithm eq. (5.12)
+  static double expectedByChance(const PreparedScene& scene, std::uint32_t support,
+                                 std::uint32_t base_size, std::uint64_t bases);
+
+  /// Returns the map features that observed feature q may be at an estimated pose: all that pass
+  /// the unary and the location-dependent gates, eq. (3.1) and (3.9) to (3.12), the pose's
+  /// covariance included. `relative_sigma` [m] is the map's own error over the distance in
+  /// question.
+  std::vector<Workspace::Match> compatibleAt(const PreparedScene& scene, std::uint32_t q,
+                                             const PoseEstimate& pose, double relative_sigma) const;
+
+  /// What the normalised innovations of jointly compatible pairings stay below, \cite algorithm
+  /// eq. (5.6).
+  double jointGate(int degrees) const { return chi_square_(degrees); }
+
+  const PreparedMap& map() const { return *map_; }
+  const GeneratorOptions& options() const { return options_; }
+  const BinaryGates& gates() const { return gates_; }
+
+ private:
+  struct Filter;
+  bool gatePairing(const PreparedScene& scene, std::uint32_t q, std::uint32_t p,
+                   const PoseEstimate& pose, double relative_sigma, double& squared_distance) const;
+  bool associate(const PreparedScene& scene, const CandidateLists* lists, std::uint32_t needed,
+                 Workspace& workspace, Filter& filter, MatchingCounters& counters) const;
+  std::uint32_t bestCandidate(const PreparedScene& scene, const CandidateLists* lists,
+                              std::uint32_t q, const Workspace& workspace, const Filter& filter,
+                              double& squared_distance, MatchingCounters& counters) const;
+  template <class Visit>
+  void visitCandidates(const PreparedScene& scene, std::uint32_t q, const PoseEstimate& pose,
+                       double relative_sigma, Visit&& visit) const;
+  void recount(const PreparedScene& scene, const PoseEstimate& pose, Workspace& workspace,
+               MatchingCounters& counters) const;
+  std::optional<PoseEstimate> fit(const PreparedScene& scene, const PoseEstimate& start,
+                                  Workspace& workspace) const;
+  double logOdds(const PreparedScene& scene, const PoseEstimate& pose,
+                 const Workspace& workspace) const;
+
+  std::shared_ptr<const PreparedMap> map_;
+  GeneratorOptions options_;
+  ChiSquareGates chi_square_;
+  BinaryGates gates_;
+};
+}  // namespace sigloc

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "matching/features/FeatureHypothesis.h"
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+namespace sigloc
+{
+/// Two poses are one place when they are nearer than both of these.
+constexpr double kMergeDistance = 0.5;  // [m]
+constexpr double kMergeAngle = 0.2967;  // [rad], 17 degrees
+
+/// True when two poses are one place.
+bool samePlace(const mrpt::math::TPose2D& a, const mrpt::math::TPose2D& b);
+
+/// Verified hypotheses gathered during one query, equal poses merged through a hash grid of poses:
+/// of several at one place the best stays. \cite algorithm eq. (5.13)
+class HypothesisSet
+{
+ public:
+  explicit HypothesisSet(std::size_t observed_count) : observed_count_(observed_count) {}
+
+  /// Adds a hypothesis unless a better one stands at the same place.
+  void add(FeatureHypothesis hypothesis);
+
+  /// True when a hypothesis already holds both pairings: verifying the base again is no news.
+  bool explains(const FeaturePairing& first, const FeaturePairing& second) const;
+
+  std::uint32_t bestSupport() const { return best_support_; }
+  /// Index of the best so far by log-odds, or -1.
+  const FeatureHypothesis* best() const;
+
+  /// Returns the best `count`, best first, mutually apart; ties ordered by pose.
+  std::vector<FeatureHypothesis> ranked(std::size_t count) const;
+
+ private:
+  struct Item
+  {
+    FeatureHypothesis hypothesis;
+    std::vector<std::uint32_t> mapped_of;  ///< by observed feature
+  };
+  void prune();
+  void enterCells(std::uint32_t index);
+
+  std::size_t observed_count_;
+  std::vector<Item> items_;
+  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
+  std::vector<std::uint64_t> pairing_bits_ = std::vector<std::uint64_t>(256, 0);
+  std::uint32_t best_support_ = 0;
+};
+}  // namespace sigloc

@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "matching/features/GeneratorOptions.h"
+#include "matching/features/PreparedMap.h"
+#include "signature/binary_constraint.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace sigloc
+{
+/// The binary constraints of every map signature, sorted: B_k, for each feature k its neighbours
+/// of each type by the pair's key. Neighbours are those within a cut-off between extents; the
+/// plain mode takes all.
+class PairLists
+{
+ public:
+  static constexpr double kUncut = std::numeric_limits<double>::infinity();
+
+  PairLists(const PreparedMap& map, double cut_off);
+
+  /// The cut-off [m] that leaves `neighbours` on average, or twice the effective range if nearer.
+  static double cutOffFor(const PreparedMap& map, const GeneratorOptions& options);
+
+  double cutOff() const { return cut_off_; }
+
+  /// Calls visit(l) for every l of the second feature's type whose b_kl is within the gate of the
+  /// observed b_ij: the list L_j(i, k) before its unary filter. Found by binary search.
+  template <class Visit>
+  void visit(std::size_t k, const BinaryKey& observed, FeatureType second, double tolerance,
+             Visit&& visit) const;
+
+  /// Calls visit(key, k, l) for all neighbours of k.
+  template <class Visit>
+  void visitAll(std::size_t k, Visit&& visit) const
+  {
+    for (std::size_t e = rows_[k][0]; e < rows_[k + 1][0]; ++e)
+    {
+      visit(entries_[e].key, entries_[e].feature);
+    }
+  }
+
+  /// Largest variance of a mapped key for a pair of types: what the gates must allow for.
+  double largestKeyVariance(FeatureType first, FeatureType second) const
+  {
+    return key_variance_[typeIndex(first)][typeIndex(second)];
+  }
+  std::size_t bytes() const
+  {
+    return entries_.size() * sizeof(Entry) + rows_.size() * sizeof(rows_[0]);
+  }
+
+ private:
+  struct Entry
+  {
+    float key;
+    std::uint32_t feature;
+  };
+  template <class Visit>
+  void visitRange(std::size_t begin, std::size_t end, double low, double high, Visit&& visit) const;
+
+  double cut_off_;
+  std::vector<Entry> entries_;
+  std::vector<std::array<std::uint32_t, kFeatureTypes>> rows_;  ///< start of each type's row
+  std::array<std::array<double, kFeatureTypes>, kFeatureTypes> key_variance_{};
+};
+
+template <class Visit>
+void PairLists::visitRange(std::size_t begin, std::size_t end, double low, double high,
+                           Visit&& visit) const
+{
+  const auto first = entries_.begin() + static_cast<std::ptrdiff_t>(begin);
+  const auto last = entries_.begin() + static_cast<std::ptrdiff_t>(end);
+  auto entry = std::lower_bound(first, last, low,
+                                [](const Entry& e, double value)
+                                { return static_cast<double>(e.key) < value; });
+  for (; entry != last && static_cast<double>(entry->key) <= high; ++entry) visit(entry->feature);
+}
+
+template <class Visit>
+void PairLists::visit(std::size_t k, const BinaryKey& observed, FeatureType second,
+                      double tolerance, Visit&& visit) const
+{
+  // Keys are stored in single precision.
+  const double slack = tolerance + 1e-5 * (1 + std::abs(observed.value));
+  const std::size_t begin = rows_[k][typeIndex(second)];
+  const std::size_t end =
+      typeIndex(second) + 1 < kFeatureTypes ? rows_[k][typeIndex(second) + 1] : rows_[k + 1][0];
+  const double low = observed.value - slack;
+  const double high = observed.value + slack;
+  visitRange(begin, end, low, high, visit);
+  if (!observed.is_angle) return;
+  // Angles wrap: the part of the range beyond +-pi comes back at the other end.
+  if (low < -M_PI) visitRange(begin, end, std::max(low + 2 * M_PI, high), 4.0, visit);
+  if (high > M_PI) visitRange(begin, end, -4.0, std::min(high - 2 * M_PI, low), visit);
+}
+}  // namespace sigloc

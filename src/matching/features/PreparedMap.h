@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "matching/features/FeatureGrid.h"
+#include "sigloc/map/FeatureMap.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace sigloc
+{
+constexpr std::size_t kFeatureTypes = 5;
+inline std::size_t typeIndex(FeatureType type)
+{
+  return static_cast<std::size_t>(type);
+}
+
+/// What all modes need of a map, computed once: directed views of its features, the spatial hash,
+/// and how dense features of each type are. Refers to the map, which must outlive it.
+class PreparedMap
+{
+ public:
+  explicit PreparedMap(const FeatureMap& map);
+
+  const FeatureMap& map() const { return *map_; }
+  std::size_t size() const { return views_.size(); }
+  const DirectedFeature& view(std::size_t k) const { return views_[k]; }
+  /// Asks for the memory of a view ahead of its use.
+  void prefetch(std::size_t k) const { __builtin_prefetch(&views_[k]); }
+  const FeatureGrid& grid() const { return grid_; }
+  double area() const { return area_; }  ///< [m^2], where the robot can be, at least 1
+
+  /// lambda: how many features of the type fall into a unit of their own measurement space by
+  /// chance, [1/m^2], for a segment [1/(rad m)], for a corner or wall end [1/(m^2 rad)].
+  /// \cite algorithm eq. (5.9)
+  double clutterDensity(FeatureType type) const { return clutter_[typeIndex(type)]; }
+  /// Largest variance [m^2] of any feature of the type along any direction.
+  double largestPositionVariance(FeatureType type) const
+  {
+    return position_variance_[typeIndex(type)];
+  }
+  /// Mean over the features of the type of their largest variance along any direction [m^2], and of
+  /// their directions' [rad^2]: what to expect, where the largest is what must not be missed.
+  double typicalPositionVariance(FeatureType type) const
+  {
+    return typical_position_variance_[typeIndex(type)];
+  }
+  double typicalDirectionVariance(FeatureType type) const
+  {
+    return typical_direction_variance_[typeIndex(type)];
+  }
+
+  /// Share of a stretch, in metres along feature k's tangent from its position, that lies on the
+  /// mapped pieces of k's wall, each widened by `tolerance`. \cite algorithm eq. (3.12)
+  double coveredShare(std::size_t k, double low, double high, double tolerance) const;
+
+  std::size_t bytes() const { return views_.size() * sizeof(DirectedFeature) + grid_.bytes(); }
+
+ private:
+  const FeatureMap* map_;
+  std::vector<DirectedFeature> views_;
+  FeatureGrid grid_;
+  double area_ = 1;
+  std::array<double, kFeatureTypes> clutter_{};
+  std::array<double, kFeatureTypes> position_variance_{};
+  std::array<double, kFeatureTypes> typical_position_variance_{};
+  std::array<double, kFeatureTypes> typical_direction_variance_{};
+};
+}  // namespace sigloc

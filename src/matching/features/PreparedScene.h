@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "matching/features/FeatureHypothesis.h"
+#include "matching/features/GeneratorOptions.h"
+#include "matching/features/PreparedMap.h"
+#include "signature/binary_constraint.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace sigloc
+{
+/// What all modes need of the observed features, computed once a query. Refers to the features,
+/// which must outlive it.
+struct PreparedScene
+{
+  PreparedScene(const std::vector<Feature>& observed, const PreparedMap& map,
+                const GeneratorOptions& options, const BinaryGates& gates);
+
+  std::size_t size() const { return views.size(); }
+
+  /// All indices by distance from feature i, nearest (i itself) first; derived features last,
+  /// because the walls they are made of count before them.
+  const std::uint32_t* orderFrom(std::size_t i) const { return &order[i * views.size()]; }
+
+  std::vector<DirectedFeature> views;
+  std::vector<std::uint32_t> order;
+  std::vector<double> chance;  ///< p_i: probability that a wrong pose finds a match for feature i
+  std::vector<double> hit_gain;  ///< ln(w / p_i), what a match says for the pose
+  std::vector<double> miss_gain;  ///< ln((1 - w) / (1 - p_i)), what a miss says
+  double mean_chance = 0;
+  double relative_sigma = 0;  ///< [m], the map's relative error over the scene's mean range
+};
+
+/// False for a corner or wall end beside a pairing of the wall it was made of: both are the same
+/// beams. Of `pairing` the observed feature matters.
+bool counts(const PreparedScene& scene, const FeaturePairing& pairing,
+            const std::vector<FeaturePairing>& pairings);
+}  // namespace sigloc

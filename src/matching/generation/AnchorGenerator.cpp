@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "matching/generation/AnchorGenerator.h"
+
+#include "matching/features/sampling.h"
+#include "matching/features/SplitMix.h"
+#include "matching/generation/PlainGenerator.h"
+#include "signature/unary_constraint.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace sigloc
+{
+namespace
+{
+/// Partners of an anchor: random ones of the farther half of those that the lists can hold,
+/// because a long base gives a good heading.
+std::vector<std::uint32_t> drawPartners(const PreparedScene& scene, std::uint32_t anchor,
+                                        double cut_off, std::uint32_t count, SplitMix& random)
+{
+  const auto distance = [&](std::uint32_t j)
+  {
+    const auto between = scene.views[j].position() - scene.views[anchor].position();
+    return std::hypot(between.x, between.y);
+  };
+  std::vector<std::uint32_t> others;
+  for (std::uint32_t j = 0; j < scene.size(); ++j)
+  {
+    if (j != anchor && distance(j) < cut_off) others.push_back(j);
+  }
+  std::sort(others.begin(), others.end(),
+            [&](std::uint32_t a, std::uint32_t b)
+            { return distance(a) != distance(b) ? distance(a) > distance(b) : a < b; });
+  others.resize(std::min<std::size_t>(others.size(),
+                                      std::max<std::size_t>(2 * count, (others.size() + 1) / 2)));
+  random.shuffle(others);
+  others.resize(std::min<std::size_t>(others.size(), count));
+  return others;
+}
+}  // namespace
+
+void AnchorGenerator::search(const PreparedScene& scene, HypothesisSet& found,
+                             FeatureVerifier::Workspace& workspace, MatchingCounters& counters,
+                             std::uint64_t budget) const
+{
+  const PreparedMap& map = verifier_->map();
+  const GeneratorOptions& options = verifier_->options();
+  const auto n = static_cast<std::uint32_t>(scene.size());
+  const std::uint64_t before = counters.hypotheses;
+  std::vector<std::uint32_t> candidates;
+  SplitMix random(options.seed);
+
+  // 1. How many anchors: eq. (4.2), (4.3). Not shortened as support comes in: accidental support
+  // would stop the search too early, and all plausible poses are wanted.
+  const double w = options.good_share;
+  const double works = w * (1 - std::pow(1 - w, options.partners));
+  const std::uint32_t draws = std::min(n, drawsNeeded(options.failure_probability, works));
+  std::vector<std::uint32_t> anchors(n);
+  std::iota(anchors.begin(), anchors.end(), 0U);
+  random.shuffle(anchors);
+  anchors.resize(draws);
+
+  for (const std::uint32_t i : anchors)
+  {
+    // 2. A few partners for each, far away.
+    const auto partners = drawPartners(scene, i, lists_->cutOff(), options.partners, random);
+    for (std::uint32_t k = 0; k < map.size(); ++k)
+    {
+      if (!unaryCompatible(scene.views[i], map.view(k), verifier_->gates().scalar)) continue;
+      ++counters.signature_pairs;
+      if (counters.hypotheses - before >= budget) return;
+      for (const std::uint32_t j : partners)
+      {
+        // 3. Every l in L_j(i, k) makes a base, verified over all observed features.
+        gatherCandidates(scene, map, verifier_->gates(), *lists_, {i, k}, j, candidates);
+        for (const std::uint32_t l : candidates)
+        {
+          if (!verifier_->makeBase(scene, {i, k}, {j, l}, workspace.base, counters)) continue;
+          verifier_->verify(scene, nullptr, found, workspace, counters);
+        }
+      }
+    }
+  }
+}
+
+std::vector<FeatureHypothesis> AnchorGenerator::generate(const std::vector<Feature>& observed,
+                                                         MatchingCounters& counters) const
+{
+  const PreparedScene scene(observed, verifier_->map(), verifier_->options(), verifier_->gates());
+  HypothesisSet found(scene.size());
+  FeatureVerifier::Workspace workspace;
+  const std::uint64_t before = counters.hypotheses;
+  search(scene, found, workspace, counters, std::numeric_limits<std::uint64_t>::max());
+  return rankedHypotheses(scene, *verifier_, found, 2, counters.hypotheses - before);
+}
+}  // namespace sigloc

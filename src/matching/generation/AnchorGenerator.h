@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "matching/features/FeatureVerifier.h"
+#include "matching/features/PairLists.h"
+
+namespace sigloc
+{
+/// Mode (b): a fixed number of random observed anchors, each with a few random partners, against
+/// the whole map. Linear in the map and in the number of observed features.
+class AnchorGenerator : public FeatureHypothesisGenerator
+{
+ public:
+  AnchorGenerator(std::shared_ptr<const FeatureVerifier> verifier,
+                  std::shared_ptr<const PairLists> lists)
+      : verifier_(std::move(verifier)), lists_(std::move(lists))
+  {
+  }
+
+  std::vector<FeatureHypothesis> generate(const std::vector<Feature>& observed,
+                                          MatchingCounters& counters) const override;
+
+  /// The search itself, adding to `found`, within a budget of hypotheses.
+  void search(const PreparedScene& scene, HypothesisSet& found,
+              FeatureVerifier::Workspace& workspace, MatchingCounters& counters,
+              std::uint64_t budget) const;
+
+ private:
+  std::shared_ptr<const FeatureVerifier> verifier_;
+  std::shared_ptr<const PairLists> lists_;
+};
+}  // namespace sigloc

@@ -1,0 +1,199 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "matching/generation/PairIndexGenerator.h"
+
+#include "matching/features/sampling.h"
+#include "signature/unary_constraint.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace sigloc
+{
+/// An observed pair with the mapped pairs that fit its key.
+struct PairIndexGenerator::Lookup
+{
+  std::uint32_t i;
+  std::uint32_t j;
+  double length;  ///< [m], of the base
+  PairIndex::Runs runs;
+};
+
+PairIndexGenerator::PairIndexGenerator(std::shared_ptr<const FeatureVerifier> verifier,
+                                       std::shared_ptr<const PairLists> lists)
+    : verifier_(std::move(verifier)), lists_(std::move(lists)), index_(verifier_->map(), *lists_)
+{
+}
+
+std::vector<PairIndexGenerator::Lookup> PairIndexGenerator::rankedLookups(
+    const PreparedScene& scene, const std::vector<std::uint32_t>& among, std::uint32_t count) const
+{
+  const MapErrorModel& error = verifier_->map().map().error();
+  const double gate = verifier_->gates().scalar;
+  std::vector<Lookup> lookups;
+  for (std::size_t a = 0; a < among.size(); ++a)
+  {
+    for (std::size_t b = a + 1; b < among.size(); ++b)
+    {
+      const DirectedFeature& first = scene.views[among[a]];
+      const DirectedFeature& second = scene.views[among[b]];
+      const auto between = second.position() - first.position();
+      const double length = std::hypot(between.x, between.y);
+      const double reach =
+          lists_->cutOff() + 0.5 * (first.length() + second.length());  // between extents
+      if (length > reach) continue;
+      const BinaryKey key = binaryKey(first, second);
+      const double tolerance =
+          keyTolerance(key, lists_->largestKeyVariance(first.type(), second.type()), error, gate);
+      lookups.push_back(
+          {among[a], among[b], length, index_.find(first.type(), second.type(), key, tolerance)});
+    }
+  }
+  // Short bases give poor headings: only the longer half is used.
+  const auto middle = lookups.begin() + static_cast<std::ptrdiff_t>(lookups.size() / 2);
+  std::nth_element(lookups.begin(), middle, lookups.end(),
+                   [](const Lookup& a, const Lookup& b) { return a.length > b.length; });
+  if (lookups.size() / 2 >= count) lookups.erase(middle, lookups.end());
+
+  // Rare ones first; no feature in too many, because it may be spurious.
+  std::sort(lookups.begin(), lookups.end(),
+            [](const Lookup& a, const Lookup& b)
+            {
+              const auto pairs_a = a.runs.pairs();
+              const auto pairs_b = b.runs.pairs();
+              if (pairs_a != pairs_b) return pairs_a < pairs_b;
+              return a.i != b.i ? a.i < b.i : a.j < b.j;
+            });
+  const std::size_t fair = 1 + 2 * count / std::max<std::size_t>(1, among.size());
+  std::vector<std::size_t> used(scene.size(), 0);
+  std::vector<Lookup> chosen;
+  std::vector<Lookup> rest;
+  for (const Lookup& lookup : lookups)
+  {
+    const bool overused = used[lookup.i] >= fair || used[lookup.j] >= fair;
+    (overused ? rest : chosen).push_back(lookup);
+    if (overused) continue;
+    ++used[lookup.i];
+    ++used[lookup.j];
+  }
+  chosen.insert(chosen.end(), rest.begin(), rest.end());
+  if (chosen.size() > count) chosen.resize(count);
+  return chosen;
+}
+
+void PairIndexGenerator::tryLookup(const PreparedScene& scene, const Lookup& lookup,
+                                   HypothesisSet& found, FeatureVerifier::Workspace& workspace,
+                                   MatchingCounters& counters, std::uint64_t budget) const
+{
+  const PreparedMap& map = verifier_->map();
+  const BinaryGates& gates = verifier_->gates();
+  const MapErrorModel& error = map.map().error();
+  const DirectedFeature& first = scene.views[lookup.i];
+  const DirectedFeature& second = scene.views[lookup.j];
+  index_.visit(lookup.runs,
+               [&](std::uint32_t k, std::uint32_t l)
+               {
+                 ++counters.signature_pairs;
+                 if (counters.hypotheses >= budget) return;
+                 const bool fits =
+                     unaryCompatible(first, map.view(k), gates.scalar) &&
+                     unaryCompatible(second, map.view(l), gates.scalar) &&
+                     binaryCompatible(first, second, map.view(k), map.view(l), error, gates);
+                 if (!fits || !verifier_->makeBase(scene, {lookup.i, k}, {lookup.j, l},
+                                                   workspace.base, counters))
+                 {
+                   return;
+                 }
+                 verifier_->verify(scene, nullptr, found, workspace, counters);
+               });
+}
+
+std::vector<PairIndexGenerator::Lookup> PairIndexGenerator::lookupsOfAll(
+    const PreparedScene& scene) const
+{
+  const GeneratorOptions& options = verifier_->options();
+  std::vector<std::uint32_t> everything(scene.size());
+  std::iota(everything.begin(), everything.end(), 0U);
+  const std::uint32_t draws =
+      drawsNeeded(options.failure_probability, std::pow(options.good_share, 2));
+  return rankedLookups(scene, everything, draws);
+}
+
+std::uint64_t PairIndexGenerator::basesFor(const PreparedScene& scene) const
+{
+  return basesOf(lookupsOfAll(scene));
+}
+
+std::uint64_t PairIndexGenerator::basesOf(const std::vector<Lookup>& lookups)
+{
+  std::uint64_t bases = 0;
+  for (const Lookup& lookup : lookups) bases += lookup.runs.pairs();
+  return bases;
+}
+
+void PairIndexGenerator::search(const PreparedScene& scene, HypothesisSet& found,
+                                FeatureVerifier::Workspace& workspace, MatchingCounters& counters,
+                                std::uint64_t budget) const
+{
+  const GeneratorOptions& options = verifier_->options();
+  const std::uint64_t before = counters.hypotheses;
+  const std::uint64_t limit =
+      budget > std::numeric_limits<std::uint64_t>::max() - before ? budget : before + budget;
+  const auto significant = [&]
+  {
+    const FeatureHypothesis* best = found.best();
+    return best &&
+           FeatureVerifier::expectedByChance(scene, best->support, 2,
+                                             counters.hypotheses - before) < options.significance;
+  };
+
+  // 1. Rare, long pairs of all features, until an answer is significant.
+  for (const Lookup& lookup : lookupsOfAll(scene))
+  {
+    if (counters.hypotheses >= limit) return;
+    tryLookup(scene, lookup, found, workspace, counters, limit);
+    if (significant()) break;
+  }
+  if (!significant()) return;
+
+  // 2. Pairs of what the answer explains: places that look alike share most of it.
+  for (const Lookup& lookup : lookupsOfExplained(scene, found))
+  {
+    tryLookup(scene, lookup, found, workspace, counters, limit);
+  }
+}
+
+std::vector<PairIndexGenerator::Lookup> PairIndexGenerator::lookupsOfExplained(
+    const PreparedScene& scene, const HypothesisSet& found) const
+{
+  const std::vector<std::uint32_t> explained = observedOf(*found.best());
+  const double failure = verifier_->options().failure_probability;
+  return rankedLookups(scene, explained, drawsNeeded(failure, rivalShare(explained.size(), 2)));
+}
+
+void PairIndexGenerator::lookAgain(const PreparedScene& scene, HypothesisSet& found,
+                                   FeatureVerifier::Workspace& workspace,
+                                   MatchingCounters& counters, std::uint64_t budget) const
+{
+  const std::vector<Lookup> lookups = lookupsOfExplained(scene, found);
+  if (basesOf(lookups) > budget) return;
+  const std::uint64_t limit = counters.hypotheses + budget;
+  for (const Lookup& lookup : lookups)
+  {
+    tryLookup(scene, lookup, found, workspace, counters, limit);
+  }
+}
+
+std::vector<FeatureHypothesis> PairIndexGenerator::generate(const std::vector<Feature>& observed,
+                                                            MatchingCounters& counters) const
+{
+  const PreparedScene scene(observed, verifier_->map(), verifier_->options(), verifier_->gates());
+  HypothesisSet found(scene.size());
+  FeatureVerifier::Workspace workspace;
+  const std::uint64_t before = counters.hypotheses;
+  search(scene, found, workspace, counters, std::numeric_limits<std::uint64_t>::max());
+  return rankedHypotheses(scene, *verifier_, found, 2, counters.hypotheses - before);
+}
+}  // namespace sigloc

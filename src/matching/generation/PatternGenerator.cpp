@@ -1,0 +1,321 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "matching/generation/PatternQuery.h"
+
+#include "matching/features/sampling.h"
+#include "signature/unary_constraint.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sigloc
+{
+using mrpt::math::TPoint2D;
+
+namespace
+{
+// Share of the patterns of mapped features around a robot that the index holds: not those whose
+// members are no near neighbours of each other in the map.
+constexpr double kIndexedShare = 0.5;
+// And of those around a robot that found none: where the map is sparse, the neighbours of what is
+// seen are out of sight.
+constexpr double kSparselyIndexedShare = 0.05;
+constexpr double kUnlikely = 0.5;  // hypotheses as good by chance: an answer that explains enough
+constexpr double kBetterThanChance = 1;  // hypotheses as good expected by chance
+constexpr std::uint64_t kFewPairBases = 2000;  // that may be tried where patterns are too few
+// More draws cost little beside answering nothing sure, or trying smaller bases next: before that
+// they may fail this much less. Where a map is sparse few of the patterns seen are indexed.
+constexpr double kDrawsAreCheap = 1e-6;
+
+bool seesWalls(const PreparedScene& scene)
+{
+  return std::any_of(scene.views.begin(), scene.views.end(),
+                     [](const DirectedFeature& view) { return isSegment(view.type()); });
+}
+}  // namespace
+
+PatternGenerator::PatternGenerator(std::shared_ptr<const FeatureVerifier> verifier,
+                                   std::shared_ptr<const PairLists> lists)
+    : verifier_(verifier),
+      index_(verifier->map(), verifier->options()),
+      residual_gate_(chiSquareGate(verifier->options().gate_probability,
+                                   std::max(1, 2 * static_cast<int>(index_.patternSize()) - 3))),
+      pairs_(verifier, lists),
+      anchors_(verifier, lists)
+{
+}
+
+bool PatternGenerator::fitPattern(const PreparedScene& scene, const Query& query,
+                                  const PatternMembers& observed, const std::uint32_t* mapped,
+                                  PoseEstimate& pose) const
+{
+  const std::size_t size = index_.patternSize();
+  const BinaryGates& gates = verifier_->gates();
+  std::array<TPoint2D, kLargestPattern> seen;
+  std::array<TPoint2D, kLargestPattern> known;
+  for (std::size_t k = 0; k < size; ++k)
+  {
+    const DirectedFeature& view = verifier_->map().view(mapped[k]);
+    if (!unaryCompatible(scene.views[observed[k]], view, gates.scalar)) return false;
+    seen[k] = scene.views[observed[k]].position();
+    known[k] = view.position();
+  }
+  const auto fitted = poseFromPlaces(seen.data(), known.data(), size, query.variance);
+  if (!fitted) return false;
+  pose = *fitted;
+  return true;
+}
+
+void PatternGenerator::tryPattern(const PreparedScene& scene, Query& query, HypothesisSet& found,
+                                  FeatureVerifier::Workspace& workspace,
+                                  MatchingCounters& counters) const
+{
+  const std::size_t size = index_.patternSize();
+  const PreparedMap& map = verifier_->map();
+  for (const PatternOrder& order : query.orders)
+  {
+    std::array<TPoint2D, kLargestPattern> ordered;
+    PatternMembers observed{};
+    for (std::size_t k = 0; k < size; ++k)
+    {
+      observed[k] = query.members[order[k]];
+      ordered[k] = scene.views[observed[k]].position();
+    }
+    // Three passes, so that the memory of one hit is fetched while others are worked on.
+    ++counters.signature_pairs;
+    query.hits.clear();
+    index_.visit(PatternIndex::shapeOf(ordered.data(), size), query.gate,
+                 [&](const std::uint32_t* mapped)
+                 {
+                   for (std::size_t k = 0; k < size; ++k) map.prefetch(mapped[k]);
+                   query.hits.push_back(mapped);
+                 });
+    counters.hypotheses += query.hits.size();
+    query.poses.clear();
+    const TPoint2D next = scene.views[scene.orderFrom(observed[0])[1]].position();
+    std::size_t kept = 0;
+    for (const std::uint32_t* mapped : query.hits)
+    {
+      PoseEstimate pose;
+      if (leadsToPartners(query, observed, mapped)) continue;
+      if (!fitPattern(scene, query, observed, mapped, pose)) continue;
+      map.grid().prefetch(pose.place(next));
+      query.poses.push_back(pose);
+      query.hits[kept++] = mapped;
+    }
+    for (std::size_t h = 0; h < kept; ++h)
+    {
+      workspace.base.pose = query.poses[h];
+      workspace.base.pairings.clear();
+      for (std::size_t k = 0; k < size; ++k)
+      {
+        workspace.base.pairings.push_back({observed[k], query.hits[h][k]});
+      }
+      verifier_->verify(scene, nullptr, found, workspace, counters);
+    }
+  }
+}
+
+bool PatternGenerator::refutesChance(const PreparedScene& scene, const HypothesisSet& found,
+                                     std::uint32_t base_size, std::uint64_t bases) const
+{
+  const FeatureHypothesis* best = found.best();
+  return best && FeatureVerifier::expectedByChance(scene, best->support, base_size, bases) <
+                     verifier_->options().significance;
+}
+
+/// True when chance is refuted, or when the best explains its share of the features: more or
+/// smaller bases find no better answer then, even where too few features were seen to be sure of
+/// it.
+bool PatternGenerator::settles(const PreparedScene& scene, const HypothesisSet& found,
+                               std::uint32_t base_size, std::uint64_t bases) const
+{
+  const GeneratorOptions& options = verifier_->options();
+  const FeatureHypothesis* best = found.best();
+  if (!best) return false;
+  const double chance = FeatureVerifier::expectedByChance(scene, best->support, base_size, bases);
+  const bool explains_enough =
+      best->support >= options.good_share * static_cast<double>(scene.size());
+  return chance < options.significance || (explains_enough && chance < kUnlikely);
+}
+
+/// Draws patterns of `roots` until `wanted` fresh ones are tried or `done` says so. Every draw
+/// starts at another feature. Patterns that could be written in many orders wait until others are
+/// used up. Draws that find no fresh pattern are made up for, up to a point: few features hold few
+/// patterns.
+template <class Done>
+std::uint32_t PatternGenerator::draw(const PreparedScene& scene,
+                                     const std::vector<std::uint32_t>& roots, std::uint32_t wanted,
+                                     Query& query, HypothesisSet& found,
+                                     FeatureVerifier::Workspace& workspace,
+                                     MatchingCounters& counters, const Done& done) const
+{
+  constexpr std::uint32_t kPatience = 3;
+  constexpr std::size_t kFewOrders = 2;
+  std::vector<bool> among(scene.size(), false);
+  for (const std::uint32_t root : roots) among[root] = true;
+  std::uint32_t fresh = 0;
+  for (const std::size_t most_orders : {kFewOrders, std::numeric_limits<std::size_t>::max()})
+  {
+    for (std::uint32_t d = 0; d < kPatience * wanted && fresh < wanted; ++d)
+    {
+      if (!drawPattern(scene, among, roots[d % roots.size()], most_orders, query)) continue;
+      ++fresh;
+      const std::uint64_t hypotheses = counters.hypotheses;
+      tryPattern(scene, query, found, workspace, counters);
+      if (counters.hypotheses > hypotheses && done()) return fresh;
+    }
+  }
+  return fresh;
+}
+
+bool PatternGenerator::search(const PreparedScene& scene, Query& query, HypothesisSet& found,
+                              FeatureVerifier::Workspace& workspace,
+                              MatchingCounters& counters) const
+{
+  const GeneratorOptions& options = verifier_->options();
+  const auto size = static_cast<std::uint32_t>(index_.patternSize());
+  std::vector<std::uint32_t> places;
+  for (std::uint32_t i = 0; i < scene.size(); ++i)
+  {
+    if (isPointLike(scene.views[i].type())) places.push_back(i);
+  }
+  if (size == 0 || places.size() < size) return false;
+  query.random.shuffle(places);
+
+  // 1. Patterns of all features, until an answer is significant.
+  const std::uint64_t before = counters.hypotheses;
+  const auto significant = [&]
+  { return refutesChance(scene, found, size, counters.hypotheses - before); };
+  const auto settled = [&] { return settles(scene, found, size, counters.hypotheses - before); };
+  const double good = kIndexedShare * std::pow(options.good_share, size);
+  for (const double failure : {options.failure_probability, kDrawsAreCheap})
+  {
+    draw(scene, places, drawsNeeded(failure, good), query, found, workspace, counters, significant);
+    if (settled()) break;
+  }
+  if (!settled()) return false;
+
+  // 2. Patterns of what the answer explains.
+  lookAgain(scene, query, found, workspace, counters);
+  return true;
+}
+
+/// Places that look alike share most of what the best one explains. Only patterns that the index
+/// holds at the best place are drawn: most likely it holds them at a place like it. Where there are
+/// too few of them, pairs are looked up.
+void PatternGenerator::lookAgain(const PreparedScene& scene, Query& query, HypothesisSet& found,
+                                 FeatureVerifier::Workspace& workspace,
+                                 MatchingCounters& counters) const
+{
+  query.partners.assign(scene.size(), 0);
+  for (const FeaturePairing& pairing : found.best()->pairings)
+  {
+    query.partners[pairing.observed] = pairing.mapped;
+  }
+  std::vector<std::uint32_t> explained;
+  for (const std::uint32_t i : observedOf(*found.best()))
+  {
+    if (isPointLike(scene.views[i].type())) explained.push_back(i);
+  }
+  const double failure = verifier_->options().failure_probability;
+  const double shared = rivalShare(explained.size(), index_.patternSize());
+  const std::uint32_t wanted = drawsNeeded(failure, shared);
+  std::uint32_t drawn = 0;
+  if (!explained.empty())
+  {
+    const auto patterns =
+        static_cast<std::uint32_t>(combinations(explained.size(), index_.patternSize()));
+    drawn = draw(scene, explained, std::min(patterns, wanted), query, found, workspace, counters,
+                 [] { return false; });
+  }
+  if (drawn >= wanted) return;
+  const std::uint64_t before = counters.hypotheses;
+  pairs_.lookAgain(scene, found, workspace, counters, kFewPairBases);
+  query.pair_bases = counters.hypotheses - before;
+}
+
+/// Smaller bases find what shares too few features with the map for patterns. They are worth their
+/// cost where the budget holds all of them, and where such a hypothesis, of a support that the
+/// draws so far may have missed, could beat what is found, and chance.
+bool PatternGenerator::smallerBasesMayTell(const PreparedScene& scene, const Query& query,
+                                           const HypothesisSet& found) const
+{
+  const GeneratorOptions& options = verifier_->options();
+  const auto n = static_cast<std::uint32_t>(scene.size());
+  // Patterns know nothing of walls, pairs do.
+  if (seesWalls(scene)) return true;
+  const std::uint64_t bases = pairs_.basesFor(scene);
+  if (bases > options.fall_back_hypotheses) return false;
+  const double indexed = found.best() ? kIndexedShare : kSparselyIndexedShare;
+  for (std::uint32_t support = std::max(found.bestSupport() + 1, options.min_support); support <= n;
+       ++support)
+  {
+    const double good = indexed * shareOfPatterns(scene, support);
+    const double missed = std::pow(1 - good, static_cast<double>(query.tried.size()));
+    if (missed > options.failure_probability &&
+        FeatureVerifier::expectedByChance(scene, support, 2, bases) < kBetterThanChance)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Of the patterns of all places seen, the share that consists of mapped ones if `support` features
+/// are.
+double PatternGenerator::shareOfPatterns(const PreparedScene& scene, std::uint32_t support) const
+{
+  const std::size_t size = index_.patternSize();
+  const auto places = static_cast<double>(std::count_if(scene.views.begin(), scene.views.end(),
+                                                        [](const DirectedFeature& view)
+                                                        { return isPointLike(view.type()); }));
+  if (size == 0 || places < static_cast<double>(size)) return 0;
+  const double supporting = places * support / static_cast<double>(scene.size());
+  double share = 1;
+  for (std::size_t k = 0; k < size; ++k)
+  {
+    const auto taken = static_cast<double>(k);
+    share *= std::max(0.0, supporting - taken) / (places - taken);
+  }
+  return share;
+}
+
+std::vector<FeatureHypothesis> PatternGenerator::generate(const std::vector<Feature>& observed,
+                                                          MatchingCounters& counters) const
+{
+  const GeneratorOptions& options = verifier_->options();
+  const PreparedScene scene(observed, verifier_->map(), options, verifier_->gates());
+  HypothesisSet found(scene.size());
+  FeatureVerifier::Workspace workspace;
+  Query query(options.seed);
+  const std::uint64_t before = counters.hypotheses;
+
+  double mapped = 0;
+  for (std::size_t t = 0; t < kFeatureTypes; ++t)
+  {
+    const auto type = static_cast<FeatureType>(t);
+    if (isPointLike(type))
+      mapped = std::max(mapped, verifier_->map().typicalPositionVariance(type));
+  }
+  query.map_variance = mapped + scene.relative_sigma * scene.relative_sigma + 1e-12;
+
+  const bool settled = search(scene, query, found, workspace, counters);
+  const auto base_size = static_cast<std::uint32_t>(index_.patternSize());
+  if (settled || !smallerBasesMayTell(scene, query, found))
+  {
+    return rankedHypotheses(scene, *verifier_, found, base_size,
+                            counters.hypotheses - before - query.pair_bases);
+  }
+  // Nothing sure: smaller bases find what shares few features with the map.
+  pairs_.search(scene, found, workspace, counters, options.fall_back_hypotheses);
+  const bool sure = seesWalls(scene) ? refutesChance(scene, found, 2, counters.hypotheses - before)
+                                     : settles(scene, found, 2, counters.hypotheses - before);
+  if (!sure)
+  {
+    anchors_.search(scene, found, workspace, counters, options.fall_back_hypotheses);
+  }
+  return rankedHypotheses(scene, *verifier_, found, 2, counters.hypotheses - before);
+}
+}  // namespace sigloc

@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "matching/features/SplitMix.h"
+#include "matching/generation/AnchorGenerator.h"
+#include "matching/generation/PairIndexGenerator.h"
+#include "matching/generation/PatternIndex.h"
+
+namespace sigloc
+{
+/// Mode (d): observed patterns of three to five places, looked up in a hash of all mapped ones.
+/// What a look-up returns hardly grows with the map. Falls back to pairs, then to anchors, when no
+/// answer is significant and theirs could be.
+class PatternGenerator : public FeatureHypothesisGenerator
+{
+ public:
+  PatternGenerator(std::shared_ptr<const FeatureVerifier> verifier,
+                   std::shared_ptr<const PairLists> lists);
+
+  std::vector<FeatureHypothesis> generate(const std::vector<Feature>& observed,
+                                          MatchingCounters& counters) const override;
+
+  const PatternIndex& index() const { return index_; }
+
+ private:
+  struct Query;
+  bool drawPattern(const PreparedScene& scene, const std::vector<bool>& among, std::uint32_t root,
+                   std::size_t most_orders, Query& query) const;
+  void gatePattern(const PreparedScene& scene, Query& query) const;
+  void tryPattern(const PreparedScene& scene, Query& query, HypothesisSet& found,
+                  FeatureVerifier::Workspace& workspace, MatchingCounters& counters) const;
+  bool fitPattern(const PreparedScene& scene, const Query& query, const PatternMembers& observed,
+                  const std::uint32_t* mapped, PoseEstimate& pose) const;
+  bool mayJoin(const Query& query, std::uint32_t root, std::uint32_t member) const;
+  bool leadsToPartners(const Query& query, const PatternMembers& observed,
+                       const std::uint32_t* mapped) const;
+  template <class Done>
+  std::uint32_t draw(const PreparedScene& scene, const std::vector<std::uint32_t>& roots,
+                     std::uint32_t wanted, Query& query, HypothesisSet& found,
+                     FeatureVerifier::Workspace& workspace, MatchingCounters& counters,
+                     const Done& done) const;
+  void lookAgain(const PreparedScene& scene, Query& query, HypothesisSet& found,
+                 FeatureVerifier::Workspace& workspace, MatchingCounters& counters) const;
+  bool search(const PreparedScene& scene, Query& query, HypothesisSet& found,
+              FeatureVerifier::Workspace& workspace, MatchingCounters& counters) const;
+  bool refutesChance(const PreparedScene& scene, const HypothesisSet& found,
+                     std::uint32_t base_size, std::uint64_t bases) const;
+  bool settles(const PreparedScene& scene, const HypothesisSet& found, std::uint32_t base_size,
+               std::uint64_t bases) const;
+  bool smallerBasesMayTell(const PreparedScene& scene, const Query& query,
+                           const HypothesisSet& found) const;
+  double shareOfPatterns(const PreparedScene& scene, std::uint32_t support) const;
+
+  std::shared_ptr<const FeatureVerifier> verifier_;
+  PatternIndex index_;
+  double residual_gate_;  ///< of a pattern's residuals, after the best alignment
+  PairIndexGenerator pairs_;
+  AnchorGenerator anchors_;
+};
+}  // namespace sigloc

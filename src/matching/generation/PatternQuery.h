@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "matching/generation/pattern_order.h"
+#include "matching/generation/PatternGenerator.h"
+
+namespace sigloc
+{
+/// What one query carries along: random numbers, the pattern drawn last, buffers.
+struct PatternGenerator::Query
+{
+  explicit Query(std::uint64_t seed) : random(seed) {}
+
+  SplitMix random;
+  PatternMembers members{};
+  double map_variance = 0;  ///< [m^2], of a mapped place, each coordinate
+  double variance = 0;  ///< [m^2], of a member against its mapped place, each coordinate
+  PatternIndex::Gate gate;
+  std::vector<std::uint32_t> near;
+  std::vector<PatternOrder> orders;
+  std::vector<std::uint64_t> tried;  ///< keys of the patterns drawn so far
+  std::uint64_t pair_bases = 0;  ///< tried for look-alikes only
+  std::vector<std::uint32_t> partners;  ///< of each feature at a place whose look-alikes are sought
+  std::vector<const std::uint32_t*> hits;
+  std::vector<PoseEstimate> poses;
+};
+}  // namespace sigloc

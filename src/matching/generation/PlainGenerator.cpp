@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "matching/generation/PlainGenerator.h"
+
+#include "matching/features/sampling.h"
+#include "signature/unary_constraint.h"
+
+#include <algorithm>
+
+namespace sigloc
+{
+void gatherCandidates(const PreparedScene& scene, const PreparedMap& map, const BinaryGates& gates,
+                      const PairLists& lists, const FeaturePairing& anchor, std::uint32_t j,
+                      std::vector<std::uint32_t>& candidates)
+{
+  const MapErrorModel& error = map.map().error();
+  const DirectedFeature& first = scene.views[anchor.observed];
+  const DirectedFeature& second = scene.views[j];
+  const BinaryKey key = binaryKey(first, second);
+  const double tolerance =
+      keyTolerance(key, lists.largestKeyVariance(first.type(), second.type()), error, gates.scalar);
+  candidates.clear();
+  lists.visit(
+      anchor.mapped, key, second.type(), tolerance,
+      [&](std::uint32_t l)
+      {
+        if (unaryCompatible(second, map.view(l), gates.scalar) &&
+            binaryCompatible(first, second, map.view(anchor.mapped), map.view(l), error, gates))
+        {
+          candidates.push_back(l);
+        }
+      });
+}
+
+std::vector<FeatureHypothesis> PlainGenerator::generate(const std::vector<Feature>& observed,
+                                                        MatchingCounters& counters) const
+{
+  const PreparedMap& map = verifier_->map();
+  const PreparedScene scene(observed, map, verifier_->options(), verifier_->gates());
+  const auto n = static_cast<std::uint32_t>(scene.size());
+  const auto m = static_cast<std::uint32_t>(map.size());
+  const std::uint32_t needed = std::min(verifier_->options().min_support, n);
+  HypothesisSet found(n);
+  FeatureVerifier::Workspace workspace;
+  CandidateLists candidates(n);
+  const std::uint64_t hypotheses_before = counters.hypotheses;
+
+  for (std::uint32_t i = 0; i < n; ++i)
+  {
+    for (std::uint32_t k = 0; k < m; ++k)
+    {
+      if (!unaryCompatible(scene.views[i], map.view(k), verifier_->gates().scalar)) continue;
+      ++counters.signature_pairs;
+
+      // L_j(i, k) for every other observed feature; what they could support at best.
+      std::uint32_t possible = 1;
+      for (std::uint32_t j = 0; j < n; ++j)
+      {
+        candidates[j].clear();
+        if (j == i) continue;
+        gatherCandidates(scene, map, verifier_->gates(), *lists_, {i, k}, j, candidates[j]);
+        if (!candidates[j].empty()) ++possible;
+      }
+      if (possible < needed) continue;
+
+      // Every base pairing gives a pose, which the other lists must support.
+      for (std::uint32_t j = 0; j < n; ++j)
+      {
+        for (const std::uint32_t l : candidates[j])
+        {
+          if (!verifier_->makeBase(scene, {i, k}, {j, l}, workspace.base, counters)) continue;
+          verifier_->verify(scene, &candidates, found, workspace, counters);
+        }
+      }
+    }
+  }
+  return rankedHypotheses(scene, *verifier_, found, 2, counters.hypotheses - hypotheses_before);
+}
+}  // namespace sigloc

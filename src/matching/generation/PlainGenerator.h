@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "matching/features/FeatureVerifier.h"
+#include "matching/features/PairLists.h"
+
+namespace sigloc
+{
+/// Mode (a): every observed signature against every mapped one. Complete, the reference for all
+/// others; O(n^3 m c^2).
+class PlainGenerator : public FeatureHypothesisGenerator
+{
+ public:
+  /// The lists should be uncut; with a cut-off, pairs farther apart are never a base.
+  PlainGenerator(std::shared_ptr<const FeatureVerifier> verifier,
+                 std::shared_ptr<const PairLists> lists)
+      : verifier_(std::move(verifier)), lists_(std::move(lists))
+  {
+  }
+
+  std::vector<FeatureHypothesis> generate(const std::vector<Feature>& observed,
+                                          MatchingCounters& counters) const override;
+
+ private:
+  std::shared_ptr<const FeatureVerifier> verifier_;
+  std::shared_ptr<const PairLists> lists_;
+};
+
+/// Returns the map features that observed feature j may be if observed i is mapped k: L_j(i, k),
+/// by its unary and binary constraints. \cite algorithm eq. (4.1)
+void gatherCandidates(const PreparedScene& scene, const PreparedMap& map, const BinaryGates& gates,
+                      const PairLists& lists, const FeaturePairing& anchor, std::uint32_t j,
+                      std::vector<std::uint32_t>& candidates);
+}  // namespace sigloc

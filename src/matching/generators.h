@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "matching/features/FeatureHypothesis.h"
+#include "matching/features/FeatureVerifier.h"
+#include "matching/features/GeneratorOptions.h"
+#include "sigloc/matching/SignatureMatcher.h"
+
+#include <memory>
+
+namespace sigloc
+{
+class FeatureMap;
+
+/// Returns the generator of a mode over a map, which must outlive it; `automatic` is patterns with
+/// their fall-backs. Throws std::invalid_argument for mode `bases`, which needs a dense field, and
+/// for options outside their ranges.
+std::unique_ptr<FeatureHypothesisGenerator> makeGenerator(GenerationMode mode,
+                                                          const FeatureMap& map,
+                                                          const GeneratorOptions& options = {});
+
+/// The same with a verifier that others use too.
+std::unique_ptr<FeatureHypothesisGenerator> makeGenerator(
+    GenerationMode mode, const std::shared_ptr<const FeatureVerifier>& verifier);
+}  // namespace sigloc

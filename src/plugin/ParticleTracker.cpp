@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plugin/ParticleTracker.h"
+
+#include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CActionRobotMovement2D.h>
+#include <mrpt/poses/CPosePDFGaussian.h>
+#include <mrpt/random/RandomGenerators.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "tracking/tracks/travel.h"
+
+namespace sigloc
+{
+using mrpt::bayes::CParticleFilter;
+using mrpt::obs::CActionRobotMovement2D;
+
+namespace
+{
+/// The options, before anything is allocated by them.
+const ParticleOptions& checked(const ParticleOptions& options)
+{
+  checkOptions(options);
+  return options;
+}
+}  // namespace
+
+ParticleTracker::ParticleTracker(std::shared_ptr<const SignatureMap> map,
+                                 std::shared_ptr<const SignatureMatcher> matcher,
+                                 const TrackerOptions& tracking, const ParticleOptions& options,
+                                 std::uint32_t seed, const FeatureExtractorOptions& extraction)
+    : tracking_(tracking), options_(checked(options)), filter_(options.particles, tracking)
+{
+  if (!map || !matcher) throw std::invalid_argument("ParticleTracker: no map or matcher");
+  filter_.options.metricMap = std::move(map);
+  filter_.useMatcher(std::move(matcher));
+  filter_.useExtraction(extraction);
+  executor_.m_options.PF_algorithm = CParticleFilter::pfStandardProposal;
+  executor_.m_options.resamplingMethod = CParticleFilter::prSystematic;
+  // Its own randomize() would keep a Gaussian drawn before.
+  mrpt::random::getRandomGenerator() = mrpt::random::CRandomGenerator(seed);
+}
+
+const Belief& ParticleTracker::step(const RawlogStep& step)
+{
+  MotionIncrement motion;
+  double sigma = tracking_.free_motion_sigma;
+  double turn_sigma = tracking_.free_turn_sigma;
+  if (step.motion)
+  {
+    motion = *step.motion;
+    const double travel = travelOf(motion.mean, tracking_);
+    sigma = options_.motion_sigma * std::sqrt(travel);
+    turn_sigma = options_.motion_turn_sigma * std::sqrt(travel);
+  }
+  motion.covariance(0, 0) += sigma * sigma;
+  motion.covariance(1, 1) += sigma * sigma;
+  motion.covariance(2, 2) += turn_sigma * turn_sigma;
+
+  CActionRobotMovement2D movement;
+  movement.estimationMethod =
+      CActionRobotMovement2D::emScan2DMatching;  // a distribution of its own
+  movement.poseChange =
+      mrpt::poses::CPosePDFGaussian::Create(mrpt::poses::CPose2D(motion.mean), motion.covariance);
+  mrpt::obs::CActionCollection actions;
+  actions.insert(movement);
+  executor_.executeOn(filter_, &actions, step.frame.get());
+  return filter_.belief();
+}
+}  // namespace sigloc

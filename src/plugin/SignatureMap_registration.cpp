@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// How MRPT creates, configures and stores a SignatureMap.
+#include <mrpt/config/CConfigFileMemory.h>
+#include <mrpt/core/initializer.h>
+#include <mrpt/serialization/CArchive.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "io/options_archive.h"
+#include "plugin/map_builder_archive.h"
+#include "plugin/SignatureMap_state.h"
+#include "sigloc/io/map_files.h"
+#include "sigloc/plugin/SignatureMap.h"
+
+// MRPT drops the namespace and the case where it looks for `signatureMap_count`: a second name
+// would make a second map.
+MAP_DEFINITION_REGISTER("sigloc::SignatureMap", sigloc::SignatureMap)
+IMPLEMENTS_SERIALIZABLE(SignatureMap, mrpt::maps::CMetricMap, sigloc)
+
+// Runs when the library is linked, preloaded or opened as a plug-in.
+MRPT_INITIALIZER(register_sigloc_classes)
+{
+  mrpt::rtti::registerClass(CLASS_ID(sigloc::SignatureMap));
+}
+
+namespace sigloc
+{
+using mrpt::config::CConfigFileBase;
+using mrpt::serialization::CArchive;
+
+namespace
+{
+/// Copies the keys of a section that `wanted` accepts.
+template <class Wanted>
+mrpt::config::CConfigFileMemory copyOf(const CConfigFileBase& source, const std::string& section,
+                                       const Wanted& wanted)
+{
+  std::vector<std::string> keys;
+  source.getAllKeys(section, keys);
+  mrpt::config::CConfigFileMemory copy;
+  for (const std::string& key : keys)
+  {
+    if (wanted(key)) copy.write(section, key, source.read_string(section, key, ""));
+  }
+  return copy;
+}
+
+bool isBuildingKey(const std::string& key)
+{
+  const auto keys = optionKeys<MapBuildingOptions>();
+  return std::find(keys.begin(), keys.end(), key) != keys.end();
+}
+}  // namespace
+
+void SignatureMap::TInsertionOptions::loadFromConfigFile(const CConfigFileBase& source,
+                                                         const std::string& section)
+{
+  const auto of_building = copyOf(source, section, isBuildingKey);
+  const auto of_extraction =
+      copyOf(source, section, [](const std::string& key) { return !isBuildingKey(key); });
+  building = loadOptions(of_building, section, building);
+  extraction = loadOptions(of_extraction, section, extraction);
+}
+
+void SignatureMap::TInsertionOptions::saveToConfigFile(CConfigFileBase& target,
+                                                       const std::string& section) const
+{
+  saveOptions(building, target, section);
+  saveOptions(extraction, target, section);
+}
+
+void SignatureMap::TLikelihoodOptions::loadFromConfigFile(const CConfigFileBase& source,
+                                                          const std::string& section)
+{
+  points = loadOptions(source, section, points);
+}
+
+void SignatureMap::TLikelihoodOptions::saveToConfigFile(CConfigFileBase& target,
+                                                        const std::string& section) const
+{
+  saveOptions(points, target, section);
+}
+
+SignatureMap::TMapDefinition::TMapDefinition() = default;
+
+void SignatureMap::TMapDefinition::loadFromConfigFile_map_specific(
+    const CConfigFileBase& source, const std::string& section_prefix)
+{
+  sigmap_file = source.read_string(section_prefix + "_creationOpts", "sigmap_file", sigmap_file);
+  insertion_options.loadFromConfigFile(source, section_prefix + "_insertOpts");
+  likelihood_options.loadFromConfigFile(source, section_prefix + "_likelihoodOpts");
+}
+
+void SignatureMap::TMapDefinition::dumpToTextStream_map_specific(std::ostream& out) const
+{
+  out << "sigmap_file = " << sigmap_file << '\n';
+  insertion_options.dumpToTextStream(out);
+  likelihood_options.dumpToTextStream(out);
+}
+
+mrpt::maps::CMetricMap* SignatureMap::internal_CreateFromMapDefinition(
+    const mrpt::maps::TMetricMapInitializer& def)
+{
+  const auto& definition = dynamic_cast<const TMapDefinition&>(def);
+  auto map = definition.sigmap_file.empty()
+                 ? std::make_unique<SignatureMap>()
+                 : std::make_unique<SignatureMap>(loadSigmap(definition.sigmap_file));
+  map->insertion_options = definition.insertion_options;
+  map->likelihood_options = definition.likelihood_options;
+  return map.release();
+}
+
+std::uint8_t SignatureMap::serializeGetVersion() const
+{
+  return 1;
+}
+
+void SignatureMap::serializeTo(CArchive& out) const
+{
+  out << genericMapParams;
+  detail::writeOptions(insertion_options.building, out);
+  detail::writeOptions(insertion_options.extraction, out);
+  detail::writeOptions(likelihood_options.points, out);
+  writeFeatureMap(*prepared_map_, out);
+  const std::lock_guard<std::mutex> lock(learnt_->mutex);
+  out << learnt_->builder.has_value();
+  if (learnt_->builder) detail::writeMapBuilder(*learnt_->builder, out);
+}
+
+void SignatureMap::serializeFrom(CArchive& in, std::uint8_t version)
+{
+  if (version > 1) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
+  in >> genericMapParams;
+  insertion_options.building = detail::readOptions<MapBuildingOptions>(in);
+  insertion_options.extraction = detail::readOptions<FeatureExtractorOptions>(in);
+  likelihood_options.points = detail::readOptions<PointLikelihoodOptions>(in);
+  prepared_map_ = std::make_shared<FeatureMap>(readFeatureMap(in));
+  *learnt_ = Learnt();
+  // Version 0 stored the finished map alone.
+  bool has_builder = false;
+  if (version >= 1) in >> has_builder;
+  if (has_builder) learnt_->builder = detail::readMapBuilder(in, baseMap());
+}
+}  // namespace sigloc

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mrpt/math/TPoint2D.h>
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "map/building/MapBuilder.h"
+#include "map/NearestFeature.h"
+#include "sigloc/plugin/SignatureMap.h"
+
+namespace sigloc
+{
+/// The map in the form that is looked up.
+struct SignatureMap::Model
+{
+  std::shared_ptr<const FeatureMap> map;
+  NearestFeature nearest;
+};
+
+/// What an observation comes down to, extracted once however many particles ask.
+struct SignatureMap::PreparedObservation
+{
+  std::uint64_t fingerprint = 0;
+  std::vector<mrpt::math::TPoint2D> returns;  // of a laser, robot frame
+  std::vector<mrpt::math::TPoint2D> landmarks;  // robot frame
+};
+
+/// What was inserted, and what is derived on demand, under the mutex; a copy of the map derives
+/// its own.
+struct SignatureMap::Learnt
+{
+  Learnt() = default;
+  Learnt(const Learnt& other);
+  Learnt& operator=(const Learnt& other);
+  mutable std::mutex mutex;
+  std::optional<MapBuilder> builder;  // of the scans, on top of the prepared map
+  std::shared_ptr<const Model> model;
+  std::deque<std::shared_ptr<const PreparedObservation>> observations;
+};
+}  // namespace sigloc

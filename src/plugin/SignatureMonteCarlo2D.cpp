@@ -1,0 +1,252 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sigloc/plugin/SignatureMonteCarlo2D.h"
+
+#include <mrpt/maps/CMultiMetricMap.h>
+#include <mrpt/math/wrap2pi.h>
+#include <mrpt/random/RandomGenerators.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "io/scan_conversion.h"
+#include "sigloc/plugin/pose_pdf.h"
+#include "sigloc/plugin/SignatureMap.h"
+
+namespace sigloc
+{
+using mrpt::math::TPose2D;
+using mrpt::obs::CActionCollection;
+using mrpt::obs::CSensoryFrame;
+using mrpt::slam::CMonteCarloLocalization2D;
+
+namespace
+{
+constexpr double kGathered = 0.5;  // [m], particles within are a pose that the caller knows
+constexpr double kGatheredAngle = 0.5;  // [rad]
+constexpr std::size_t kCompared = 16;  // particles that tell whether the caller has set them anew
+
+ObservedScene sceneOf(const CSensoryFrame* frame, const FeatureExtractorOptions& extraction)
+{
+  if (frame == nullptr) return {};
+  ObservedScene scene = observeScene(laserScansOf(*frame), extraction);
+  const std::vector<Feature> landmarks = landmarksOf(*frame);
+  scene.features.insert(scene.features.end(), landmarks.begin(), landmarks.end());
+  return scene;
+}
+
+std::shared_ptr<const SignatureMap> signatureMapIn(const mrpt::maps::CMetricMap::ConstPtr& map)
+{
+  if (auto own = std::dynamic_pointer_cast<const SignatureMap>(map)) return own;
+  if (auto several = std::dynamic_pointer_cast<const mrpt::maps::CMultiMetricMap>(map))
+  {
+    return several->mapByClass<SignatureMap>();
+  }
+  return nullptr;
+}
+
+/// The box around the particles, a little wider than the samples reach, and their headings.
+PoseRegion boxAround(const CMonteCarloLocalization2D& filter, const TPose2D& mean)
+{
+  constexpr double kAllHeadings = 2.8;  // [rad], samples that reach farther are of all headings
+  const auto& particles = filter.m_particles;
+  const TPose2D& first = particles.front().d;
+  PoseRegion box{first.x, first.x, first.y, first.y, mean.phi, 0};
+  for (const auto& particle : particles)
+  {
+    box.x_min = std::min(box.x_min, particle.d.x);
+    box.x_max = std::max(box.x_max, particle.d.x);
+    box.y_min = std::min(box.y_min, particle.d.y);
+    box.y_max = std::max(box.y_max, particle.d.y);
+    box.heading_tolerance = std::max(box.heading_tolerance,
+                                     std::abs(mrpt::math::wrapToPi(particle.d.phi - box.heading)));
+  }
+  const double beyond = 3.0 / static_cast<double>(particles.size());
+  const double margin_x = kGathered + beyond * (box.x_max - box.x_min);
+  const double margin_y = kGathered + beyond * (box.y_max - box.y_min);
+  box.x_min -= margin_x;
+  box.x_max += margin_x;
+  box.y_min -= margin_y;
+  box.y_max += margin_y;
+  box.heading_tolerance *= 1 + beyond;
+  if (box.heading_tolerance > kAllHeadings) box.heading_tolerance = M_PI + 1e-6;
+  return box;
+}
+}  // namespace
+
+SignatureMonteCarlo2D::SignatureMonteCarlo2D(std::size_t particles, const TrackerOptions& tracking)
+    : CMonteCarloLocalization2D(particles), particles_when_lost_(particles), tracking_(tracking)
+{
+  if (particles == 0) throw std::invalid_argument("SignatureMonteCarlo2D: no particles");
+  checkOptions(tracking);
+  forget();
+}
+
+void SignatureMonteCarlo2D::useMatcher(std::shared_ptr<const SignatureMatcher> matcher)
+{
+  matcher_ = std::move(matcher);
+  own_matcher_ = matcher_ == nullptr;
+}
+
+void SignatureMonteCarlo2D::useExtraction(const FeatureExtractorOptions& extraction)
+{
+  checkOptions(extraction);
+  extraction_ = extraction;
+}
+
+void SignatureMonteCarlo2D::forget(const std::optional<PoseRegion>& region)
+{
+  lost_ = true;
+  looked_ = false;
+  region_ = region;
+  elsewhere_ = 1;
+  score_ = mean_score_ = 0;
+  travel_since_relocation_ = 0;
+  modes_.clear();
+  seen_.reset();
+  belief_ = {};
+  rememberParticles();
+}
+
+void SignatureMonteCarlo2D::prediction_and_update_pfStandardProposal(
+    const CActionCollection* action, const CSensoryFrame* observation,
+    const FilterOptions& filtering)
+{
+  using Base = CMonteCarloLocalization2D;
+  step(action, observation, filtering,
+       [&](const FilterOptions& tempered)
+       { Base::prediction_and_update_pfStandardProposal(action, observation, tempered); });
+}
+
+void SignatureMonteCarlo2D::prediction_and_update_pfAuxiliaryPFStandard(
+    const CActionCollection* action, const CSensoryFrame* observation,
+    const FilterOptions& filtering)
+{
+  using Base = CMonteCarloLocalization2D;
+  step(action, observation, filtering,
+       [&](const FilterOptions& tempered)
+       { Base::prediction_and_update_pfAuxiliaryPFStandard(action, observation, tempered); });
+}
+
+void SignatureMonteCarlo2D::prediction_and_update_pfAuxiliaryPFOptimal(
+    const CActionCollection* action, const CSensoryFrame* observation,
+    const FilterOptions& filtering)
+{
+  using Base = CMonteCarloLocalization2D;
+  step(action, observation, filtering,
+       [&](const FilterOptions& tempered)
+       { Base::prediction_and_update_pfAuxiliaryPFOptimal(action, observation, tempered); });
+}
+
+/// MRPT's step while the robot is not lost; then its result is judged, and repaired where
+/// signatures know better. \cite algorithm section 9
+void SignatureMonteCarlo2D::step(const CActionCollection* action, const CSensoryFrame* observation,
+                                 FilterOptions filtering,
+                                 const std::function<void(const FilterOptions&)>& update)
+{
+  const SignatureMatcher& signatures = matcher();
+  noticeReset();
+  const ObservedScene scene = sceneOf(observation, extraction_);
+  const bool blind = scene.beams.size() < signatures.options().min_beams && scene.features.empty();
+  double travel = predictModes(action);
+  // Evidence is paid out per distance: the errors of map and scan stay the same for a stretch.
+  filtering.powFactor *= std::min(1.0, travel / tracking_.evidence_distance);  // eq. (9.1)
+  if (!lost_) update(filtering);
+  gatherModes();
+  relocated_ = false;
+  if (!blind) travel = travelSeen(travel);
+  travel_since_relocation_ += travel;
+  if (!blind)
+  {
+    weighElsewhere(scene, travel);
+    if (wantsRelocation()) relocate(scene);
+  }
+  publish(blind);
+  rememberParticles();
+}
+
+const SignatureMatcher& SignatureMonteCarlo2D::matcher()
+{
+  if (!own_matcher_) return *matcher_;
+  const auto map = signatureMapIn(options.metricMap);
+  if (!map)
+  {
+    throw std::invalid_argument("SignatureMonteCarlo2D: no SignatureMap in options.metricMap");
+  }
+  const auto features = map->featureMap();
+  if (!matcher_ || &matcher_->map() != features.get())
+  {
+    matcher_ = std::make_shared<const SignatureMatcher>(features);
+  }
+  return *matcher_;
+}
+
+void SignatureMonteCarlo2D::rememberParticles()
+{
+  known_x_.clear();
+  for (const auto& particle : m_particles) known_x_.push_back(particle.d.x);
+  std::sort(known_x_.begin(), known_x_.end());
+}
+
+/// Resampling only copies particles, so one at an unknown place was put there by the caller: MRPT's
+/// ways of doing so cannot be overridden.
+void SignatureMonteCarlo2D::noticeReset()
+{
+  if (m_particles.empty()) return;
+  const std::size_t stride = std::max<std::size_t>(1, m_particles.size() / kCompared);
+  bool known = true;
+  for (std::size_t i = 0; i < m_particles.size(); i += stride)
+  {
+    known = known && std::binary_search(known_x_.begin(), known_x_.end(), m_particles[i].d.x);
+  }
+  if (known) return;
+  const auto [covariance, mean] = getCovarianceAndMean();
+  const PoseRegion box = boxAround(*this, mean.asTPose());
+  forget(box);
+  const bool gathered = std::sqrt(covariance(0, 0) + covariance(1, 1)) < kGathered &&
+                        std::sqrt(covariance(2, 2)) < kGatheredAngle;
+  if (!gathered) return;
+  lost_ = false;
+  elsewhere_ = tracking_.min_elsewhere;
+  region_.reset();
+}
+
+/// Draws the lost share of the particles anew where the relocation says, and keeps the others.
+/// Eq. (8.9)
+void SignatureMonteCarlo2D::drawFrom(const RelocationResult& result)
+{
+  const auto total = static_cast<double>(particles_when_lost_);
+  const auto drawn = static_cast<std::size_t>(total * elsewhere_ * (1 - result.elsewhere));
+  const std::size_t fresh = lost_ ? particles_when_lost_ : drawn;
+  elsewhere_ = std::max(elsewhere_ * result.elsewhere, tracking_.min_elsewhere);
+  if (fresh == 0) return;
+  auto& random = mrpt::random::getRandomGenerator();
+  const auto seeds = toParticles(toBelief(result), fresh, random.drawUniform32bit());
+  const std::size_t kept = particles_when_lost_ - fresh;
+  CParticleList particles;
+  if (kept > 0)
+  {
+    normalizeWeights();
+    double passed = std::exp(m_particles.front().log_w);
+    double sum = 0;
+    for (const auto& particle : m_particles) sum += std::exp(particle.log_w);
+    const double offset = random.drawUniform(0.0, 1.0);
+    std::size_t chosen = 0;
+    for (std::size_t i = 0; i < kept; ++i)
+    {
+      const double position = (static_cast<double>(i) + offset) / static_cast<double>(kept) * sum;
+      while (position > passed && chosen + 1 < m_particles.size())
+      {
+        passed += std::exp(m_particles[++chosen].log_w);
+      }
+      particles.push_back(m_particles[chosen]);
+      particles.back().log_w = 0;
+    }
+  }
+  particles.insert(particles.end(), seeds.m_particles.begin(), seeds.m_particles.end());
+  m_particles = std::move(particles);
+  lost_ = false;
+  region_.reset();
+}
+}  // namespace sigloc

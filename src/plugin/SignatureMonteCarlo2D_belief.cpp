@@ -1,0 +1,261 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What SignatureMonteCarlo2D makes of its particles: how sure they are, and whether they are lost.
+#include <mrpt/math/wrap2pi.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/pose_fusion.h"
+#include "io/motion_conversion.h"
+#include "matching/candidate_probabilities.h"
+#include "matching/dense/DenseVerifier.h"
+#include "plugin/particle_modes.h"
+#include "sigloc/plugin/SignatureMonteCarlo2D.h"
+#include "tracking/tracks/travel.h"
+
+namespace sigloc
+{
+using mrpt::math::TPose2D;
+using mrpt::math::wrapToPi;
+
+namespace
+{
+constexpr std::size_t kScoreBeams = 180;  // the heaviest mode is judged by
+constexpr double kMaxOpenSigma = 0.5;  // [m], a wider pose is a line of poses
+constexpr double kNotHere = 0.98;
+constexpr double kMaxLost = 3.0;  // log-odds
+constexpr double kMaxConfirmed = 6.0;  // log-odds
+constexpr double kMaxAgainst = 2.0;  // log-odds a metre
+constexpr double kSure = 0.9;  // a relocation that overrules the particles
+constexpr double kFarBetter = 4.0;  // log-likelihood
+constexpr double kHeldWeight = 0.01;  // share of the particles that hold a candidate
+constexpr double kLeastProbability = 0.001;  // of a candidate that the relocation left out
+constexpr double kSameDistance = 0.75;  // [m], a mode from one step to the next
+constexpr double kSameAngle = 20.0 * M_PI / 180.0;
+constexpr double kLeastTurnSigma = 0.002;  // [rad]
+constexpr double kScoreMemory = 0.9;  // of the running mean of the score, per step
+constexpr double kMoved = 0.15;  // [m], more than the jitter of a standing robot's particles
+
+bool same(const TPose2D& a, const TPose2D& b)
+{
+  return std::hypot(a.x - b.x, a.y - b.y) <= kSameDistance &&
+         std::abs(wrapToPi(a.phi - b.phi)) <= kSameAngle;
+}
+
+/// What one relocation says of a pose it gives probability p. Eq. (9.3)
+double confirmationOf(double p)
+{
+  const double bounded = std::clamp(p, 1e-6, 1.0 - 1e-6);
+  return std::clamp(std::log(bounded / (1.0 - bounded)), -kMaxAgainst, kMaxConfirmed);
+}
+
+double probabilityAt(const RelocationResult& result, const TPose2D& pose)
+{
+  double probability = 0;
+  for (const Candidate& candidate : result.candidates)
+  {
+    if (same(candidate.pose.mean, pose)) probability += candidate.probability;
+  }
+  return probability;
+}
+}  // namespace
+
+/// Moves the modes as the robot moved; returns the travel. Eq. (8.2)
+double SignatureMonteCarlo2D::predictModes(const mrpt::obs::CActionCollection* action)
+{
+  std::optional<mrpt::poses::CPosePDFGaussian> known;
+  if (action != nullptr) known = detail::motionOf(*action).motion;
+  motion_known_ =
+      known && std::sqrt(known->cov(0, 0) + known->cov(1, 1)) < tracking_.free_motion_sigma;
+  if (!known) return tracking_.lost_distance;
+  const MotionIncrement motion = detail::toMotionIncrement(*known);
+  for (Mode& mode : modes_)
+  {
+    mode.hypothesis.pose.mean = mode.hypothesis.pose.mean + motion.mean;
+    ++mode.hypothesis.age;
+  }
+  return travelOf(motion.mean, tracking_);
+}
+
+/// Finds the places where the particles are now; each stays itself from step to step.
+void SignatureMonteCarlo2D::gatherModes()
+{
+  std::vector<Mode> before = std::move(modes_);
+  modes_.clear();
+  if (lost_) return;
+  for (const ParticleMode& found : modesOf(*this, tracking_.max_hypotheses))
+  {
+    const auto known = std::find_if(before.begin(), before.end(),
+                                    [&](const Mode& mode)
+                                    { return same(mode.hypothesis.pose.mean, found.pose.mean); });
+    Mode mode;
+    if (known != before.end())
+    {
+      mode = *known;
+      before.erase(known);
+    }
+    else
+    {
+      mode.hypothesis.id = next_id_++;
+    }
+    mode.hypothesis.pose = found.pose;
+    mode.hypothesis.weight = found.weight;
+    modes_.push_back(mode);
+  }
+}
+
+/// Without odometry only the particles tell whether the robot moves: one that stands still learns
+/// nothing from another look.
+double SignatureMonteCarlo2D::travelSeen(double assumed)
+{
+  if (motion_known_ || modes_.empty() || score_ < tracking_.lost_score) return assumed;
+  const TPose2D now = modes_.front().hypothesis.pose.mean;
+  const TPose2D before = seen_.value_or(now);
+  const double moved = travelBetween(before, now, tracking_);
+  if (seen_ && moved < kMoved) return 0;
+  seen_ = now;
+  return moved;
+}
+
+/// "Somewhere else" gains where the heaviest mode does not explain what is seen. Eq. (8.6)
+void SignatureMonteCarlo2D::weighElsewhere(const ObservedScene& scene, double travel)
+{
+  const DenseVerifier* const verifier = matcher_->verifier();
+  if (modes_.empty() || verifier == nullptr || scene.beams.empty()) return;
+  const TrackedHypothesis& first = modes_.front().hypothesis;
+  const DenseEvidence evidence =
+      verifier->evaluate(makeDenseScan(scene, kScoreBeams), first.pose.mean);
+  score_ = evidence.score;
+  reliability_ = reliabilityOf(evidence);
+  const bool fresh = first.age < 2;
+  mean_score_ = fresh ? score_ : kScoreMemory * mean_score_ + (1 - kScoreMemory) * score_;
+  const double share = std::min(1.0, travel / tracking_.lost_distance);
+  const double for_lost = logLikelihoodOfScore(tracking_.lost_score) - logLikelihoodOfScore(score_);
+  addLostLogOdds(share * std::clamp(for_lost, -kMaxLost, kMaxLost));
+}
+
+void SignatureMonteCarlo2D::addLostLogOdds(double log_odds)
+{
+  const double odds = elsewhere_ / std::max(1e-9, 1 - elsewhere_) * std::exp(log_odds);
+  elsewhere_ = std::clamp(odds / (1 + odds), tracking_.min_elsewhere, 1 - tracking_.min_elsewhere);
+}
+
+/// At the start, after a sudden fall of the score, at a steady rate while the place is not settled,
+/// and at a low one to confirm it.
+bool SignatureMonteCarlo2D::wantsRelocation() const
+{
+  if (lost_ && !looked_) return true;
+  if (!lost_ && score_ < mean_score_ - tracking_.score_drop) return true;
+  return travel_since_relocation_ >= (belief_.verdict == Verdict::localized
+                                          ? tracking_.confirmation_distance
+                                          : tracking_.relocation_distance);
+}
+
+/// A relocation knows nothing of the particles, and that is what makes it evidence.
+void SignatureMonteCarlo2D::relocate(const ObservedScene& scene)
+{
+  const double fresh_share =
+      lost_ ? 1.0 : std::min(1.0, travel_since_relocation_ / tracking_.evidence_distance);
+  const RelocationResult result = matcher_->localize(scene, lost_ ? region_ : std::nullopt);
+  relocated_ = looked_ = true;
+  travel_since_relocation_ = 0;
+  if (result.verdict == Verdict::too_little_seen) return;
+  const bool contradicts = !lost_;
+  if (!lost_) weighAgainst(result, fresh_share);
+  if (result.candidates.empty() || (lost_ && result.verdict == Verdict::not_here)) return;
+  const std::uint64_t first_new = next_id_;
+  drawFrom(result);
+  gatherModes();
+  for (Mode& mode : modes_)
+  {
+    // A place that contradicts what was held must be found again.
+    if (mode.hypothesis.id < first_new || contradicts) continue;
+    mode.confirmed = confirmationOf(probabilityAt(result, mode.hypothesis.pose.mean));
+  }
+  weighElsewhere(scene, 0);
+}
+
+/// How far the best candidate that no particles hold is ahead of what they do hold, as log-odds.
+/// \cite algorithm eq. (9.2)
+double SignatureMonteCarlo2D::leadOfRivals(const RelocationResult& result) const
+{
+  const bool dense = matcher_->verifier() != nullptr;
+  double held = dense ? score_ : kLeastProbability;
+  double rival = dense ? tracking_.lost_score : kLeastProbability;
+  for (const Candidate& candidate : result.candidates)
+  {
+    double& best = weightNear(*this, candidate.pose.mean) >= kHeldWeight ? held : rival;
+    best = std::max(best, dense ? candidate.score : candidate.probability);
+  }
+  return dense ? logLikelihoodOfScore(rival) - logLikelihoodOfScore(held) : std::log(rival / held);
+}
+
+/// Confirms the modes, eq. (9.3), and weighs what they hold against what they miss, eq. (9.2).
+void SignatureMonteCarlo2D::weighAgainst(const RelocationResult& result, double fresh_share)
+{
+  const double lead = leadOfRivals(result);
+  const bool far_better = lead > kFarBetter;
+  for (Mode& mode : modes_)
+  {
+    double evidence = confirmationOf(probabilityAt(result, mode.hypothesis.pose.mean));
+    // Look-alikes that have long been ruled out don't count against a confirmed place.
+    if (mode.confirmed >= tracking_.confirmation && !far_better) evidence = std::max(evidence, 0.0);
+    mode.confirmed = std::min(kMaxConfirmed, mode.confirmed + fresh_share * evidence);
+  }
+  const bool held = !modes_.empty() && modes_.front().confirmed >= tracking_.confirmation;
+  const double for_lost = std::clamp(lead, -kMaxLost, held && !far_better ? 0.0 : kMaxLost);
+  addLostLogOdds(fresh_share * for_lost);
+  const bool overruled = !result.candidates.empty() &&
+                         result.candidates.front().probability >= kSure &&
+                         weightNear(*this, result.candidates.front().pose.mean) < kHeldWeight;
+  if (overruled) elsewhere_ = std::max(elsewhere_, tracking_.suspicion);
+}
+
+void SignatureMonteCarlo2D::publish(bool blind)
+{
+  belief_ = {};
+  belief_.elsewhere = lost_ ? 1.0 : elsewhere_;
+  const double here = 1 - belief_.elsewhere;
+  for (const Mode& mode : modes_)
+  {
+    TrackedHypothesis hypothesis = mode.hypothesis;
+    hypothesis.weight *= here;
+    // The particles don't know of the error that moves a whole neighbourhood of the map.
+    hypothesis.pose = withCommonError(hypothesis.pose, matcher_->map().error());
+    hypothesis.pose.covariance(2, 2) += kLeastTurnSigma * kLeastTurnSigma;
+    belief_.hypotheses.push_back(hypothesis);
+  }
+  if (modes_.empty())
+  {
+    belief_.verdict = blind ? Verdict::too_little_seen : Verdict::not_here;
+    belief_.probability = belief_.elsewhere;
+    belief_.reason = blind ? "fewer returns than needed" : "nothing in the map explains the scan";
+    return;
+  }
+  const TrackedHypothesis& first = belief_.hypotheses.front();
+  belief_.reliability = reliability_;
+  const bool open = largestPositionSigma(first.pose) >= kMaxOpenSigma;
+  const bool confirmed = modes_.front().confirmed >= tracking_.confirmation;
+  if (first.weight >= tracking_.localized_probability && confirmed && !open)
+  {
+    belief_.verdict = Verdict::localized;
+    belief_.probability = first.weight;
+    belief_.reason = "the particles have gathered";
+  }
+  else if (belief_.elsewhere >= kNotHere)
+  {
+    belief_.verdict = Verdict::not_here;
+    belief_.probability = belief_.elsewhere;
+    belief_.reason = "no particle explains the scan";
+  }
+  else
+  {
+    belief_.verdict = Verdict::ambiguous;
+    belief_.probability = 1 - first.weight;
+    belief_.reason =
+        confirmed ? "the particles are spread" : "relocation has not confirmed the particles yet";
+  }
+}
+}  // namespace sigloc

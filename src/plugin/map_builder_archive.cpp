@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plugin/map_builder_archive.h"
+
+#include <array>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "io/maps/feature_archive.h"
+#include "io/options_archive.h"
+
+namespace sigloc::detail
+{
+using mrpt::serialization::CArchive;
+
+namespace
+{
+constexpr std::uint8_t kVersion = 1;
+constexpr std::uint8_t kVersionWithoutSums = 0;  // of where the hits were: in the middle of cells
+
+void write(const FeatureMerger::MergedSegment& segment, CArchive& out)
+{
+  out << segment.weight << segment.weighted_sum.x << segment.weighted_sum.y << segment.xx
+      << segment.xy << segment.yy << segment.sightings;
+  writeFeature(segment.line, out);
+}
+
+void read(CArchive& in, FeatureMerger::MergedSegment& segment)
+{
+  in >> segment.weight >> segment.weighted_sum.x >> segment.weighted_sum.y >> segment.xx >>
+      segment.xy >> segment.yy >> segment.sightings;
+  segment.line = readFeature(in);
+}
+
+void write(const FeatureMerger::MergedPlace& place, CArchive& out)
+{
+  out << place.cosine_sum << place.sine_sum << place.count;
+  writeFeature(place.feature, out);
+}
+
+void read(CArchive& in, FeatureMerger::MergedPlace& place)
+{
+  in >> place.cosine_sum >> place.sine_sum >> place.count;
+  place.feature = readFeature(in);
+}
+
+template <class Item>
+void writeAll(const std::vector<Item>& items, CArchive& out)
+{
+  out << static_cast<std::uint32_t>(items.size());
+  for (const Item& item : items) write(item, out);
+}
+
+template <class Item>
+std::vector<Item> readAll(CArchive& in)
+{
+  std::uint32_t count = 0;
+  in >> count;
+  std::vector<Item> items;
+  // Not resized at once: a damaged count must not take memory that no data backs.
+  for (std::uint32_t i = 0; i < count; ++i)
+  {
+    items.emplace_back();
+    read(in, items.back());
+  }
+  return items;
+}
+
+// The counts of a tile as three planes: hits, passes, looks; then the sums of where hits were.
+constexpr std::size_t kCells = std::tuple_size_v<decltype(BeamCounts::Tile::counts)>;
+using Planes = std::array<std::uint16_t, 3 * kCells>;
+using Sums = std::array<std::int32_t, 2 * kCells>;
+
+void writeTile(const CellIndex& name, const BeamCounts::Tile& tile, CArchive& out)
+{
+  Planes planes{};
+  Sums sums{};
+  for (std::size_t i = 0; i < kCells; ++i)
+  {
+    planes[i] = tile.counts[i].hits;
+    planes[kCells + i] = tile.counts[i].passes;
+    planes[2 * kCells + i] = tile.counts[i].looks;
+    sums[i] = tile.counts[i].sum_x;
+    sums[kCells + i] = tile.counts[i].sum_y;
+  }
+  out << name.x << name.y;
+  out.WriteBufferFixEndianness(planes.data(), planes.size());
+  out.WriteBufferFixEndianness(sums.data(), sums.size());
+}
+
+BeamCounts::Tile readTile(CArchive& in, bool with_sums)
+{
+  Planes planes{};
+  Sums sums{};
+  in.ReadBufferFixEndianness(planes.data(), planes.size());
+  if (with_sums) in.ReadBufferFixEndianness(sums.data(), sums.size());
+  BeamCounts::Tile tile;
+  for (std::size_t i = 0; i < kCells; ++i)
+  {
+    tile.counts[i].hits = planes[i];
+    tile.counts[i].passes = planes[kCells + i];
+    tile.counts[i].looks = planes[2 * kCells + i];
+    tile.counts[i].sum_x = sums[i];
+    tile.counts[i].sum_y = sums[kCells + i];
+  }
+  return tile;
+}
+
+void writeCounts(const BeamCounts& counts, CArchive& out)
+{
+  const BeamCounts::Extent& extent = counts.extent();
+  out << extent.low.x << extent.low.y << extent.high.x << extent.high.y;
+  const std::vector<CellIndex> names = counts.tileNames();
+  out << static_cast<std::uint32_t>(names.size());
+  for (const CellIndex& name : names) writeTile(name, counts.tile(name), out);
+}
+
+void readCounts(CArchive& in, BeamCounts& counts, bool with_sums)
+{
+  BeamCounts::Extent extent;
+  in >> extent.low.x >> extent.low.y >> extent.high.x >> extent.high.y;
+  std::uint32_t tiles = 0;
+  in >> tiles;
+  for (std::uint32_t i = 0; i < tiles; ++i)
+  {
+    CellIndex name;
+    in >> name.x >> name.y;
+    counts.restore(extent, name, readTile(in, with_sums));
+  }
+}
+}  // namespace
+
+void writeMapBuilder(const MapBuilder& builder, CArchive& out)
+{
+  out << kVersion;
+  writeOptions(builder.options(), out);
+  writeAll(builder.merger().segments(), out);
+  writeAll(builder.merger().places(), out);
+  writeCounts(builder.counts(), out);
+}
+
+MapBuilder readMapBuilder(CArchive& in, std::shared_ptr<const FeatureMap> base)
+{
+  std::uint8_t version = 0;
+  in >> version;
+  if (version > kVersion) throw std::runtime_error("map builder of a later version");
+  const auto options = readOptions<MapBuildingOptions>(in);
+  MapBuilder builder(options, std::move(base));
+  auto segments = readAll<FeatureMerger::MergedSegment>(in);
+  auto places = readAll<FeatureMerger::MergedPlace>(in);
+  BeamCounts counts = builder.counts();
+  readCounts(in, counts, version != kVersionWithoutSums);
+  builder.restore(FeatureMerger(options, std::move(segments), std::move(places)),
+                  std::move(counts));
+  return builder;
+}
+}  // namespace sigloc::detail

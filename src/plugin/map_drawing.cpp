@@ -1,0 +1,317 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sigloc/plugin/map_drawing.h"
+
+#include <mrpt/opengl/CTexturedPlane.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Eigenvalues>
+
+#include "plugin/TriangleBatch.h"
+
+namespace sigloc
+{
+namespace
+{
+using detail::TriangleBatch;
+using mrpt::img::TColor;
+using mrpt::math::TPoint2D;
+using mrpt::math::TPose2D;
+
+// From below to above; the distances only order the layers, seen from straight above.
+constexpr double kMapHeight = 0.1;
+constexpr double kPathHeight = 0.2;
+constexpr double kScanHeight = 0.3;
+constexpr double kBeliefHeight = 0.4;
+constexpr double kPoseHeight = 0.5;
+constexpr double kTruthHeight = 0.6;
+
+constexpr std::uint32_t kMaxTextureSide = 2048;
+
+const TColor kSegmentColor(31, 78, 160);
+const TColor kCircleColor(110, 120, 0);
+const TColor kCornerColor(0, 140, 130);
+const TColor kWallEndColor(150, 90, 20);
+const TColor kPointColor(20, 20, 20);
+const TColor kReturnColor(225, 30, 30);
+const TColor kObservedColor(255, 140, 0);
+const TColor kPoseColor(0, 150, 60);
+const TColor kPathColor(60, 190, 110);
+const TColor kTruthColor(0, 0, 0);
+const TColor kProposedColor(150, 90, 220);
+
+TPoint2D unitVector(double angle)
+{
+  return {std::cos(angle), std::sin(angle)};
+}
+
+std::uint8_t greyOf(CellState state)
+{
+  switch (state)
+  {
+    case CellState::free:
+      return 255;
+    case CellState::wall:
+    case CellState::solid_wall:
+      return 120;
+    case CellState::unknown:
+      break;
+  }
+  return 222;
+}
+
+/// The raster as a picture; blocks of cells shrink to one pixel where the raster is large, and a
+/// block with a wall in it stays a wall so that thin walls survive.
+mrpt::opengl::CTexturedPlane::Ptr drawRaster(const DenseField& field)
+{
+  const RasterFrame& frame = field.frame;
+  const std::uint32_t block =
+      std::max(1U, (std::max(frame.width, frame.height) + kMaxTextureSide - 1) / kMaxTextureSide);
+  const std::uint32_t width = (frame.width + block - 1) / block;
+  const std::uint32_t height = (frame.height + block - 1) / block;
+  mrpt::img::CImage image(width, height, mrpt::img::CH_RGB);
+  for (std::uint32_t v = 0; v < height; ++v)
+  {
+    for (std::uint32_t u = 0; u < width; ++u)
+    {
+      CellState state = CellState::unknown;
+      for (std::uint32_t iy = v * block; iy < std::min(frame.height, (v + 1) * block); ++iy)
+      {
+        for (std::uint32_t ix = u * block; ix < std::min(frame.width, (u + 1) * block); ++ix)
+        {
+          const CellState cell = field.cells[std::size_t{iy} * frame.width + ix].state;
+          state = std::max(state, cell);
+        }
+      }
+      // CTexturedPlane takes its texture's first row to be the lowest y.
+      auto* pixel = image.ptr<std::uint8_t>(u, v);
+      std::fill(pixel, pixel + 3, greyOf(state));
+    }
+  }
+  auto plane = mrpt::opengl::CTexturedPlane::Create();
+  plane->setPlaneCorners(static_cast<float>(frame.origin.x),
+                         static_cast<float>(frame.origin.x + frame.resolution * width * block),
+                         static_cast<float>(frame.origin.y),
+                         static_cast<float>(frame.origin.y + frame.resolution * height * block));
+  plane->assignImage(std::move(image));
+  plane->CRenderizableShaderTexturedTriangles::enableLight(false);
+  plane->CRenderizableShaderTriangles::enableLight(false);
+  return plane;
+}
+
+void addCorner(TriangleBatch& batch, const Feature& corner, double leg, double width,
+               const TColor& color)
+{
+  for (const double side : {-0.5, 0.5})
+  {
+    const TPoint2D arm = unitVector(corner.direction + side * corner.size) * leg;
+    batch.addLine(corner.position, corner.position + arm, width, color);
+  }
+}
+
+/// Adds a feature given in the frame of the picture.
+void addFeature(TriangleBatch& batch, const Feature& feature, double width, bool small_features,
+                const std::optional<TColor>& one_color)
+{
+  switch (feature.type)
+  {
+    case FeatureType::segment:
+      batch.addLine(segmentStart(feature), segmentEnd(feature), width,
+                    one_color.value_or(kSegmentColor));
+      break;
+    case FeatureType::circle:
+      batch.addRing(feature.position, std::max(feature.size, 0.7 * width), 0.7 * width,
+                    one_color.value_or(kCircleColor));
+      break;
+    case FeatureType::corner:
+      if (small_features)
+        addCorner(batch, feature, 4 * width, width, one_color.value_or(kCornerColor));
+      break;
+    case FeatureType::wall_end:
+      if (small_features)
+        batch.addDisc(feature.position, 1.2 * width, one_color.value_or(kWallEndColor));
+      break;
+    case FeatureType::point:
+      if (small_features) batch.addDisc(feature.position, width, one_color.value_or(kPointColor));
+      break;
+  }
+}
+
+/// Light blue for a weight of zero, magenta for one.
+TColor weightColor(double weight)
+{
+  const double w = std::sqrt(std::clamp(weight, 0.0, 1.0));  // small weights stay tellable
+  const auto mix = [w](double from, double to)
+  { return static_cast<std::uint8_t>(std::lround(from + w * (to - from))); };
+  return {mix(120, 225), mix(200, 0), mix(255, 150)};
+}
+
+/// Outline of the 3-sigma ellipse of the position, no semi-axis below `min_axis` [m].
+std::vector<TPoint2D> ellipseOf(const GaussianPose& pose, double min_axis)
+{
+  Eigen::Matrix2d covariance;
+  covariance << pose.covariance(0, 0), pose.covariance(0, 1), pose.covariance(0, 1),
+      pose.covariance(1, 1);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(covariance);
+  const auto axis = [&](int i)
+  { return std::max(min_axis, 3 * std::sqrt(std::max(0.0, eigen.eigenvalues()[i]))); };
+  const Eigen::Vector2d a = eigen.eigenvectors().col(0) * axis(0);
+  const Eigen::Vector2d b = eigen.eigenvectors().col(1) * axis(1);
+  std::vector<TPoint2D> outline;
+  constexpr int kPoints = 48;
+  for (int i = 0; i < kPoints; ++i)
+  {
+    const double t = 2 * M_PI * i / kPoints;
+    const Eigen::Vector2d p = a * std::cos(t) + b * std::sin(t);
+    outline.emplace_back(pose.mean.x + p.x(), pose.mean.y + p.y());
+  }
+  return outline;
+}
+
+mrpt::opengl::CSetOfTriangles::Ptr drawBelief(const Belief& belief, const StepDrawing& step)
+{
+  TriangleBatch batch(kBeliefHeight);
+  // Heaviest last, so that it lies on top.
+  for (auto it = belief.hypotheses.rbegin(); it != belief.hypotheses.rend(); ++it)
+  {
+    const TPose2D& mean = it->pose.mean;
+    const TColor color = weightColor(it->weight);
+    batch.addPolyline(ellipseOf(it->pose, step.min_mark_size), 1.5 * step.line_width, true, color);
+    const TPoint2D centre(mean.x, mean.y);
+    batch.addLine(centre, centre + unitVector(mean.phi) * (2 * step.min_mark_size),
+                  1.5 * step.line_width, color);
+  }
+  return batch.object();
+}
+
+mrpt::opengl::CSetOfTriangles::Ptr drawScan(const ObservedScene& observed,
+                                            const TPose2D& map_from_robot, double width)
+{
+  TriangleBatch batch(kScanHeight);
+  for (const Feature& feature : observed.features)
+  {
+    addFeature(batch, transformed(map_from_robot, feature), 1.4 * width, false, kObservedColor);
+  }
+  for (const BeamEnd& beam : observed.beams)
+  {
+    batch.addSquare(map_from_robot.composePoint(beam.point), 1.2 * width, kReturnColor);
+  }
+  return batch.object();
+}
+
+mrpt::opengl::CSetOfTriangles::Ptr drawRobot(const TPose2D& pose, double size)
+{
+  TriangleBatch batch(kPoseHeight);
+  const TPoint2D centre(pose.x, pose.y);
+  const auto corner = [&](double angle, double radius)
+  { return centre + unitVector(pose.phi + angle) * radius; };
+  const TPoint2D tip = corner(0, 1.6 * size);
+  const TPoint2D notch = corner(M_PI, 0.4 * size);
+  batch.addTriangle(tip, corner(2.5, size), notch, kPoseColor);
+  batch.addTriangle(tip, notch, corner(-2.5, size), kPoseColor);
+  return batch.object();
+}
+
+mrpt::opengl::CSetOfTriangles::Ptr drawTruth(const TPose2D& truth, double size, double width)
+{
+  TriangleBatch batch(kTruthHeight);
+  const TPoint2D centre(truth.x, truth.y);
+  batch.addRing(centre, 2 * size, 1.2 * width, kTruthColor);
+  batch.addLine(centre + unitVector(truth.phi) * (2 * size),
+                centre + unitVector(truth.phi) * (3.2 * size), 1.2 * width, kTruthColor);
+  return batch.object();
+}
+
+mrpt::opengl::CSetOfTriangles::Ptr drawPath(const std::vector<TPose2D>& path, double width)
+{
+  TriangleBatch batch(kPathHeight);
+  // The estimate jumps while the robot is lost; a line across the map would claim a path.
+  constexpr double kMaxLeg = 2.0;  // [m]
+  for (std::size_t i = 1; i < path.size(); ++i)
+  {
+    const TPoint2D a(path[i - 1].x, path[i - 1].y);
+    const TPoint2D b(path[i].x, path[i].y);
+    if (std::hypot(b.x - a.x, b.y - a.y) <= kMaxLeg) batch.addLine(a, b, width, kPathColor);
+  }
+  return batch.object();
+}
+mrpt::opengl::CSetOfTriangles::Ptr drawProposed(const std::vector<TPose2D>& poses, double width)
+{
+  TriangleBatch batch(kPathHeight);
+  for (const TPose2D& pose : poses)
+  {
+    batch.addSquare({pose.x, pose.y}, 1.2 * width, kProposedColor);
+  }
+  return batch.object();
+}
+}  // namespace
+
+mrpt::opengl::CSetOfObjects::Ptr drawMap(const FeatureMap& map, const MapDrawing& drawing)
+{
+  auto objects = mrpt::opengl::CSetOfObjects::Create();
+  if (drawing.raster && map.field()) objects->insert(drawRaster(*map.field()));
+  TriangleBatch batch(kMapHeight);
+  for (const Feature& feature : map.features())
+  {
+    addFeature(batch, feature, drawing.line_width, drawing.small_features, std::nullopt);
+  }
+  objects->insert(batch.object());
+  return objects;
+}
+
+mrpt::opengl::CSetOfObjects::Ptr drawStep(const StepDrawing& step)
+{
+  auto objects = mrpt::opengl::CSetOfObjects::Create();
+  objects->insert(drawProposed(step.proposed, step.line_width));
+  objects->insert(drawPath(step.path, step.line_width));
+  std::optional<TPose2D> observed_at = step.observed_at;
+  if (step.belief != nullptr && !step.belief->hypotheses.empty())
+  {
+    const TPose2D& first = step.belief->hypotheses.front().pose.mean;
+    if (!observed_at) observed_at = first;
+    objects->insert(drawBelief(*step.belief, step));
+    objects->insert(drawRobot(first, step.min_mark_size));
+  }
+  if (step.observed != nullptr && observed_at)
+  {
+    objects->insert(drawScan(*step.observed, *observed_at, step.line_width));
+  }
+  if (step.truth) objects->insert(drawTruth(*step.truth, step.min_mark_size, step.line_width));
+  return objects;
+}
+
+PlanarBox boundsOf(const FeatureMap& map)
+{
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  PlanarBox box{kInfinity, -kInfinity, kInfinity, -kInfinity};
+  const auto include = [&box](double x, double y)
+  {
+    box = {std::min(box.x_min, x), std::max(box.x_max, x), std::min(box.y_min, y),
+           std::max(box.y_max, y)};
+  };
+  for (const Feature& feature : map.features())
+  {
+    include(feature.position.x, feature.position.y);
+    if (feature.type != FeatureType::segment) continue;
+    for (const TPoint2D& end : {segmentStart(feature), segmentEnd(feature)}) include(end.x, end.y);
+  }
+  if (map.field())
+  {
+    const RasterFrame& frame = map.field()->frame;
+    for (std::uint32_t iy = 0; iy < frame.height; ++iy)
+    {
+      for (std::uint32_t ix = 0; ix < frame.width; ++ix)
+      {
+        if (map.field()->cells[std::size_t{iy} * frame.width + ix].state == CellState::unknown)
+          continue;
+        include(frame.origin.x + frame.resolution * (ix + 0.5),
+                frame.origin.y + frame.resolution * (iy + 0.5));
+      }
+    }
+  }
+  return box.x_min <= box.x_max ? box : PlanarBox{0, 1, 0, 1};
+}
+}  // namespace sigloc

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tracking/evidence/CellEvidence.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace sigloc
+{
+namespace
+{
+constexpr float kFullView = 3;  // returns that show what a cell holds
+constexpr double kMemory = 10.0;  // [m] of travel
+}  // namespace
+
+double ExplainedStructure::Cell::seen() const
+{
+  return static_cast<double>(std::min(1.0F, returns / kFullView));
+}
+
+double ExplainedStructure::Cell::unexplained() const
+{
+  return returns > 0 ? seen() * (1.0 - static_cast<double>(explained / returns)) : 0.0;
+}
+
+double ExplainedStructure::look(const GroundView& view, const std::vector<float>& explained,
+                                double travelled)
+{
+  forget(travelled);
+  std::vector<Cell> looks(view.cells.size());
+  for (std::size_t i = 0; i < explained.size(); ++i)
+  {
+    if (view.cell_of[i] == GroundView::kNowhere) continue;
+    Cell& look = looks[view.cell_of[i]];
+    look.explained += explained[i];
+    look.returns += 1;
+  }
+  const double unexplained_before = unexplained_;
+  for (std::size_t k = 0; k < looks.size(); ++k)
+  {
+    Cell& cell = cells_[view.cells[k]];
+    if (travelled - cell.last_seen > kMemory) cell = {};
+    const Cell before = cell;
+    cell.explained += looks[k].explained;
+    cell.returns += looks[k].returns;
+    cell.last_seen = travelled;
+    unexplained_ += cell.unexplained() - before.unexplained();
+    seen_ += cell.seen() - before.seen();
+  }
+  return unexplained_ - unexplained_before;
+}
+
+/// Now and then; a cell that is seen again is forgotten in time anyway.
+void ExplainedStructure::forget(double travelled)
+{
+  if (travelled - tidied_ <= kMemory) return;
+  tidied_ = travelled;
+  for (auto cell = cells_.begin(); cell != cells_.end();)
+  {
+    cell = travelled - cell->second.last_seen > kMemory ? cells_.erase(cell) : std::next(cell);
+  }
+}
+}  // namespace sigloc

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mrpt/math/TPose2D.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "matching/dense/DenseVerifier.h"
+
+namespace sigloc
+{
+/// Where a scan's returns end, as cells of 0.5 m of the frame that the robot's pose is given in.
+struct GroundView
+{
+  static constexpr std::uint32_t kNowhere = 0xFFFFFFFF;
+
+  std::vector<std::uint64_t> cells;  ///< every cell once, ascending
+  std::vector<std::uint32_t> cell_of;  ///< a return's, index into cells; kNowhere if isolated
+};
+
+/// Cells from which on a view is whole: 7 m of walls. Fewer are a part of one. \cite algorithm
+/// eq. (8.7), (8.29)
+constexpr std::size_t kCellsOfView = 14;
+
+GroundView viewOf(const DenseScan& scan, const mrpt::math::TPose2D& frame_from_robot);
+}  // namespace sigloc

@@ -1,0 +1,224 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tracking/landmarks/LandmarkTracker.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "features/LocalMap.h"
+#include "tracking/landmarks/FeatureAssociation.h"
+#include "tracking/tracks/travel.h"
+
+namespace sigloc
+{
+namespace
+{
+constexpr double kDoubt = -3.0;  // log of Wald's lower bound, as in (5.7)
+constexpr double kContradicted = -1.0;  // nothing is claimed
+constexpr double kMemory = 10.0;  // [m] of travel after which a feature is seen afresh
+constexpr double kSharedErrors = 4.0;  // on the covariance of a candidate: see startAt
+constexpr std::size_t kRecentSteps = 20;
+constexpr double kStepTravel = 0.1;  // [m] between two steps that are gathered
+constexpr std::size_t kTelling = 4;  // features
+
+/// The features of the kinds that are mapped; those made of others keep their parents.
+std::vector<Feature> ofTypes(const std::vector<Feature>& features, const std::vector<bool>& types)
+{
+  std::vector<Feature> kept;
+  std::vector<std::int32_t> new_index(features.size(), -1);
+  for (std::size_t k = 0; k < features.size(); ++k)
+  {
+    if (!types[typeIndex(features[k].type)]) continue;
+    new_index[k] = static_cast<std::int32_t>(kept.size());
+    kept.push_back(features[k]);
+  }
+  for (Feature& feature : kept)
+  {
+    if (feature.parent >= 0) feature.parent = new_index[static_cast<std::size_t>(feature.parent)];
+  }
+  return kept;
+}
+
+double bestScore(const std::vector<Track>& tracks)
+{
+  return std::max_element(tracks.begin(), tracks.end(),
+                          [](const Track& a, const Track& b) { return a.score < b.score; })
+      ->score;
+}
+}  // namespace
+
+FeatureFollowing::FeatureFollowing(std::shared_ptr<const SignatureMatcher> matcher,
+                                   const TrackerOptions& options)
+    : matcher_(std::move(matcher)), options_(options), mapped_types_(kFeatureTypes, false)
+{
+  for (const Feature& feature : matcher_->map().features())
+  {
+    mapped_types_[typeIndex(feature.type)] = true;
+    if (isSegment(feature.type)) gathers_ = false;
+  }
+}
+
+bool FeatureFollowing::look(TrackSet& set, const std::optional<MotionIncrement>& motion,
+                            const ObservedScene& scene)
+{
+  seen_ = ofTypes(scene.features, mapped_types_);
+  const MotionIncrement moved = motion.value_or(MotionIncrement{});
+  for (Track& track : set.tracks)
+  {
+    track.features.correlation.predict(track.hypothesis.pose.mean, moved.mean);
+  }
+  if (!motion) recent_.clear();  // nothing tells how the steps lie to each other
+  const GaussianPose since =
+      composeWithMotion({since_recent_.mean, since_recent_.covariance}, moved);
+  since_recent_ = {since.mean, since.covariance};
+  return !seen_.empty();
+}
+
+void FeatureFollowing::remember()
+{
+  if (!recent_.empty() && travelOf(since_recent_.mean, options_) < kStepTravel) return;
+  recent_.push_back({since_recent_, seen_});
+  since_recent_ = {};
+  if (recent_.size() > kRecentSteps) recent_.pop_front();
+}
+
+void FeatureFollowing::update(TrackSet& set, double travelled, std::uint64_t& next_id)
+{
+  const FeatureAssociator associator(*matcher_->featureVerifier(), seen_, travelled);
+  std::vector<Track> updated;
+  updated.reserve(set.tracks.size());
+  for (const Track& track : set.tracks)
+  {
+    const auto ways = associator.associate(track.hypothesis.pose, track.features.correlation);
+    for (const FeatureAssociation& way : ways)
+    {
+      Track child = track;
+      child.hypothesis.pose = toGaussian(way.pose);
+      child.hypothesis.weight *= way.share;
+      if (&way != &ways.front()) child.hypothesis.id = next_id++;
+      // Their shares have told the ways apart already.
+      child.score = ways.front().log_odds;
+      child.features.correlation = way.correlation;
+      child.features.correlation.forgetBefore(travelled - kMemory);
+      child.features.fresh_share = way.fresh_share;
+      child.features.paired = way.pairings.size();
+      child.features.doubt = std::min(0.0, track.features.doubt + way.log_odds);
+      updated.push_back(std::move(child));
+    }
+  }
+  set.tracks = std::move(updated);
+  const bool doubted = !set.tracks.empty() && doubts(set.heaviest());
+  // Carried elsewhere, perhaps: what was seen before does not lie to what is seen now as it seems.
+  if (doubted && !doubted_) recent_.clear();
+  doubted_ = doubted;
+}
+
+/// Rivals by what each pairs, the best of them against "somewhere else"; standing in the map at all
+/// by what is new.
+void FeatureFollowing::weigh(TrackSet& set, double travel) const
+{
+  if (set.tracks.empty()) return;
+  const double best = bestScore(set.tracks);
+  const double between = std::min(1.0, travel / options_.evidence_distance);
+  for (Track& track : set.tracks)
+  {
+    const double behind = std::max(kFeatureTempering * (track.score - best), -kMaxRelative);
+    track.hypothesis.weight *= std::exp(between * behind);
+    const double evidence = kFeatureTempering * track.score;
+    const double gain = evidence > 0 ? track.features.fresh_share * evidence
+                                     : between * std::max(evidence, -kMaxAgainst);
+    track.confirmed = std::clamp(track.confirmed + gain, kMinConfirmed, kMaxConfirmed);
+  }
+  const double lost = std::min(1.0, travel / options_.lost_distance);
+  set.elsewhere *= std::exp(lost * std::clamp(-kFeatureTempering * best, -kMaxLost, kMaxLost));
+  set.normalise();
+}
+
+std::vector<Feature> FeatureFollowing::gathered() const
+{
+  LocalMap local;
+  for (const Step& step : recent_) local.add(step.motion, step.features);
+  local.add(since_recent_, seen_);
+  return local.features();
+}
+
+/// To confirm what is held one look is enough.
+RelocationResult FeatureFollowing::localize(const std::optional<PoseRegion>& region,
+                                            bool settled) const
+{
+  ObservedScene scene;
+  scene.features = settled || !gathers_ || recent_.empty() ? seen_ : gathered();
+  return matcher_->localize(scene, region);
+}
+
+bool FeatureFollowing::relocate(TrackSet& set, const std::optional<PoseRegion>& region,
+                                double fresh_share, bool settled, std::uint64_t& next_id)
+{
+  const RelocationResult result = localize(region, settled);
+  if (result.verdict == Verdict::too_little_seen) return false;
+  weighElsewhere(set, result, fresh_share);
+  for (const Candidate& candidate : result.candidates)
+  {
+    // A track that has slipped off its place pairs nothing there any more.
+    Track* const held = set.trackAt(candidate.pose.mean);
+    if (held == nullptr || held->score > 0 || candidate.score <= 0) continue;
+    const Track there = startAt(candidate, held->hypothesis.id);
+    held->hypothesis.pose = there.hypothesis.pose;
+    held->features = there.features;
+  }
+  set.dealOut(result, [&](std::size_t k) { return startAt(result.candidates[k], next_id++); });
+  return true;
+}
+
+/// Where a relocation finds poses that no track holds, as good as theirs, "somewhere else" gains.
+void FeatureFollowing::weighElsewhere(TrackSet& set, const RelocationResult& result,
+                                      double fresh_share) const
+{
+  if (set.tracks.empty()) return;
+  double best_tracked = 0;  // "all clutter"
+  double best_untracked = 0;
+  for (const Candidate& candidate : result.candidates)
+  {
+    double& best = set.trackAt(candidate.pose.mean) != nullptr ? best_tracked : best_untracked;
+    best = std::max(best, candidate.score);
+  }
+  const double lead = kFeatureTempering * (best_tracked - best_untracked);
+  set.weighElsewhere(result, lead, lead < -kFarBetter, fresh_share);
+}
+
+/// The features of a candidate share the error of the odometry that gathered them, and its pose the
+/// errors of the mapped ones: its covariance is widened, so that the next steps decide.
+Track FeatureFollowing::startAt(const Candidate& candidate, std::uint64_t id) const
+{
+  Track track;
+  track.hypothesis.pose = candidate.pose;
+  track.hypothesis.pose.covariance *= kSharedErrors;
+  track.hypothesis.id = id;
+  track.score = track.mean_score = candidate.score;
+  track.confirmed = std::clamp(kFeatureTempering * candidate.score, kMinConfirmed, kMaxConfirmed);
+  track.features.paired = candidate.pairings.size();
+  return track;
+}
+
+bool FeatureFollowing::doubts(const Track& track)
+{
+  return track.features.doubt < kDoubt;
+}
+
+bool FeatureFollowing::contradicts(const Track& track)
+{
+  return track.features.doubt < kContradicted;
+}
+
+bool FeatureFollowing::seesEnoughToTell() const
+{
+  return seen_.size() >= kTelling;
+}
+
+double FeatureFollowing::reliabilityOf(const Track& track) const
+{
+  return seen_.empty() ? 0
+                       : std::min(1.0, static_cast<double>(track.features.paired) /
+                                           static_cast<double>(seen_.size()));
+}
+}  // namespace sigloc

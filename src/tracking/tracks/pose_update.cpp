@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tracking/tracks/pose_update.h"
+
+#include <mrpt/math/wrap2pi.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/pose_fusion.h"
+
+namespace sigloc
+{
+using mrpt::math::TPose2D;
+using mrpt::math::wrapToPi;
+
+namespace
+{
+constexpr int kUpdateSteps = 6;
+constexpr double kUpdateGate = 16.27;  // chi-square, 3 degrees of freedom, 99.9 %
+constexpr double kCorrelation = 4.0;  // scans of neighbouring steps share their errors
+constexpr double kLeastFit = 0.2;  // score below which a pose is measured no worse
+
+/// Without odometry the robot may have turned or driven farther than a refinement reaches: along a
+/// corridor, returns stick to the wall beside the door frame they should follow. Other poses within
+/// the prior are tried too, and taken where they explain the scan better.
+TPose2D searchedPose(const TPose2D& predicted, const DenseScan& scan, const DenseVerifier& verifier,
+                     const TrackerOptions& options)
+{
+  constexpr double kTurn = 15.0 * M_PI / 180.0;  // between two tries, less than twice the reach
+  constexpr double kDrive = 0.2;  // [m]
+  constexpr double kBetter = 0.01;  // of the score
+  TPose2D best = verifier.refine(scan, predicted, kUpdateSteps, scan.size());
+  double best_score = verifier.evaluate(scan, best).score;
+  const auto attempt = [&](double drive, double turn)
+  {
+    const TPose2D start = predicted + TPose2D(drive, 0, turn);
+    const TPose2D pose = verifier.refine(scan, start, kUpdateSteps, scan.size());
+    const double score = verifier.evaluate(scan, pose).score;
+    if (score <= best_score + kBetter) return;
+    best = pose;
+    best_score = score;
+  };
+  const int turns = static_cast<int>(3.0 * options.free_turn_sigma / kTurn);
+  for (int k = -turns; k <= turns; ++k)
+  {
+    if (k != 0) attempt(0, k * kTurn);
+  }
+  const int drives = static_cast<int>(2.0 * options.free_motion_sigma / kDrive);
+  for (int k = -drives; k <= drives; ++k)
+  {
+    if (k != 0) attempt(k * kDrive, 0);
+  }
+  best.phi = wrapToPi(best.phi);
+  return best;
+}
+}  // namespace
+
+void updatePose(Track& track, const DenseScan& scan, const DenseVerifier& verifier,
+                bool has_odometry, const TrackerOptions& options)
+{
+  constexpr double kClearlyBetter = 0.3;  // of the score
+  GaussianPose& pose = track.hypothesis.pose;
+  const DenseEvidence predicted = verifier.evaluate(scan, pose.mean);
+  GaussianPose measured;
+  measured.mean = has_odometry ? verifier.refine(scan, pose.mean, kUpdateSteps, scan.size())
+                               : searchedPose(pose.mean, scan, verifier, options);
+  const DenseEvidence found = verifier.evaluate(scan, measured.mean);
+  measured.covariance = verifier.testedCovarianceAt(scan, measured.mean);
+  // What the map does not explain has moved, and draws the pose towards where it was; odometry, if
+  // there is any, knows better.
+  const double fit = has_odometry ? std::max(kLeastFit, found.score) : 1.0;
+  measured.covariance *= kCorrelation / fit;
+  const bool agrees = squaredMahalanobisDistance(pose, measured) < kUpdateGate;
+  const bool slipped = !agrees && found.score > predicted.score + kClearlyBetter;
+  if (agrees) pose = fusePoses(pose, measured);
+  if (slipped) pose = measured;
+  const bool at_measured = slipped || (agrees && found.score > predicted.score);
+  track.evidence = at_measured ? found : predicted;
+  track.judged_at = at_measured ? measured.mean : pose.mean;
+  track.score = track.evidence.score;
+}
+}  // namespace sigloc

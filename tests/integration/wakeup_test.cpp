@@ -1,0 +1,311 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "eval/wakeup/wakeup.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "bridge/rawlog_files.h"
+
+namespace sigloc
+{
+namespace
+{
+TrackStepRecord stepOf(double travelled, Claim judged, bool truth = true)
+{
+  TrackStepRecord step;
+  step.travelled = travelled;
+  step.seconds = 0.5 * travelled;
+  step.judged = judged;
+  step.claim.confident = judged != Claim::none;
+  step.claim.has_pose = true;
+  step.time_ms = 100;
+  if (truth) step.error = {judged == Claim::right ? 0.1 : 5.0, 0};
+  return step;
+}
+
+TEST(TrackScoring, SettlesWhereItStaysConfidentToTheEnd)
+{
+  TrackRun run;
+  run.steps = {stepOf(0, Claim::none), stepOf(1, Claim::wrong), stepOf(2, Claim::wrong),
+               stepOf(3, Claim::none), stepOf(4, Claim::wrong), stepOf(5, Claim::right),
+               stepOf(6, Claim::right)};
+  judgeRun(run);
+  EXPECT_TRUE(run.right_at_end);
+  ASSERT_TRUE(run.settled_after);
+  EXPECT_EQ(run.settled_after->metres, 4.0);
+  EXPECT_EQ(run.settled_after->seconds, 2.0);
+  EXPECT_NEAR(run.cpu_to_settled, 0.5, 1e-12);
+  EXPECT_EQ(run.wrong_steps, 3U);
+  EXPECT_EQ(run.wrong_episodes, 2U);
+}
+
+// A claim off the mapped land is wrong wherever it is, but it is another fault than one on it.
+TEST(TrackScoring, CountsWrongClaimsOffTheMappedLandApart)
+{
+  TrackRun run;
+  run.steps = {stepOf(0, Claim::right), stepOf(1, Claim::wrong), stepOf(2, Claim::wrong)};
+  run.steps.back().mapped = false;
+  judgeRun(run);
+  EXPECT_EQ(run.wrong_steps, 2U);
+  EXPECT_EQ(run.wrong_mapped_steps, 1U);
+
+  TrackReport report;
+  report.methods.emplace_back();
+  report.methods.back().name = "signature";
+  TrackRun& outside = report.methods.back().runs.emplace_back();
+  outside.steps = run.steps;
+  outside.steps[1].mapped = false;
+  judgeRun(outside);
+  EXPECT_NE(trackTable(report).find("| 1          | 0              | 2 "), std::string::npos)
+      << trackTable(report);
+}
+
+TEST(TrackScoring, LandThatIsNotMappedSettlesNothing)
+{
+  TrackRun run;
+  run.steps = {stepOf(0, Claim::none), stepOf(1, Claim::none), stepOf(2, Claim::none)};
+  run.steps.back().mapped = false;
+  judgeRun(run);
+  EXPECT_FALSE(run.settled_after.has_value());
+  run.steps.push_back(stepOf(3, Claim::right));
+  judgeRun(run);
+  ASSERT_TRUE(run.settled_after);
+  EXPECT_EQ(run.settled_after->metres, 3.0);
+}
+
+TEST(TrackScoring, ARunThatNeverSettlesCostsItsWholeTime)
+{
+  TrackRun run;
+  run.steps = {stepOf(0, Claim::right), stepOf(1, Claim::none)};
+  judgeRun(run);
+  EXPECT_FALSE(run.settled_after.has_value());
+  EXPECT_FALSE(run.right_at_end);
+  EXPECT_NEAR(run.cpu_to_settled, 0.2, 1e-12);
+}
+
+TEST(TrackScoring, TellsWhenAKidnappingIsNoticed)
+{
+  TrackRun run;
+  run.steps = {stepOf(0, Claim::right), stepOf(1, Claim::right), stepOf(1, Claim::wrong),
+               stepOf(2, Claim::wrong), stepOf(3, Claim::none),  stepOf(5, Claim::right)};
+  run.kidnapped_at = 2;
+  judgeRun(run);
+  ASSERT_TRUE(run.noticed_after && run.settled_after);
+  EXPECT_EQ(run.noticed_after->metres, 2.0);
+  EXPECT_EQ(run.noticed_after->seconds, 1.0);
+  EXPECT_EQ(run.settled_after->metres, 4.0) << "counted from the kidnapping";
+  EXPECT_EQ(run.settled_after->seconds, 2.0);
+  EXPECT_NEAR(run.cpu_to_settled, 0.4, 1e-12);
+  EXPECT_FALSE(isFailedRun(run) && run.wrong_steps == 0);
+}
+
+TEST(TrackScoring, WhoNeverNoticesAKidnappingNeverSettles)
+{
+  TrackRun run;
+  run.steps = {stepOf(0, Claim::right), stepOf(1, Claim::right), stepOf(1, Claim::wrong),
+               stepOf(2, Claim::wrong)};
+  run.kidnapped_at = 2;
+  judgeRun(run);
+  EXPECT_FALSE(run.noticed_after || run.settled_after);
+  EXPECT_TRUE(isFailedRun(run));
+}
+
+TEST(TrackScoring, WhoIsRightAtOnceHasNoticedAtOnce)
+{
+  TrackRun run;
+  run.steps = {stepOf(0, Claim::right), stepOf(1, Claim::right), stepOf(1, Claim::right)};
+  run.kidnapped_at = 2;
+  judgeRun(run);
+  ASSERT_TRUE(run.noticed_after && run.settled_after);
+  EXPECT_EQ(run.noticed_after->metres, 0.0);
+  EXPECT_EQ(run.settled_after->metres, 0.0) << "not since it woke up";
+  EXPECT_FALSE(isFailedRun(run));
+}
+
+TrackOptions officeOptions()
+{
+  const std::filesystem::path source = SIGLOC_SOURCE_DIR;
+  TrackOptions options;
+  options.map = source / "maps" / "office.simplemap";
+  options.rawlog = source / "rawlogs" / "office.rawlog";
+  options.ground_truth = source / "rawlogs" / "office-truth.txt";
+  options.starts = 3;
+  options.travel = 2;
+  options.methods = {"signature", "mcl"};
+  return options;
+}
+
+TEST(Track, AsksNoPlaceTwice)
+{
+  TrackOptions options = officeOptions();
+  options.methods = {"signature"};
+  options.travel = 43;
+  options.starts = 1000000;
+  std::size_t places = 0;
+  try
+  {
+    runTrack(options);
+    FAIL() << "more starts than places";
+  }
+  catch (const std::runtime_error& error)
+  {
+    const std::string message = error.what();
+    const std::string before = "has only ";
+    const auto at = message.find(before);
+    ASSERT_NE(at, std::string::npos) << message;
+    places = std::stoul(message.substr(at + before.size()));
+  }
+  ASSERT_GE(places, 2U);
+  options.starts = static_cast<std::uint32_t>(places);
+  std::set<std::size_t> starts;
+  const TrackReport report = runTrack(options);
+  for (const TrackRun& run : report.methods.front().runs) starts.insert(run.start);
+  EXPECT_EQ(starts.size(), places);
+}
+
+TEST(Track, GivesTheSameStepsOnOneAndTwoThreads)
+{
+  TrackOptions options = officeOptions();
+  const TrackReport one = runTrack(options);
+  options.threads = 2;
+  const TrackReport two = runTrack(options);
+  ASSERT_EQ(one.methods.size(), 2U);
+  for (std::size_t m = 0; m < one.methods.size(); ++m)
+  {
+    for (std::size_t r = 0; r < one.methods[m].runs.size(); ++r)
+    {
+      const auto& a = one.methods[m].runs[r].steps;
+      const auto& b = two.methods[m].runs[r].steps;
+      ASSERT_EQ(a.size(), b.size());
+      ASSERT_FALSE(a.empty());
+      for (std::size_t i = 0; i < a.size(); ++i)
+      {
+        EXPECT_EQ(a[i].claim.pose, b[i].claim.pose);
+        EXPECT_EQ(a[i].claim.confident, b[i].claim.confident);
+      }
+    }
+  }
+}
+
+TEST(Track, FindsTheRobotOfTheOffice)
+{
+  TrackOptions options = officeOptions();
+  options.methods = {"signature"};
+  options.kidnap = true;
+  options.travel = 5;
+  const TrackReport report = runTrack(options);
+  for (const TrackRun& run : report.methods.front().runs)
+  {
+    EXPECT_TRUE(run.right_at_end) << "woken up at step " << run.start;
+    EXPECT_TRUE(run.noticed_after.has_value());
+  }
+}
+
+TEST(Track, RunsParticleFiltersWithTheNumberAskedFor)
+{
+  TrackOptions options = officeOptions();
+  options.methods = {"signature-mcl", "mcl"};
+  options.starts = 1;
+  options.method.particles = 200;
+  const TrackReport few = runTrack(options);
+  EXPECT_TRUE(few.methods[0].runs.front().right_at_end) << "200 started by signatures do";
+  options.method.particles = 4000;
+  const TrackReport more = runTrack(options);
+  for (std::size_t m = 0; m < 2; ++m)
+  {
+    EXPECT_NE(few.methods[m].runs.front().steps.back().claim.pose,
+              more.methods[m].runs.front().steps.back().claim.pose);
+  }
+}
+
+TEST(Track, EveryClaimInAForeignMapIsWrong)
+{
+  TrackOptions options = officeOptions();
+  options.methods = {"signature"};
+  options.foreign = true;
+  options.ground_truth.clear();
+  options.travel = 5;
+  options.keep_failures = 2;
+  // The map is of the drive's own office, so that it is sure to claim something.
+  const TrackReport report = runTrack(options);
+  const TrackMethodReport& method = report.methods.front();
+  std::size_t claims = 0;
+  for (const TrackRun& run : method.runs)
+  {
+    EXPECT_FALSE(run.right_at_end);
+    EXPECT_GE(run.steps.back().travelled, 4.5) << "by the odometry";
+    for (const TrackStepRecord& step : run.steps)
+    {
+      EXPECT_EQ(step.judged, step.claim.confident ? Claim::wrong : Claim::none);
+      claims += step.claim.confident;
+    }
+  }
+  EXPECT_GT(claims, 0U);
+  ASSERT_EQ(method.failures.size(), 2U);
+  EXPECT_FALSE(method.failures.front().record.truth);
+  EXPECT_FALSE(method.failures.front().query.scans.empty());
+}
+
+TEST(Track, RefusesWhatIsNoKidnapping)
+{
+  TrackOptions options = officeOptions();
+  options.kidnap = true;
+  options.starts = 1;
+  EXPECT_THROW(runTrack(options), std::invalid_argument) << "to its own place";
+  options.starts = 2;
+  options.foreign = true;
+  EXPECT_THROW(runTrack(options), std::invalid_argument) << "nothing to notice";
+}
+
+TEST(Track, RefusesALogThatIsTooShort)
+{
+  TrackOptions options = officeOptions();
+  options.travel = 1e6;
+  EXPECT_THROW(runTrack(options), std::runtime_error);
+  options.starts = 0;
+  EXPECT_THROW(runTrack(options), std::invalid_argument);
+}
+
+// Two steps that waited in a buffer were stamped when it was emptied: the truth of the next ones'
+// times is that of others.
+TEST(Track, StepsStampedBeforeEarlierOnesHaveNoTruth)
+{
+  const test::TemporaryFolder folder;
+  std::vector<mrpt::serialization::CSerializable::Ptr> log;
+  for (const double time : {100.0, 100.5, 101.6, 101.8, 101.0, 101.7, 102.5, 103.0})
+  {
+    log.push_back(test::makeScan(time));
+  }
+  test::writeObjects(folder / "log.rawlog", log);
+  test::writeText(folder / "truth.txt",
+                  "100 0 0 0\n100.5 .2 0 0\n101.6 .4 0 0\n101.8 .6 0 0\n102.5 .8 0 0\n"
+                  "103 1 0 0\n");
+  TrackOptions options = officeOptions();
+  options.rawlog = folder / "log.rawlog";
+  options.ground_truth = folder / "truth.txt";
+  options.methods = {"signature"};
+  options.starts = 1;
+  options.travel = 0.9;
+  const TrackReport report = runTrack(options);
+  const auto& steps = report.methods.front().runs.front().steps;
+  ASSERT_GE(steps.size(), 7U);
+  for (std::size_t i = 0; i < steps.size(); ++i)
+  {
+    EXPECT_EQ(std::isnan(steps[i].error.distance), i == 4 || i == 5) << "step " << i;
+  }
+}
+
+TEST(Track, NamesALandmarkLogThatItCannotRead)
+{
+  TrackOptions options;
+  options.methods = {"signature"};
+  options.landmarks = "no-such-set";
+  options.landmark_folder = "/nowhere";
+  EXPECT_THROW(runTrack(options), std::invalid_argument);
+  options.landmarks = "dlr";
+  EXPECT_THROW(runTrack(options), std::runtime_error);
+}
+}  // namespace
+}  // namespace sigloc

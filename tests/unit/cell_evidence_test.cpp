@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tracking/evidence/CellEvidence.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "support/wall_ahead.h"
+
+namespace sigloc
+{
+namespace
+{
+using testing::wallAhead;
+
+std::vector<float> allExplained(const DenseScan& scan, float share)
+{
+  return std::vector<float>(scan.size(), share);
+}
+
+TEST(GroundView, HasEveryCellOnceAndNoneForWhatIsIsolated)
+{
+  const DenseScan scan = wallAhead(4);
+  for (const double heading : {0.0, 0.5 * M_PI, M_PI})
+  {
+    const GroundView view = viewOf(scan, {7, -3, heading});
+    ASSERT_EQ(view.cell_of.size(), scan.size());
+    EXPECT_EQ(view.cell_of.back(), GroundView::kNowhere);
+    for (std::size_t i = 0; i + 1 < scan.size(); ++i) EXPECT_LT(view.cell_of[i], view.cells.size());
+    for (std::size_t k = 1; k < view.cells.size(); ++k)
+    {
+      EXPECT_LT(view.cells[k - 1], view.cells[k]);
+    }
+  }
+  EXPECT_EQ(viewOf(scan, {0, 0, 0}).cells.size(), 4U);
+}
+
+TEST(GroundView, HoldsWhatIsFartherThanAnyRobotDrives)
+{
+  const DenseScan scan = wallAhead(4);
+  EXPECT_FALSE(viewOf(scan, {1e200, -1e200, 0}).cells.empty());
+}
+
+TEST(ExplainedStructure, CountsEachThingOnceHoweverOftenItIsSeen)
+{
+  const DenseScan scan = wallAhead(4);
+  const GroundView view = viewOf(scan, {0, 0, 0});
+  ExplainedStructure structure;
+  EXPECT_NEAR(structure.look(view, allExplained(scan, 0.25F), 0), 4 * 0.75, 1e-6);
+  for (int k = 1; k < 50; ++k)
+  {
+    EXPECT_NEAR(structure.look(view, allExplained(scan, 0.25F), 0.1 * k), 0, 1e-6);
+  }
+}
+
+TEST(ExplainedStructure, ABetterLookTakesBackAndFewReturnsTellLittle)
+{
+  const DenseScan scan = wallAhead(4);
+  const GroundView view = viewOf(scan, {0, 0, 0});
+  ExplainedStructure structure;
+  const double first = structure.look(view, allExplained(scan, 0), 0);
+  EXPECT_NEAR(first, 4, 1e-6);
+  EXPECT_NEAR(structure.look(view, allExplained(scan, 1), 1), -2, 1e-6);
+
+  DenseScan single = wallAhead(1);
+  for (auto* column : {&single.x, &single.y}) column->erase(column->begin(), column->begin() + 2);
+  single.isolated.erase(single.isolated.begin(), single.isolated.begin() + 2);
+  ExplainedStructure other;
+  EXPECT_NEAR(other.look(viewOf(single, {0, 0, 0}), allExplained(single, 0), 0), 1.0 / 3.0, 1e-6);
+}
+
+TEST(ExplainedStructure, WhatWasSeenLongAgoIsNewsAgain)
+{
+  const DenseScan scan = wallAhead(4);
+  const GroundView view = viewOf(scan, {0, 0, 0});
+  for (const double start : {0.0, 100.0, -30.0})
+  {
+    ExplainedStructure structure;
+    EXPECT_NEAR(structure.look(view, allExplained(scan, 0.5F), start), 2, 1e-6);
+    EXPECT_NEAR(structure.look(view, allExplained(scan, 0.5F), start + 9.9), 0, 1e-6);
+    EXPECT_NEAR(structure.look(view, allExplained(scan, 0.5F), start + 20.1), 2, 1e-6);
+  }
+}
+
+TEST(ExplainedStructure, TellsTheShareOfAllItHasSeen)
+{
+  const DenseScan scan = wallAhead(4);
+  ExplainedStructure structure;
+  EXPECT_EQ(structure.unexplainedShare(), 0);
+  structure.look(viewOf(scan, {0, 0, 0}), allExplained(scan, 1), 0);
+  EXPECT_NEAR(structure.unexplainedShare(), 0, 1e-6);
+  structure.look(viewOf(scan, {50, 0, 0}), allExplained(scan, 0), 5);
+  EXPECT_NEAR(structure.unexplainedShare(), 0.5, 1e-6);
+  structure.look(viewOf(scan, {50, 0, 0}), allExplained(scan, 0), 6);
+  EXPECT_NEAR(structure.unexplainedShare(), 0.5, 1e-6) << "seen before";
+  structure.look(viewOf(scan, {50, 0, 0}), allExplained(scan, 0), 30);
+  EXPECT_NEAR(structure.unexplained(), 8, 1e-6) << "what was long ago is news again, ...";
+  EXPECT_NEAR(structure.unexplainedShare(), 8.0 / 12.0, 1e-6)
+      << "and what was seen then still counts";
+}
+
+TEST(ExplainedStructure, TheShareStaysOneWhenCountedAnew)
+{
+  // What was seen before and now looks better, or worse, is no cell more.
+  const DenseScan scan = wallAhead(4);
+  for (const float first : {0.0F, 1.0F})
+  {
+    ExplainedStructure structure;
+    structure.look(viewOf(scan, {0, 0, 0}), allExplained(scan, first), 0);
+    structure.countAnew();
+    structure.look(viewOf(scan, {0.5, 0, 0}), allExplained(scan, 1 - first), 1);
+    EXPECT_GE(structure.unexplainedShare(), 0);
+    EXPECT_LE(structure.unexplainedShare(), 1);
+  }
+}
+}  // namespace
+}  // namespace sigloc
