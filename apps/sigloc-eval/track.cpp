@@ -21,7 +21,7 @@ constexpr double kMostParticles = 1e7;
 struct TrackFlags
 {
   CommonOptions common;
-  TrackOptions options;
+  WakeupOptions options;
   std::vector<double> map_from_truth;
 
   SimulatedTrackOptions simulated;
@@ -31,13 +31,13 @@ struct TrackFlags
   {
     checkReportFolder(common.out, inputFiles(options.map, {options.rawlog, options.ground_truth,
                                                            options.start_from}));
-    const TrackReport report =
+    const WakeupReport report =
         simulated.drives > 0 ? runSimulated(command_line) : runLog(command_line);
-    writeTrackReport(report, common.out);
+    writeWakeupReport(report, common.out);
     FailuresByFolder failures;
     for (const auto& method : report.methods) failures.emplace_back("", method.failures);
     drawFailures(failures, common.out);
-    if (!common.quiet) std::cout << trackTable(report);
+    if (!common.quiet) std::cout << wakeupTable(report);
     return exitCode(report.complete, options.rawlog);
   }
 
@@ -54,7 +54,7 @@ struct TrackFlags
     }
   }
 
-  TrackReport runLog(const std::string& command_line)
+  WakeupReport runLog(const std::string& command_line)
   {
     const bool landmarks = !options.landmarks.empty();
     if (landmarks != !options.landmark_folder.empty())
@@ -87,10 +87,10 @@ struct TrackFlags
     options.threads = common.threads;
     options.command = command_line;
     options.progress = progressBar(common.quiet);
-    return runTrack(options);
+    return runWakeups(options);
   }
 
-  TrackReport runSimulated(const std::string& command_line)
+  WakeupReport runSimulated(const std::string& command_line)
   {
     for (const std::string& name : worlds) simulated.kinds.push_back(worldKindFrom(name));
     simulated.travel = options.travel;
@@ -170,7 +170,7 @@ void declareSimulation(CLI::App& command, TrackFlags& flags)
 std::function<int()> setUpTrack(CLI::App& command, const std::string& command_line)
 {
   const auto flags = std::make_shared<TrackFlags>();
-  TrackOptions& options = flags->options;
+  WakeupOptions& options = flags->options;
   command.add_option("--map", options.map, "whatever sigloc-map build takes");
   command.add_option("--rawlog", options.rawlog, "the drive");
   command.add_option("--ground-truth", options.ground_truth,

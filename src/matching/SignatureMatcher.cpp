@@ -72,11 +72,11 @@ SignatureMatcher::SignatureMatcher(std::shared_ptr<const FeatureMap> map,
   }
   const auto mode = static_cast<GenerationMode>(options.mode);
   const bool from_bases =
-      mode == GenerationMode::bases || (mode == GenerationMode::automatic && verifier_);
+      mode == GenerationMode::minimal_sets || (mode == GenerationMode::automatic && verifier_);
   if (from_bases)
   {
     if (!verifier_) throw std::invalid_argument("SignatureMatcher: bases need a dense field");
-    proposer_ = std::make_unique<BaseProposer>(*map_);
+    proposer_ = std::make_unique<PoseProposer>(*map_);
   }
   else
   {
@@ -112,7 +112,7 @@ RelocationResult SignatureMatcher::localize(const ObservedScene& scene,
     const DenseScan scan = makeDenseScan(scene, kMaxBeams);
     const Judged judged = generator_
                               ? judge(scan, proposalsOf(hypotheses), region, result.counters, {})
-                              : judgeBases(scene, scan, region, result.counters);
+                              : judgeMinimalSets(scene, scan, region, result.counters);
     // 3. ... and weigh the rivals and "somewhere else"; decide.
     concludeDensely(scene, scan, judged, hypotheses, result);
     return result;
@@ -152,10 +152,10 @@ std::vector<TPose2D> SignatureMatcher::propose(const ObservedScene& scene) const
 
 /// The first proposals explain most scenes; where they do so poorly, what they led to competes with
 /// further ones.
-SignatureMatcher::Judged SignatureMatcher::judgeBases(const ObservedScene& scene,
-                                                      const DenseScan& scan,
-                                                      const std::optional<PoseRegion>& region,
-                                                      MatchingCounters& counters) const
+SignatureMatcher::Judged SignatureMatcher::judgeMinimalSets(const ObservedScene& scene,
+                                                            const DenseScan& scan,
+                                                            const std::optional<PoseRegion>& region,
+                                                            MatchingCounters& counters) const
 {
   std::vector<PoseProposal> proposals = proposer_->propose(scene.features);
   counters.hypotheses += proposals.size();
@@ -204,7 +204,7 @@ void SignatureMatcher::concludeDensely(const ObservedScene& scene, const DenseSc
   const double missed = hypotheses.empty() || result.candidates.empty()
                             ? 0
                             : missedProbability(hypotheses, result.candidates.front().pose.mean);
-  result.view = viewOf(scene);
+  result.view = angularCoverage(scene);
   weighCandidates(result, candidatesOf(judged.outside, *verifier_, scene), missed);
 }
 }  // namespace sigloc

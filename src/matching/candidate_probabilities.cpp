@@ -19,7 +19,7 @@ constexpr double kSharpening = 1.0;  // of rivals against each other
 // The log-odds of being in the map, fitted on simulated worlds too, section 7.
 constexpr double kExplainedSlope = 8.5;  // per share of what is no occlusion
 constexpr double kThroughSlope = 20.0;  // per share of beams through walls
-constexpr double kFactSlope = 0.3;  // per explained fact
+constexpr double kConstraintSlope = 0.3;  // per explained fact
 constexpr double kLeadSlope = 0.46;  // per unit of log-likelihood ahead of the best rival
 constexpr double kFitOffset = 11.2;
 // A narrow view fits elsewhere by chance: what was fitted on scans of 180 degrees and more trusts
@@ -106,7 +106,7 @@ double unexplainedShare(const DenseEvidence& evidence)
   return known > 0 ? std::max(0.0, 1.0 - (evidence.coarse + evidence.in_free) / known) : 0.0;
 }
 
-double followedLogOdds(const DenseEvidence& evidence)
+double trackedLogOdds(const DenseEvidence& evidence)
 {
   constexpr double kMisfitOfChance = 0.25;  // where the map explains no more than a foreign one
   constexpr double kFloor = 0.03;
@@ -123,7 +123,7 @@ double fitLogOdds(const Candidate& candidate)
   // being in the map. The score already holds half of both shares.
   const double explained = candidate.score + 0.5 * candidate.through_wall + 1.5 * candidate.in_free;
   return kExplainedSlope * explained - kThroughSlope * candidate.through_wall +
-         kFactSlope * candidate.facts - kFitOffset;
+         kConstraintSlope * candidate.explained_constraints - kFitOffset;
 }
 
 double leadLogOdds(double score, double rival_score)
@@ -131,7 +131,7 @@ double leadLogOdds(double score, double rival_score)
   return kLeadSlope * (logLikelihoodOfScore(score) - logLikelihoodOfScore(rival_score));
 }
 
-double presenceEvidence(const RelocationResult& result, std::size_t k)
+double inMapLogOdds(const RelocationResult& result, std::size_t k)
 {
   const Candidate& candidate = result.candidates[k];
   return fitLogOdds(candidate) + leadLogOdds(candidate.score, rivalScore(result, k));
@@ -151,8 +151,7 @@ void weighCandidates(RelocationResult& result, const std::vector<Candidate>& out
   const double sum_missed = missed * std::exp(logLikelihoodOfScore(kUsualScore) - best);
 
   const double narrow = kNarrowSlope * std::max(0.0, 1.0 - result.view / kFullView);
-  const double here =
-      1.0 / (1.0 + std::exp(narrow - presenceEvidence(result, 0) - kPriorHereLogOdds));
+  const double here = 1.0 / (1.0 + std::exp(narrow - inMapLogOdds(result, 0) - kPriorHereLogOdds));
   const double all = sum + sum_outside + sum_missed;
   for (Candidate& candidate : candidates) candidate.probability *= here / all;
   result.elsewhere = 1.0 - here * sum / all;

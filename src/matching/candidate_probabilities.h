@@ -30,7 +30,7 @@ double unexplainedShare(const DenseEvidence& evidence);
 /// Returns what a tracked pose's scan adds to the log-odds of standing in the map, were all that it
 /// sees new to the track: how much of it the map explains, and how little it contradicts.
 /// \cite algorithm eq. (8.21)
-double followedLogOdds(const DenseEvidence& evidence);
+double trackedLogOdds(const DenseEvidence& evidence);
 
 /// Prior log-odds of standing in the map: one wake-up in fourteen is somewhere else.
 /// \cite algorithm eq. (7.2)
@@ -48,7 +48,7 @@ double leadLogOdds(double score, double rival_score);
 /// Returns how much candidate k's scan speaks for standing in the map at all: the log-odds (7.2)
 /// without their prior, the best other candidate being the rival. Evidence of one scan, to be added
 /// up over scans of different places. \cite algorithm eq. (7.2)
-double presenceEvidence(const RelocationResult& result, std::size_t k);
+double inMapLogOdds(const RelocationResult& result, std::size_t k);
 
 /// Distributes probability over candidates (best first, scores set) and "elsewhere", and fills the
 /// verdict. A candidate convinces by what it explains and by its lead over the best rival:

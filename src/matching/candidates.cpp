@@ -14,7 +14,7 @@ std::vector<Candidate> candidatesOf(const std::vector<RankedPose>& ranked,
 {
   std::vector<Candidate> candidates;
   candidates.reserve(ranked.size());
-  const SceneFacts facts(scene.features);
+  const ExplainedConstraints constraints(scene.features);
   for (const auto& [pose, evidence] : ranked)
   {
     Candidate candidate;
@@ -25,14 +25,14 @@ std::vector<Candidate> candidatesOf(const std::vector<RankedPose>& ranked,
     candidate.in_free = evidence.in_free;
     if (evidence.score >= ranked.front().evidence.score - DenseVerifier::kContender)
     {
-      candidate.facts = facts.explainedAt(pose, verifier.field());
+      candidate.explained_constraints = constraints.explainedAt(pose, verifier.field());
     }
     candidates.push_back(std::move(candidate));
   }
   return candidates;
 }
 
-double viewOf(const ObservedScene& scene)
+double angularCoverage(const ObservedScene& scene)
 {
   constexpr std::size_t kSectors = 24;
   std::bitset<kSectors> seen;

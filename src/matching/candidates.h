@@ -17,5 +17,5 @@ std::vector<Candidate> candidatesOf(const std::vector<RankedPose>& ranked,
 
 /// Returns how much of the circle around its sensors a scene shows returns in, by sectors of
 /// 15 degrees [rad].
-double viewOf(const ObservedScene& scene);
+double angularCoverage(const ObservedScene& scene);
 }  // namespace sigloc

@@ -23,7 +23,7 @@ std::unique_ptr<FeatureHypothesisGenerator> makeGenerator(GenerationMode mode,
 std::unique_ptr<FeatureHypothesisGenerator> makeGenerator(
     GenerationMode mode, const std::shared_ptr<const FeatureVerifier>& verifier)
 {
-  if (mode == GenerationMode::bases)
+  if (mode == GenerationMode::minimal_sets)
   {
     throw std::invalid_argument("makeGenerator: mode bases needs a dense field");
   }

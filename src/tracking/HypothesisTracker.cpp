@@ -23,7 +23,7 @@ namespace
 {
 constexpr std::size_t kUpdateBeams = 180;  // a track is updated with
 constexpr double kHidden = 0.5;  // weight of a relocation that fails to find a track
-constexpr double kUnfollowed = -6.5;  // log-odds of a pose before anything has come into view
+constexpr double kNotYetTracked = -6.5;  // log-odds of a pose before anything has come into view
 
 const DenseField* fieldOf(const FeatureMap& map)
 {
@@ -40,12 +40,12 @@ struct HypothesisTracker::State
   }
 
   void startAnew();
-  void followDensely(const std::optional<MotionIncrement>& motion, const ObservedScene& scene,
-                     double travel);
-  void followByFeatures(const std::optional<MotionIncrement>& motion, double travel);
+  void trackDensely(const std::optional<MotionIncrement>& motion, const ObservedScene& scene,
+                    double travel);
+  void trackByFeatures(const std::optional<MotionIncrement>& motion, double travel);
   bool seesTooLittle(const ObservedScene& scene) const;
 
-  void goOn(double travel);
+  void countTravel(double travel);
   void haveRelocated();
   double travelSeen(double assumed);
   double freshShare() const;
@@ -63,8 +63,8 @@ struct HypothesisTracker::State
   TrackerOptions options;
   std::optional<PoseRegion> region;
   TrackSet set;
-  PastScans past;  // of the way since it started
-  std::unique_ptr<FeatureFollowing> by_features;  // where no dense field backs the map
+  ScanHistory past;  // of the way since it started
+  std::unique_ptr<LandmarkTracker> landmark_tracker;  // where no dense field backs the map
   std::uint64_t next_id = 1;
   double travel_since_relocation = 0;  // [m]
   double travelled = 0;  // [m] in all
@@ -105,11 +105,11 @@ void HypothesisTracker::reset(const std::optional<PoseRegion>& region)
 void HypothesisTracker::State::startAnew()
 {
   set = TrackSet(options);
-  past = PastScans(options);
+  past = ScanHistory(options);
   waking_up = true;
   belief = {};
   if (matcher->featureVerifier() == nullptr) return;
-  by_features = std::make_unique<FeatureFollowing>(matcher, options);
+  landmark_tracker = std::make_unique<LandmarkTracker>(matcher, options);
 }
 
 const Belief& HypothesisTracker::step(const std::optional<MotionIncrement>& motion,
@@ -119,33 +119,34 @@ const Belief& HypothesisTracker::step(const std::optional<MotionIncrement>& moti
   checkScene(scene);
   State& s = *state_;
   s.relocated = false;
-  const bool sees_enough = s.by_features ? s.by_features->look(s.set, motion, scene)
-                                         : scene.beams.size() >= s.matcher->options().min_beams;
+  const bool sees_enough = s.landmark_tracker
+                               ? s.landmark_tracker->addScan(s.set, motion, scene)
+                               : scene.beams.size() >= s.matcher->options().min_beams;
   const double travel = s.set.predict(motion);
   s.past.move(motion);
   if (!sees_enough)
   {
-    s.goOn(travel);
+    s.countTravel(travel);
   }
-  else if (s.by_features)
+  else if (s.landmark_tracker)
   {
-    s.followByFeatures(motion, travel);
+    s.trackByFeatures(motion, travel);
   }
   else
   {
-    s.followDensely(motion, scene, travel);
+    s.trackDensely(motion, scene, travel);
   }
   s.publish(scene);
   return s.belief;
 }
 
-void HypothesisTracker::State::followDensely(const std::optional<MotionIncrement>& motion,
-                                             const ObservedScene& scene, double travel)
+void HypothesisTracker::State::trackDensely(const std::optional<MotionIncrement>& motion,
+                                            const ObservedScene& scene, double travel)
 {
   const DenseScan scan = makeDenseScan(scene, kUpdateBeams);
   set.update(scan, *matcher->verifier());
   if (!motion) travel = travelSeen(travel);
-  goOn(travel);
+  countTravel(travel);
   past.remember(scan, travelled);
   set.follow(scan, travelled, travel, motion ? motion->mean.norm() : travel);
   set.weigh(scan, *matcher->verifier(), travelled, travel);
@@ -154,26 +155,26 @@ void HypothesisTracker::State::followDensely(const std::optional<MotionIncrement
   judgeFirst(scan);
 }
 
-void HypothesisTracker::State::followByFeatures(const std::optional<MotionIncrement>& motion,
-                                                double travel)
+void HypothesisTracker::State::trackByFeatures(const std::optional<MotionIncrement>& motion,
+                                               double travel)
 {
-  by_features->update(set, travelled + travel, next_id);
+  landmark_tracker->update(set, travelled + travel, next_id);
   if (!motion) travel = travelSeen(travel);
-  goOn(travel);
-  by_features->weigh(set, travel);
+  countTravel(travel);
+  landmark_tracker->weigh(set, travel);
   if (wantsRelocation())
   {
     const bool settled = belief.verdict == Verdict::localized && !suspicious();
-    const bool answered = by_features->relocate(set, waking_up ? region : std::nullopt,
-                                                freshShare(), settled, next_id);
+    const bool answered = landmark_tracker->relocate(set, waking_up ? region : std::nullopt,
+                                                     freshShare(), settled, next_id);
     if (answered) haveRelocated();
   }
-  by_features->remember();
+  landmark_tracker->remember();
   set.mergeAndPrune();
-  reliability = set.tracks.empty() ? 0 : by_features->reliabilityOf(set.tracks.front());
+  reliability = set.tracks.empty() ? 0 : landmark_tracker->reliabilityOf(set.tracks.front());
 }
 
-void HypothesisTracker::State::goOn(double travel)
+void HypothesisTracker::State::countTravel(double travel)
 {
   travel_since_relocation += travel;
   travelled += travel;
@@ -199,7 +200,7 @@ double HypothesisTracker::State::travelSeen(double assumed)
   constexpr double kMoved = 0.15;  // [m], more than the jitter of a standing robot's poses
   if (set.tracks.empty() || suspicious()) return assumed;
   const Track& first = set.heaviest();
-  if (first.score < (by_features ? 0 : options.lost_score)) return assumed;
+  if (first.score < (landmark_tracker ? 0 : options.lost_score)) return assumed;
   const mrpt::math::TPose2D& pose = first.hypothesis.pose.mean;
   const bool same = first.hypothesis.id == seen_id;
   const double moved = travelBetween(seen_pose, pose, options);
@@ -214,7 +215,7 @@ bool HypothesisTracker::State::suspicious() const
 {
   if (set.tracks.empty()) return false;
   const Track& first = set.heaviest();
-  if (by_features) return FeatureFollowing::doubts(first);
+  if (landmark_tracker) return LandmarkTracker::doubts(first);
   return first.hasFallenTo(first.score, options.score_drop);
 }
 
@@ -223,9 +224,9 @@ bool HypothesisTracker::State::suspicious() const
 bool HypothesisTracker::State::doubtful() const
 {
   const Track& first = set.tracks.front();
-  if (by_features && FeatureFollowing::contradicts(first)) return true;
+  if (landmark_tracker && LandmarkTracker::contradicts(first)) return true;
   if (first.found || !suspicious()) return false;
-  return by_features || first.hasFallenTo(scoreOfUnhidden(first.evidence), options.score_drop);
+  return landmark_tracker || first.hasFallenTo(scoreOfUnhidden(first.evidence), options.score_drop);
 }
 
 /// At the start, after a sudden fall of the score, at a steady rate while several poses or none
@@ -235,7 +236,7 @@ bool HypothesisTracker::State::wantsRelocation() const
   if (waking_up || suspicious()) return true;
   const bool held = !set.tracks.empty() &&
                     set.heaviest().hypothesis.weight >= options.localized_probability &&
-                    set.heaviest().held();
+                    set.heaviest().retained();
   return travel_since_relocation >=
          (held ? options.confirmation_distance : options.relocation_distance);
 }
@@ -258,8 +259,8 @@ void HypothesisTracker::State::relocate(const ObservedScene& scene, const DenseS
 }
 
 /// Evidence for a track counts as far as it rests on structure that is new to the track: another
-/// look at one room repeats the likeness of the first. Which of several look-alikes it is, the
-/// weights tell; this is about standing in the map at all. Eq. (8.7)
+/// addScan at one room repeats the likeness of the first. Which of several addScan-alikes it is,
+/// the weights tell; this is about standing in the map at all. Eq. (8.7)
 void HypothesisTracker::State::confirm(const RelocationResult& result, const DenseScan& scan,
                                        double fresh_share)
 {
@@ -276,7 +277,7 @@ void HypothesisTracker::State::confirm(const RelocationResult& result, const Den
     {
       if (set.trackAt(result.candidates[k].pose.mean) == &track)
       {
-        evidence = presenceEvidence(result, k);
+        evidence = inMapLogOdds(result, k);
       }
     }
     const double novelty = track.seen.add(scan, track.hypothesis.pose.mean, travelled);
@@ -316,18 +317,18 @@ Track HypothesisTracker::State::startAt(const RelocationResult& result, std::siz
 {
   const Candidate& candidate = result.candidates[k];
   Track fresh;
-  // Within the tracks the map's common error would make every scan look like news about it: it
+  // Within the tracks the map's common error would make every scan addScan like news about it: it
   // belongs in what is told, once.
   fresh.hypothesis.pose = withoutCommonError(candidate.pose, matcher->map().error());
   fresh.hypothesis.id = next_id++;
   fresh.score = fresh.mean_score = candidate.score;
   const double view = fresh.seen.add(scan, candidate.pose.mean, travelled);
-  fresh.on_the_way = fresh.seen;
-  const double evidence = presenceEvidence(result, k);
+  fresh.seen_while_tracked = fresh.seen;
+  const double evidence = inMapLogOdds(result, k);
   fresh.confirmed = std::clamp(kPriorHereLogOdds + std::min(evidence, view * evidence),
                                kMinConfirmed, kMaxConfirmed);
   fresh.evidence = matcher->verifier()->evaluate(scan, candidate.pose.mean);
-  fresh.addFollowed(kUnfollowed + view * followedLogOdds(fresh.evidence));
+  fresh.addTrackedLogOdds(kNotYetTracked + view * trackedLogOdds(fresh.evidence));
   fresh.addFit(0);
   set.showTo(fresh, scan, *matcher->verifier(), travelled);
   return fresh;
@@ -344,8 +345,8 @@ void HypothesisTracker::State::judgeFirst(const DenseScan& scan)
 /// Too little to say that the robot is not here.
 bool HypothesisTracker::State::seesTooLittle(const ObservedScene& scene) const
 {
-  return by_features ? !by_features->seesEnoughToTell()
-                     : scene.beams.size() < matcher->options().min_beams;
+  return landmark_tracker ? !landmark_tracker->seesEnoughToTell()
+                          : scene.beams.size() < matcher->options().min_beams;
 }
 
 void HypothesisTracker::State::publish(const ObservedScene& scene)
@@ -362,7 +363,7 @@ void HypothesisTracker::State::publish(const ObservedScene& scene)
   if (!set.tracks.empty())
   {
     belief.reliability = reliability;
-    grounds.confirmed = set.standing() >= options.confirmation;
+    grounds.confirmed = set.claimLogOdds() >= options.confirmation;
     grounds.doubtful = doubtful();
   }
   decideVerdict(belief, grounds, options.localized_probability, fieldOf(matcher->map()));

@@ -51,7 +51,7 @@ double errorAtTheEnd(std::uint64_t seed, bool errors_stay)
 
   TPose2D truth(20, 12, random.uniform(-M_PI, M_PI));
   GaussianPose pose = composeWithMotion({truth, {}}, disturbed({0, 0, 0}, random));
-  MapCorrelation correlation;
+  SchmidtKalmanFilter correlation;
   for (int step = 0; step < kSteps; ++step)
   {
     const TPose2D increment(0.2, 0, 0.05);
@@ -92,7 +92,7 @@ double meanErrorOfRuns(int runs, bool errors_stay)
   return sum / runs;
 }
 
-TEST(MapCorrelation, KeepsTheCovarianceExactlyHonest)
+TEST(SchmidtKalmanFilter, KeepsTheCovarianceExactlyHonest)
 {
   constexpr int kRuns = 1000;
   const double mean = meanErrorOfRuns(kRuns, true);
@@ -102,13 +102,13 @@ TEST(MapCorrelation, KeepsTheCovarianceExactlyHonest)
   EXPECT_LT(mean, chiSquareGate(0.995, 3 * kRuns) / kRuns);
 }
 
-TEST(MapCorrelation, IsWhatKeepsItHonest)
+TEST(SchmidtKalmanFilter, IsWhatKeepsItHonest)
 {
   constexpr int kRuns = 1000;
   EXPECT_GT(meanErrorOfRuns(kRuns, false), chiSquareGate(0.995, 3 * kRuns) / kRuns);
 }
 
-TEST(MapCorrelation, ForgetsWhatWasLastSeenLongAgo)
+TEST(SchmidtKalmanFilter, ForgetsWhatWasLastSeenLongAgo)
 {
   Feature feature;
   feature.position = {1, 2};
@@ -116,7 +116,7 @@ TEST(MapCorrelation, ForgetsWhatWasLastSeenLongAgo)
   const DirectedFeature view = directed(feature);
   PoseEstimate estimate = toEstimate({});
   estimate.covariance = {1, 0, 0, 1, 0, 1};
-  MapCorrelation correlation;
+  SchmidtKalmanFilter correlation;
   for (std::uint32_t k = 0; k < 5; ++k)
   {
     correlation.update(estimate, placeMeasurement(estimate, view, view, 0), k,
@@ -141,10 +141,10 @@ TEST(FeatureTracking, CovarianceIsHonestOnGatedDrives)
   double sum = 0;
   std::size_t count = 0;
   std::ostringstream others;
-  const TrackReport report = runSimulatedTrack(options);
-  for (const TrackRun& run : report.methods.front().runs)
+  const WakeupReport report = runSimulatedTrack(options);
+  for (const Wakeup& run : report.methods.front().runs)
   {
-    const TrackStepRecord& end = run.steps.back();
+    const WakeupStep& end = run.steps.back();
     if (end.judged != Claim::right)
     {
       others << "drive " << run.start << " of " << run.steps.size() << " steps ends confident "

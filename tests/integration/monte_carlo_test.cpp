@@ -104,7 +104,7 @@ TEST(MonteCarlo, TunedParticlesAreBounded)
 TEST(MonteCarlo, ProgramAndFilterFollowTheSameDrive)
 {
   const std::filesystem::path source = SIGLOC_SOURCE_DIR;
-  TrackOptions options;
+  WakeupOptions options;
   options.map = source / "maps" / "office.simplemap";
   options.rawlog = source / "rawlogs" / "office.rawlog";
   options.ground_truth = source / "rawlogs" / "office-truth.txt";
@@ -112,13 +112,13 @@ TEST(MonteCarlo, ProgramAndFilterFollowTheSameDrive)
   options.travel = 3;
   options.methods = {"signature", "mcl", "mcl-stock"};
   options.method.particles = 2000;
-  const auto first = runTrack(options).methods.front().runs.front().steps.front().claim.pose;
+  const auto first = runWakeups(options).methods.front().runs.front().steps.front().claim.pose;
   options.method.region =
       PoseRegion{first.x - 0.3, first.x + 0.3, first.y - 0.3, first.y + 0.3, first.phi, 0.2};
-  const TrackReport report = runTrack(options);
-  for (const TrackMethodReport& method : report.methods)
+  const WakeupReport report = runWakeups(options);
+  for (const WakeupMethodReport& method : report.methods)
   {
-    const TrackRun& run = method.runs.front();
+    const Wakeup& run = method.runs.front();
     EXPECT_EQ(run.steps.size(), report.methods.front().runs.front().steps.size()) << method.name;
     EXPECT_LT(run.steps.back().error.distance, 0.5) << method.name;
     EXPECT_TRUE(run.right_at_end) << method.name;

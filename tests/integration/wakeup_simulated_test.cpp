@@ -25,7 +25,7 @@ SimulatedTrackOptions smallOptions()
 }
 
 /// By value: a loop over a part of the report itself would outlive it.
-std::vector<TrackRun> runsOf(const SimulatedTrackOptions& options)
+std::vector<Wakeup> runsOf(const SimulatedTrackOptions& options)
 {
   return runSimulatedTrack(options).methods.front().runs;
 }
@@ -33,13 +33,13 @@ std::vector<TrackRun> runsOf(const SimulatedTrackOptions& options)
 TEST(SimulatedTrack, GivesTheSameStepsOnOneAndTwoThreads)
 {
   SimulatedTrackOptions options = smallOptions();
-  const TrackReport one = runSimulatedTrack(options);
+  const WakeupReport one = runSimulatedTrack(options);
   options.threads = 2;
-  const TrackReport two = runSimulatedTrack(options);
+  const WakeupReport two = runSimulatedTrack(options);
   for (std::size_t r = 0; r < options.drives; ++r)
   {
-    const TrackRun& a = one.methods.front().runs[r];
-    const TrackRun& b = two.methods.front().runs[r];
+    const Wakeup& a = one.methods.front().runs[r];
+    const Wakeup& b = two.methods.front().runs[r];
     EXPECT_EQ(a.group, b.group);
     ASSERT_EQ(a.steps.size(), b.steps.size());
     ASSERT_FALSE(a.steps.empty());
@@ -56,10 +56,10 @@ TEST(SimulatedTrack, VisitsAllKindsOfWorldsAndFindsTheRobot)
 {
   SimulatedTrackOptions options = smallOptions();
   options.travel = 12;
-  const TrackReport report = runSimulatedTrack(options);
+  const WakeupReport report = runSimulatedTrack(options);
   std::size_t right = 0;
   std::vector<std::string> groups;
-  for (const TrackRun& run : report.methods.front().runs)
+  for (const Wakeup& run : report.methods.front().runs)
   {
     right += run.right_at_end;
     if (std::find(groups.begin(), groups.end(), run.group) == groups.end())
@@ -76,10 +76,10 @@ TEST(SimulatedTrack, JudgesEveryClaimInAForeignMapWrong)
 {
   SimulatedTrackOptions options = smallOptions();
   options.foreign = true;
-  for (const TrackRun& run : runsOf(options))
+  for (const Wakeup& run : runsOf(options))
   {
     EXPECT_FALSE(run.right_at_end);
-    for (const TrackStepRecord& step : run.steps)
+    for (const WakeupStep& step : run.steps)
     {
       EXPECT_EQ(step.judged, step.claim.confident ? Claim::wrong : Claim::none);
     }
@@ -92,7 +92,7 @@ TEST(SimulatedTrack, TellsTheGatesThatClaimsAreJudgedBy)
   options.drives = 1;
   const test::TemporaryFolder folder;
   const test::HostLocale host;
-  writeTrackReport(runSimulatedTrack(options), folder.path());
+  writeWakeupReport(runSimulatedTrack(options), folder.path());
   const std::string text = test::readBytes(folder / "report.md");
   EXPECT_NE(text.find("confident and more than 0.5 m or 10 degrees off"), std::string::npos);
 }
@@ -102,8 +102,8 @@ TEST(SimulatedTrack, CarriesTheRobotToAnotherPlace)
   SimulatedTrackOptions options = smallOptions();
   options.drives = 1;
   options.kidnap = true;
-  const TrackReport report = runSimulatedTrack(options);
-  const TrackRun& run = report.methods.front().runs.front();
+  const WakeupReport report = runSimulatedTrack(options);
+  const Wakeup& run = report.methods.front().runs.front();
   ASSERT_GT(run.kidnapped_at, 0U);
   EXPECT_EQ(run.steps[run.kidnapped_at].step, 0U) << "the first step of the second drive";
   EXPECT_GE(run.steps.back().travelled, 1.9 * options.travel);
@@ -118,7 +118,7 @@ struct Outcome
 Outcome outcomeOf(const SimulatedTrackOptions& options)
 {
   Outcome outcome;
-  for (const TrackRun& run : runsOf(options))
+  for (const Wakeup& run : runsOf(options))
   {
     outcome.right += run.right_at_end;
     outcome.wrong += run.wrong_steps > 0;
@@ -201,9 +201,9 @@ Honesty honestyOf(const SimulatedTrackOptions& options)
 {
   Honesty honesty;
   std::size_t count = 0;
-  for (const TrackRun& run : runsOf(options))
+  for (const Wakeup& run : runsOf(options))
   {
-    for (const TrackStepRecord& step : run.steps)
+    for (const WakeupStep& step : run.steps)
     {
       if (step.judged != Claim::right) continue;
       honesty.mean += step.nees;
@@ -246,9 +246,9 @@ TEST(SimulatedTrack, FindsAndFollowsRobotsThatSeeLandmarksOnly)
   options.drives = 20;
   options.drives_per_world = 5;
   options.kinds = {WorldKind::points};
-  const TrackReport report = runSimulatedTrack(options);
+  const WakeupReport report = runSimulatedTrack(options);
   std::size_t right = 0;
-  for (const TrackRun& run : report.methods.front().runs)
+  for (const Wakeup& run : report.methods.front().runs)
   {
     right += run.right_at_end;
     EXPECT_EQ(run.wrong_steps, 0U) << "drive " << run.start;

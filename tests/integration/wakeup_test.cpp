@@ -12,9 +12,9 @@ namespace sigloc
 {
 namespace
 {
-TrackStepRecord stepOf(double travelled, Claim judged, bool truth = true)
+WakeupStep stepOf(double travelled, Claim judged, bool truth = true)
 {
-  TrackStepRecord step;
+  WakeupStep step;
   step.travelled = travelled;
   step.seconds = 0.5 * travelled;
   step.judged = judged;
@@ -25,9 +25,9 @@ TrackStepRecord stepOf(double travelled, Claim judged, bool truth = true)
   return step;
 }
 
-TEST(TrackScoring, SettlesWhereItStaysConfidentToTheEnd)
+TEST(WakeupScoring, SettlesWhereItStaysConfidentToTheEnd)
 {
-  TrackRun run;
+  Wakeup run;
   run.steps = {stepOf(0, Claim::none), stepOf(1, Claim::wrong), stepOf(2, Claim::wrong),
                stepOf(3, Claim::none), stepOf(4, Claim::wrong), stepOf(5, Claim::right),
                stepOf(6, Claim::right)};
@@ -42,29 +42,29 @@ TEST(TrackScoring, SettlesWhereItStaysConfidentToTheEnd)
 }
 
 // A claim off the mapped land is wrong wherever it is, but it is another fault than one on it.
-TEST(TrackScoring, CountsWrongClaimsOffTheMappedLandApart)
+TEST(WakeupScoring, CountsWrongClaimsOffTheMappedLandApart)
 {
-  TrackRun run;
+  Wakeup run;
   run.steps = {stepOf(0, Claim::right), stepOf(1, Claim::wrong), stepOf(2, Claim::wrong)};
   run.steps.back().mapped = false;
   judgeRun(run);
   EXPECT_EQ(run.wrong_steps, 2U);
   EXPECT_EQ(run.wrong_mapped_steps, 1U);
 
-  TrackReport report;
+  WakeupReport report;
   report.methods.emplace_back();
   report.methods.back().name = "signature";
-  TrackRun& outside = report.methods.back().runs.emplace_back();
+  Wakeup& outside = report.methods.back().runs.emplace_back();
   outside.steps = run.steps;
   outside.steps[1].mapped = false;
   judgeRun(outside);
-  EXPECT_NE(trackTable(report).find("| 1          | 0              | 2 "), std::string::npos)
-      << trackTable(report);
+  EXPECT_NE(wakeupTable(report).find("| 1          | 0              | 2 "), std::string::npos)
+      << wakeupTable(report);
 }
 
-TEST(TrackScoring, LandThatIsNotMappedSettlesNothing)
+TEST(WakeupScoring, LandThatIsNotMappedSettlesNothing)
 {
-  TrackRun run;
+  Wakeup run;
   run.steps = {stepOf(0, Claim::none), stepOf(1, Claim::none), stepOf(2, Claim::none)};
   run.steps.back().mapped = false;
   judgeRun(run);
@@ -75,9 +75,9 @@ TEST(TrackScoring, LandThatIsNotMappedSettlesNothing)
   EXPECT_EQ(run.settled_after->metres, 3.0);
 }
 
-TEST(TrackScoring, ARunThatNeverSettlesCostsItsWholeTime)
+TEST(WakeupScoring, ARunThatNeverSettlesCostsItsWholeTime)
 {
-  TrackRun run;
+  Wakeup run;
   run.steps = {stepOf(0, Claim::right), stepOf(1, Claim::none)};
   judgeRun(run);
   EXPECT_FALSE(run.settled_after.has_value());
@@ -85,9 +85,9 @@ TEST(TrackScoring, ARunThatNeverSettlesCostsItsWholeTime)
   EXPECT_NEAR(run.cpu_to_settled, 0.2, 1e-12);
 }
 
-TEST(TrackScoring, TellsWhenAKidnappingIsNoticed)
+TEST(WakeupScoring, TellsWhenAKidnappingIsNoticed)
 {
-  TrackRun run;
+  Wakeup run;
   run.steps = {stepOf(0, Claim::right), stepOf(1, Claim::right), stepOf(1, Claim::wrong),
                stepOf(2, Claim::wrong), stepOf(3, Claim::none),  stepOf(5, Claim::right)};
   run.kidnapped_at = 2;
@@ -101,9 +101,9 @@ TEST(TrackScoring, TellsWhenAKidnappingIsNoticed)
   EXPECT_FALSE(isFailedRun(run) && run.wrong_steps == 0);
 }
 
-TEST(TrackScoring, WhoNeverNoticesAKidnappingNeverSettles)
+TEST(WakeupScoring, WhoNeverNoticesAKidnappingNeverSettles)
 {
-  TrackRun run;
+  Wakeup run;
   run.steps = {stepOf(0, Claim::right), stepOf(1, Claim::right), stepOf(1, Claim::wrong),
                stepOf(2, Claim::wrong)};
   run.kidnapped_at = 2;
@@ -112,9 +112,9 @@ TEST(TrackScoring, WhoNeverNoticesAKidnappingNeverSettles)
   EXPECT_TRUE(isFailedRun(run));
 }
 
-TEST(TrackScoring, WhoIsRightAtOnceHasNoticedAtOnce)
+TEST(WakeupScoring, WhoIsRightAtOnceHasNoticedAtOnce)
 {
-  TrackRun run;
+  Wakeup run;
   run.steps = {stepOf(0, Claim::right), stepOf(1, Claim::right), stepOf(1, Claim::right)};
   run.kidnapped_at = 2;
   judgeRun(run);
@@ -124,10 +124,10 @@ TEST(TrackScoring, WhoIsRightAtOnceHasNoticedAtOnce)
   EXPECT_FALSE(isFailedRun(run));
 }
 
-TrackOptions officeOptions()
+WakeupOptions officeOptions()
 {
   const std::filesystem::path source = SIGLOC_SOURCE_DIR;
-  TrackOptions options;
+  WakeupOptions options;
   options.map = source / "maps" / "office.simplemap";
   options.rawlog = source / "rawlogs" / "office.rawlog";
   options.ground_truth = source / "rawlogs" / "office-truth.txt";
@@ -139,14 +139,14 @@ TrackOptions officeOptions()
 
 TEST(Track, AsksNoPlaceTwice)
 {
-  TrackOptions options = officeOptions();
+  WakeupOptions options = officeOptions();
   options.methods = {"signature"};
   options.travel = 43;
   options.starts = 1000000;
   std::size_t places = 0;
   try
   {
-    runTrack(options);
+    runWakeups(options);
     FAIL() << "more starts than places";
   }
   catch (const std::runtime_error& error)
@@ -160,17 +160,17 @@ TEST(Track, AsksNoPlaceTwice)
   ASSERT_GE(places, 2U);
   options.starts = static_cast<std::uint32_t>(places);
   std::set<std::size_t> starts;
-  const TrackReport report = runTrack(options);
-  for (const TrackRun& run : report.methods.front().runs) starts.insert(run.start);
+  const WakeupReport report = runWakeups(options);
+  for (const Wakeup& run : report.methods.front().runs) starts.insert(run.start);
   EXPECT_EQ(starts.size(), places);
 }
 
 TEST(Track, GivesTheSameStepsOnOneAndTwoThreads)
 {
-  TrackOptions options = officeOptions();
-  const TrackReport one = runTrack(options);
+  WakeupOptions options = officeOptions();
+  const WakeupReport one = runWakeups(options);
   options.threads = 2;
-  const TrackReport two = runTrack(options);
+  const WakeupReport two = runWakeups(options);
   ASSERT_EQ(one.methods.size(), 2U);
   for (std::size_t m = 0; m < one.methods.size(); ++m)
   {
@@ -191,12 +191,12 @@ TEST(Track, GivesTheSameStepsOnOneAndTwoThreads)
 
 TEST(Track, FindsTheRobotOfTheOffice)
 {
-  TrackOptions options = officeOptions();
+  WakeupOptions options = officeOptions();
   options.methods = {"signature"};
   options.kidnap = true;
   options.travel = 5;
-  const TrackReport report = runTrack(options);
-  for (const TrackRun& run : report.methods.front().runs)
+  const WakeupReport report = runWakeups(options);
+  for (const Wakeup& run : report.methods.front().runs)
   {
     EXPECT_TRUE(run.right_at_end) << "woken up at step " << run.start;
     EXPECT_TRUE(run.noticed_after.has_value());
@@ -205,14 +205,14 @@ TEST(Track, FindsTheRobotOfTheOffice)
 
 TEST(Track, RunsParticleFiltersWithTheNumberAskedFor)
 {
-  TrackOptions options = officeOptions();
+  WakeupOptions options = officeOptions();
   options.methods = {"signature-mcl", "mcl"};
   options.starts = 1;
   options.method.particles = 200;
-  const TrackReport few = runTrack(options);
+  const WakeupReport few = runWakeups(options);
   EXPECT_TRUE(few.methods[0].runs.front().right_at_end) << "200 started by signatures do";
   options.method.particles = 4000;
-  const TrackReport more = runTrack(options);
+  const WakeupReport more = runWakeups(options);
   for (std::size_t m = 0; m < 2; ++m)
   {
     EXPECT_NE(few.methods[m].runs.front().steps.back().claim.pose,
@@ -222,21 +222,21 @@ TEST(Track, RunsParticleFiltersWithTheNumberAskedFor)
 
 TEST(Track, EveryClaimInAForeignMapIsWrong)
 {
-  TrackOptions options = officeOptions();
+  WakeupOptions options = officeOptions();
   options.methods = {"signature"};
   options.foreign = true;
   options.ground_truth.clear();
   options.travel = 5;
   options.keep_failures = 2;
   // The map is of the drive's own office, so that it is sure to claim something.
-  const TrackReport report = runTrack(options);
-  const TrackMethodReport& method = report.methods.front();
+  const WakeupReport report = runWakeups(options);
+  const WakeupMethodReport& method = report.methods.front();
   std::size_t claims = 0;
-  for (const TrackRun& run : method.runs)
+  for (const Wakeup& run : method.runs)
   {
     EXPECT_FALSE(run.right_at_end);
     EXPECT_GE(run.steps.back().travelled, 4.5) << "by the odometry";
-    for (const TrackStepRecord& step : run.steps)
+    for (const WakeupStep& step : run.steps)
     {
       EXPECT_EQ(step.judged, step.claim.confident ? Claim::wrong : Claim::none);
       claims += step.claim.confident;
@@ -250,22 +250,22 @@ TEST(Track, EveryClaimInAForeignMapIsWrong)
 
 TEST(Track, RefusesWhatIsNoKidnapping)
 {
-  TrackOptions options = officeOptions();
+  WakeupOptions options = officeOptions();
   options.kidnap = true;
   options.starts = 1;
-  EXPECT_THROW(runTrack(options), std::invalid_argument) << "to its own place";
+  EXPECT_THROW(runWakeups(options), std::invalid_argument) << "to its own place";
   options.starts = 2;
   options.foreign = true;
-  EXPECT_THROW(runTrack(options), std::invalid_argument) << "nothing to notice";
+  EXPECT_THROW(runWakeups(options), std::invalid_argument) << "nothing to notice";
 }
 
 TEST(Track, RefusesALogThatIsTooShort)
 {
-  TrackOptions options = officeOptions();
+  WakeupOptions options = officeOptions();
   options.travel = 1e6;
-  EXPECT_THROW(runTrack(options), std::runtime_error);
+  EXPECT_THROW(runWakeups(options), std::runtime_error);
   options.starts = 0;
-  EXPECT_THROW(runTrack(options), std::invalid_argument);
+  EXPECT_THROW(runWakeups(options), std::invalid_argument);
 }
 
 // Two steps that waited in a buffer were stamped when it was emptied: the truth of the next ones'
@@ -282,13 +282,13 @@ TEST(Track, StepsStampedBeforeEarlierOnesHaveNoTruth)
   test::writeText(folder / "truth.txt",
                   "100 0 0 0\n100.5 .2 0 0\n101.6 .4 0 0\n101.8 .6 0 0\n102.5 .8 0 0\n"
                   "103 1 0 0\n");
-  TrackOptions options = officeOptions();
+  WakeupOptions options = officeOptions();
   options.rawlog = folder / "log.rawlog";
   options.ground_truth = folder / "truth.txt";
   options.methods = {"signature"};
   options.starts = 1;
   options.travel = 0.9;
-  const TrackReport report = runTrack(options);
+  const WakeupReport report = runWakeups(options);
   const auto& steps = report.methods.front().runs.front().steps;
   ASSERT_GE(steps.size(), 7U);
   for (std::size_t i = 0; i < steps.size(); ++i)
@@ -299,13 +299,13 @@ TEST(Track, StepsStampedBeforeEarlierOnesHaveNoTruth)
 
 TEST(Track, NamesALandmarkLogThatItCannotRead)
 {
-  TrackOptions options;
+  WakeupOptions options;
   options.methods = {"signature"};
   options.landmarks = "no-such-set";
   options.landmark_folder = "/nowhere";
-  EXPECT_THROW(runTrack(options), std::invalid_argument);
+  EXPECT_THROW(runWakeups(options), std::invalid_argument);
   options.landmarks = "dlr";
-  EXPECT_THROW(runTrack(options), std::runtime_error);
+  EXPECT_THROW(runWakeups(options), std::runtime_error);
 }
 }  // namespace
 }  // namespace sigloc

@@ -173,13 +173,13 @@ TEST(FollowedLogOdds, FallsWithWhatTheMapDoesNotExplain)
   DenseEvidence foreign;
   foreign.coarse = 0.76;
   foreign.through_wall = 0.18;
-  EXPECT_GT(followedLogOdds(right), 1.5);
-  EXPECT_LT(followedLogOdds(foreign), -0.5);
-  double last = followedLogOdds(right);
+  EXPECT_GT(trackedLogOdds(right), 1.5);
+  EXPECT_LT(trackedLogOdds(foreign), -0.5);
+  double last = trackedLogOdds(right);
   for (int k = 0; k < 9; ++k)
   {
     right.coarse -= 0.1;
-    const double now = followedLogOdds(right);
+    const double now = trackedLogOdds(right);
     EXPECT_LT(now, last);
     last = now;
   }
@@ -192,7 +192,7 @@ TEST(FollowedLogOdds, WhatEndsInFreeSpaceSaysNothing)
   DenseEvidence hidden = clear;
   hidden.coarse = 0.58;
   hidden.in_free = 0.4;
-  EXPECT_NEAR(followedLogOdds(hidden), followedLogOdds(clear), 1e-12);
+  EXPECT_NEAR(trackedLogOdds(hidden), trackedLogOdds(clear), 1e-12);
 }
 
 TEST(FollowedLogOdds, UnknownLandSaysNothing)
@@ -202,10 +202,10 @@ TEST(FollowedLogOdds, UnknownLandSaysNothing)
   DenseEvidence half = known;
   half.coarse = 0.45;
   half.unknown = 0.5;
-  EXPECT_NEAR(followedLogOdds(half), 0.5 * followedLogOdds(known), 1e-12);
+  EXPECT_NEAR(trackedLogOdds(half), 0.5 * trackedLogOdds(known), 1e-12);
   DenseEvidence none;
   none.unknown = 1.0;
-  EXPECT_EQ(followedLogOdds(none), 0.0);
+  EXPECT_EQ(trackedLogOdds(none), 0.0);
 }
 }  // namespace
 }  // namespace sigloc

@@ -20,97 +20,98 @@ std::vector<float> allExplained(const DenseScan& scan, float share)
   return std::vector<float>(scan.size(), share);
 }
 
-TEST(GroundView, HasEveryCellOnceAndNoneForWhatIsIsolated)
+TEST(ObservedCells, HasEveryCellOnceAndNoneForWhatIsIsolated)
 {
   const DenseScan scan = wallAhead(4);
   for (const double heading : {0.0, 0.5 * M_PI, M_PI})
   {
-    const GroundView view = viewOf(scan, {7, -3, heading});
+    const ObservedCells view = observedCells(scan, {7, -3, heading});
     ASSERT_EQ(view.cell_of.size(), scan.size());
-    EXPECT_EQ(view.cell_of.back(), GroundView::kNowhere);
+    EXPECT_EQ(view.cell_of.back(), ObservedCells::kNowhere);
     for (std::size_t i = 0; i + 1 < scan.size(); ++i) EXPECT_LT(view.cell_of[i], view.cells.size());
     for (std::size_t k = 1; k < view.cells.size(); ++k)
     {
       EXPECT_LT(view.cells[k - 1], view.cells[k]);
     }
   }
-  EXPECT_EQ(viewOf(scan, {0, 0, 0}).cells.size(), 4U);
+  EXPECT_EQ(observedCells(scan, {0, 0, 0}).cells.size(), 4U);
 }
 
-TEST(GroundView, HoldsWhatIsFartherThanAnyRobotDrives)
+TEST(ObservedCells, HoldsWhatIsFartherThanAnyRobotDrives)
 {
   const DenseScan scan = wallAhead(4);
-  EXPECT_FALSE(viewOf(scan, {1e200, -1e200, 0}).cells.empty());
+  EXPECT_FALSE(observedCells(scan, {1e200, -1e200, 0}).cells.empty());
 }
 
-TEST(ExplainedStructure, CountsEachThingOnceHoweverOftenItIsSeen)
+TEST(CellEvidence, CountsEachThingOnceHoweverOftenItIsSeen)
 {
   const DenseScan scan = wallAhead(4);
-  const GroundView view = viewOf(scan, {0, 0, 0});
-  ExplainedStructure structure;
-  EXPECT_NEAR(structure.look(view, allExplained(scan, 0.25F), 0), 4 * 0.75, 1e-6);
+  const ObservedCells view = observedCells(scan, {0, 0, 0});
+  CellEvidence structure;
+  EXPECT_NEAR(structure.addScan(view, allExplained(scan, 0.25F), 0), 4 * 0.75, 1e-6);
   for (int k = 1; k < 50; ++k)
   {
-    EXPECT_NEAR(structure.look(view, allExplained(scan, 0.25F), 0.1 * k), 0, 1e-6);
+    EXPECT_NEAR(structure.addScan(view, allExplained(scan, 0.25F), 0.1 * k), 0, 1e-6);
   }
 }
 
-TEST(ExplainedStructure, ABetterLookTakesBackAndFewReturnsTellLittle)
+TEST(CellEvidence, ABetterLookTakesBackAndFewReturnsTellLittle)
 {
   const DenseScan scan = wallAhead(4);
-  const GroundView view = viewOf(scan, {0, 0, 0});
-  ExplainedStructure structure;
-  const double first = structure.look(view, allExplained(scan, 0), 0);
+  const ObservedCells view = observedCells(scan, {0, 0, 0});
+  CellEvidence structure;
+  const double first = structure.addScan(view, allExplained(scan, 0), 0);
   EXPECT_NEAR(first, 4, 1e-6);
-  EXPECT_NEAR(structure.look(view, allExplained(scan, 1), 1), -2, 1e-6);
+  EXPECT_NEAR(structure.addScan(view, allExplained(scan, 1), 1), -2, 1e-6);
 
   DenseScan single = wallAhead(1);
   for (auto* column : {&single.x, &single.y}) column->erase(column->begin(), column->begin() + 2);
   single.isolated.erase(single.isolated.begin(), single.isolated.begin() + 2);
-  ExplainedStructure other;
-  EXPECT_NEAR(other.look(viewOf(single, {0, 0, 0}), allExplained(single, 0), 0), 1.0 / 3.0, 1e-6);
+  CellEvidence other;
+  EXPECT_NEAR(other.addScan(observedCells(single, {0, 0, 0}), allExplained(single, 0), 0),
+              1.0 / 3.0, 1e-6);
 }
 
-TEST(ExplainedStructure, WhatWasSeenLongAgoIsNewsAgain)
+TEST(CellEvidence, WhatWasSeenLongAgoIsNewsAgain)
 {
   const DenseScan scan = wallAhead(4);
-  const GroundView view = viewOf(scan, {0, 0, 0});
+  const ObservedCells view = observedCells(scan, {0, 0, 0});
   for (const double start : {0.0, 100.0, -30.0})
   {
-    ExplainedStructure structure;
-    EXPECT_NEAR(structure.look(view, allExplained(scan, 0.5F), start), 2, 1e-6);
-    EXPECT_NEAR(structure.look(view, allExplained(scan, 0.5F), start + 9.9), 0, 1e-6);
-    EXPECT_NEAR(structure.look(view, allExplained(scan, 0.5F), start + 20.1), 2, 1e-6);
+    CellEvidence structure;
+    EXPECT_NEAR(structure.addScan(view, allExplained(scan, 0.5F), start), 2, 1e-6);
+    EXPECT_NEAR(structure.addScan(view, allExplained(scan, 0.5F), start + 9.9), 0, 1e-6);
+    EXPECT_NEAR(structure.addScan(view, allExplained(scan, 0.5F), start + 20.1), 2, 1e-6);
   }
 }
 
-TEST(ExplainedStructure, TellsTheShareOfAllItHasSeen)
+TEST(CellEvidence, TellsTheShareOfAllItHasSeen)
 {
   const DenseScan scan = wallAhead(4);
-  ExplainedStructure structure;
+  CellEvidence structure;
   EXPECT_EQ(structure.unexplainedShare(), 0);
-  structure.look(viewOf(scan, {0, 0, 0}), allExplained(scan, 1), 0);
+  structure.addScan(observedCells(scan, {0, 0, 0}), allExplained(scan, 1), 0);
   EXPECT_NEAR(structure.unexplainedShare(), 0, 1e-6);
-  structure.look(viewOf(scan, {50, 0, 0}), allExplained(scan, 0), 5);
+  structure.addScan(observedCells(scan, {50, 0, 0}), allExplained(scan, 0), 5);
   EXPECT_NEAR(structure.unexplainedShare(), 0.5, 1e-6);
-  structure.look(viewOf(scan, {50, 0, 0}), allExplained(scan, 0), 6);
+  structure.addScan(observedCells(scan, {50, 0, 0}), allExplained(scan, 0), 6);
   EXPECT_NEAR(structure.unexplainedShare(), 0.5, 1e-6) << "seen before";
-  structure.look(viewOf(scan, {50, 0, 0}), allExplained(scan, 0), 30);
+  structure.addScan(observedCells(scan, {50, 0, 0}), allExplained(scan, 0), 30);
   EXPECT_NEAR(structure.unexplained(), 8, 1e-6) << "what was long ago is news again, ...";
   EXPECT_NEAR(structure.unexplainedShare(), 8.0 / 12.0, 1e-6)
       << "and what was seen then still counts";
 }
 
-TEST(ExplainedStructure, TheShareStaysOneWhenCountedAnew)
+TEST(CellEvidence, TheShareStaysOneWhenCountedAnew)
 {
   // What was seen before and now looks better, or worse, is no cell more.
   const DenseScan scan = wallAhead(4);
   for (const float first : {0.0F, 1.0F})
   {
-    ExplainedStructure structure;
-    structure.look(viewOf(scan, {0, 0, 0}), allExplained(scan, first), 0);
+    CellEvidence structure;
+    structure.addScan(observedCells(scan, {0, 0, 0}), allExplained(scan, first), 0);
     structure.countAnew();
-    structure.look(viewOf(scan, {0.5, 0, 0}), allExplained(scan, 1 - first), 1);
+    structure.addScan(observedCells(scan, {0.5, 0, 0}), allExplained(scan, 1 - first), 1);
     EXPECT_GE(structure.unexplainedShare(), 0);
     EXPECT_LE(structure.unexplainedShare(), 1);
   }

@@ -64,7 +64,7 @@ std::uint32_t factsOf(int sides)
   const ObservedScene scene = sceneOf(sides);
   RankedPose here;
   here.evidence = verifier.evaluate(makeDenseScan(scene, 400), here.pose);
-  return candidatesOf({here}, verifier, scene).front().facts;
+  return candidatesOf({here}, verifier, scene).front().explained_constraints;
 }
 
 std::ptrdiff_t segmentsOf(int sides)

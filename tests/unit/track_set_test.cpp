@@ -24,7 +24,8 @@ Track newcomer(double weight, double score, double unexplained_cells)
   track.hypothesis.weight = weight;
   track.score = score;
   const auto share = static_cast<float>(1.0 - unexplained_cells / static_cast<double>(kCells));
-  track.explained.look(viewOf(scan, {0, 0, 0}), std::vector<float>(scan.size(), share), 0);
+  track.explained.addScan(observedCells(scan, {0, 0, 0}), std::vector<float>(scan.size(), share),
+                          0);
   return track;
 }
 
@@ -112,9 +113,9 @@ TEST(TrackSetStanding, TheFirstIsContestedByTheSecond)
   TrackSet set = setOf({newcomer(0.9, 1, 0), newcomer(0.09, 1, 0), newcomer(0.01, 1, 0)});
   for (Track& track : set.tracks) track.misfit = 0;
   set.tracks[1].confirmed = set.tracks[2].confirmed = -1;
-  EXPECT_EQ(set.standing(), set.tracks[0].standing({0.09}));
+  EXPECT_EQ(set.claimLogOdds(), set.tracks[0].claimLogOdds({0.09}));
   set.tracks.resize(1);
-  EXPECT_EQ(set.standing(), set.tracks[0].standing({}));
+  EXPECT_EQ(set.claimLogOdds(), set.tracks[0].claimLogOdds({}));
 }
 
 TEST(TrackSetStanding, KnowsHowFarTheRobotSeesAndHowMuchFits)
@@ -132,22 +133,22 @@ TEST(TrackSetStanding, KnowsHowFarTheRobotSeesAndHowMuchFits)
     return set.circumstances();
   };
   constexpr double kMedian = 4.06;  // of the ranges to the walls of the room
-  EXPECT_NEAR(after(0, 0).range, kMedian, 0.02) << "the first look tells at once";
-  const Circumstances at_first = after(0, 1e3);
+  EXPECT_NEAR(after(0, 0).range, kMedian, 0.02) << "the first addScan tells at once";
+  const ClaimContext at_first = after(0, 1e3);
   EXPECT_NEAR(at_first.range, kMedian, 0.02);
   EXPECT_NEAR(at_first.unexplained, 1 - set.tracks[0].score, 1e-6);
-  const Circumstances at_once = after(10, 1e-6);
+  const ClaimContext at_once = after(10, 1e-6);
   EXPECT_NEAR(at_once.range, at_first.range, 1e-5);
   EXPECT_NEAR(at_once.unexplained, at_first.unexplained, 1e-5);
-  const Circumstances later = after(10, 10);
+  const ClaimContext later = after(10, 10);
   EXPECT_NEAR(later.range, kMedian - 2 * (1 - std::exp(-1.0)), 0.02);
   EXPECT_GT(later.unexplained, 0.5);
-  EXPECT_EQ(set.standing(), set.tracks[0].standing(later));
+  EXPECT_EQ(set.claimLogOdds(), set.tracks[0].claimLogOdds(later));
 }
 
 TEST(WeighFirstLook, TheMilderOfScoreAndGroundCounts)
 {
-  // Behind by score 9 : 1, by ground hardly; behind by both, by the ground less; by both, more.
+  // Behind by score 9 : 1, by ground hardly; deficit by both, by the ground less; by both, more.
   TrackSet set = setOf({newcomer(0.81, 1, 0), newcomer(0.09, 0.9, 0.2), newcomer(0.09, 0.9, 0.5),
                         newcomer(0.01, 0.8, 6)});
   set.weighFirstLook();
@@ -166,8 +167,8 @@ TEST(WeighFirstLook, RemembersWhatTheOtherJudgeSaid)
   TrackSet set = setOf({newcomer(0.5, 1, 0), newcomer(0.5, 1, 4)});
   set.weighFirstLook();
   EXPECT_NEAR(set.tracks[1].hypothesis.weight, 0.5, 1e-9);
-  EXPECT_NEAR(set.tracks[1].behind.by_score, 0, 1e-9);
-  EXPECT_NEAR(set.tracks[1].behind.by_ground, -4 * set.costOfUnexplained(), 1e-5);
+  EXPECT_NEAR(set.tracks[1].deficit.by_score, 0, 1e-9);
+  EXPECT_NEAR(set.tracks[1].deficit.by_cells, -4 * set.costOfUnexplained(), 1e-5);
 }
 
 TEST(WeighFirstLook, LeavesTracksAloneThatAreOlder)
@@ -177,7 +178,7 @@ TEST(WeighFirstLook, LeavesTracksAloneThatAreOlder)
   const double cost = set.costOfUnexplained();
   set.weighFirstLook();
   EXPECT_EQ(set.tracks[0].hypothesis.weight, 0.6);
-  EXPECT_EQ(set.tracks[0].behind.by_ground, 0);
+  EXPECT_EQ(set.tracks[0].deficit.by_cells, 0);
   EXPECT_NEAR(set.tracks[1].hypothesis.weight + set.tracks[2].hypothesis.weight, 0.4, 1e-9);
   EXPECT_EQ(set.costOfUnexplained(), cost) << "what the place has changed is told by older tracks";
 }

@@ -48,7 +48,8 @@ struct Candidate
   double explained = 0;  ///< share of the returns that end on mapped structure
   double through_wall = 0;  ///< share of the beams that pass through mapped walls
   double in_free = 0;  ///< share of the returns that end in known free space
-  std::uint32_t facts = 0;  ///< what the map explains of the features seen; 0 far behind the first
+  std::uint32_t explained_constraints =
+      0;  ///< what the map explains of the features seen; 0 far behind the first
   std::vector<FeaturePairing> pairings;
 };
 

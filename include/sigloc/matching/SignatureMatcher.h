@@ -24,7 +24,7 @@ enum class GenerationMode : std::uint8_t
   anchors = 2,  ///< (b) sampled anchors and partners
   pairs = 3,  ///< (c) pair index
   patterns = 4,  ///< (d) larger patterns
-  bases = 5,  ///< (e) small bases judged by the dense field
+  minimal_sets = 5,  ///< (e) small bases judged by the dense field
 };
 
 struct MatcherOptions
@@ -50,7 +50,7 @@ struct MatcherOptions
   }
 };
 
-class BaseProposer;
+class PoseProposer;
 class DenseVerifier;
 class FeatureHypothesisGenerator;
 class FeatureVerifier;
@@ -105,8 +105,9 @@ class SignatureMatcher
   Judged judge(const DenseScan& scan, std::vector<PoseProposal> proposals,
                const std::optional<PoseRegion>& region, MatchingCounters& counters,
                Judged before) const;
-  Judged judgeBases(const ObservedScene& scene, const DenseScan& scan,
-                    const std::optional<PoseRegion>& region, MatchingCounters& counters) const;
+  Judged judgeMinimalSets(const ObservedScene& scene, const DenseScan& scan,
+                          const std::optional<PoseRegion>& region,
+                          MatchingCounters& counters) const;
   /// `hypotheses` that the proposals came from; none where proposals are nearly complete.
   void concludeDensely(const ObservedScene& scene, const DenseScan& scan, const Judged& judged,
                        const std::vector<FeatureHypothesis>& hypotheses,
@@ -115,7 +116,7 @@ class SignatureMatcher
   std::shared_ptr<const FeatureMap> map_;
   MatcherOptions options_;
   std::unique_ptr<const DenseVerifier> verifier_;
-  std::unique_ptr<const BaseProposer> proposer_;  // mode (e)
+  std::unique_ptr<const PoseProposer> proposer_;  // mode (e)
   std::shared_ptr<const FeatureVerifier> feature_verifier_;  // of modes (a) to (d)
   std::unique_ptr<const FeatureHypothesisGenerator> generator_;  // modes (a) to (d)
 };

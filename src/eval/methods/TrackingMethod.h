@@ -16,7 +16,7 @@
 namespace sigloc
 {
 /// What a method claims after a step. Plain data: worker processes send it as bytes.
-struct TrackClaim
+struct TrackingClaim
 {
   static constexpr std::size_t kWeights = 4;
 
@@ -32,16 +32,16 @@ struct TrackClaim
 };
 
 /// The claimed pose with its covariance, zero where the claim has none.
-GaussianPose poseOf(const TrackClaim& claim);
+GaussianPose poseOf(const TrackingClaim& claim);
 
 /// Returns the squared Mahalanobis distance of a claimed pose, heading wrapped, from the truth
 /// (3 degrees of freedom); NaN where the claim has no covariance.
-double squaredNormalisedError(const TrackClaim& claim, const mrpt::math::TPose2D& truth);
+double squaredNormalisedError(const TrackingClaim& claim, const mrpt::math::TPose2D& truth);
 
 /// A claim and what it took, one thread.
 struct TimedClaim
 {
-  TrackClaim claim;
+  TrackingClaim claim;
   double time_ms = 0;
 };
 
@@ -58,7 +58,7 @@ class TrackingMethod
 class SteppedTracking : public TrackingMethod
 {
  public:
-  virtual TrackClaim step(const RawlogStep& step) = 0;
+  virtual TrackingClaim step(const RawlogStep& step) = 0;
   /// Times are CPU times.
   std::vector<TimedClaim> drive(const std::vector<RawlogStep>& steps) final;
 };

@@ -120,7 +120,7 @@ class LatticeRelocation : public RelocationMethod
     result.candidates =
         candidatesOf(verifier_.rank(scan, proposals_, kMaxRanked, result.counters.poses_scored),
                      verifier_, scene);
-    result.view = viewOf(scene);
+    result.view = angularCoverage(scene);
     weighCandidates(result);
     return result;
   }
@@ -246,7 +246,7 @@ const std::vector<MethodEntry>& methodTable()
       entry<SignatureRelocation>("signature-anchors", GenerationMode::anchors),
       entry<SignatureRelocation>("signature-pairs", GenerationMode::pairs),
       entry<SignatureRelocation>("signature-patterns", GenerationMode::patterns),
-      entry<SignatureRelocation>("signature-bases", GenerationMode::bases),
+      entry<SignatureRelocation>("signature-bases", GenerationMode::minimal_sets),
       entry<DenseRelocation>("exhaustive", false),
       entry<DenseRelocation>("branch-and-bound", true),
       entry<LatticeRelocation>("lattice"),

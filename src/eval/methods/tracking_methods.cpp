@@ -15,15 +15,15 @@ namespace sigloc
 {
 namespace
 {
-TrackClaim claimOf(const Belief& belief)
+TrackingClaim claimOf(const Belief& belief)
 {
-  TrackClaim claim;
+  TrackingClaim claim;
   claim.confident = belief.verdict == Verdict::localized;
   claim.belief = true;
   claim.verdict = belief.verdict;
   claim.hypotheses = static_cast<std::uint32_t>(belief.hypotheses.size());
   claim.elsewhere = belief.elsewhere;
-  for (std::size_t i = 0; i < std::min(belief.hypotheses.size(), TrackClaim::kWeights); ++i)
+  for (std::size_t i = 0; i < std::min(belief.hypotheses.size(), TrackingClaim::kWeights); ++i)
   {
     claim.weights[i] = belief.hypotheses[i].weight;
   }
@@ -51,7 +51,7 @@ class SignatureTracking : public SteppedTracking
     tracker_.reset(region);
   }
 
-  TrackClaim step(const RawlogStep& step) override
+  TrackingClaim step(const RawlogStep& step) override
   {
     ObservedScene scene = observeScene(step.scans);
     scene.features.insert(scene.features.end(), step.landmarks.begin(), step.landmarks.end());
@@ -75,7 +75,7 @@ class ParticleTracking : public SteppedTracking
     tracker_.reset(region);
   }
 
-  TrackClaim step(const RawlogStep& step) override { return claimOf(tracker_.step(step)); }
+  TrackingClaim step(const RawlogStep& step) override { return claimOf(tracker_.step(step)); }
 
  private:
   ParticleTracker tracker_;
@@ -141,7 +141,7 @@ void checkTrackingMethods(const std::vector<std::string>& names)
   checkMethodNames(names, trackingMethodNames());
 }
 
-GaussianPose poseOf(const TrackClaim& claim)
+GaussianPose poseOf(const TrackingClaim& claim)
 {
   GaussianPose pose;
   pose.mean = claim.pose;
@@ -155,7 +155,7 @@ GaussianPose poseOf(const TrackClaim& claim)
   return pose;
 }
 
-double squaredNormalisedError(const TrackClaim& claim, const mrpt::math::TPose2D& truth)
+double squaredNormalisedError(const TrackingClaim& claim, const mrpt::math::TPose2D& truth)
 {
   if (!claim.belief || !claim.has_pose) return std::numeric_limits<double>::quiet_NaN();
   return squaredMahalanobisDistance(poseOf(claim), {truth, {}});

@@ -77,7 +77,7 @@ struct LandmarksRow
 struct LandmarksReport
 {
   std::string dataset;
-  MapFacts map;
+  MapStatistics map;
   std::vector<LandmarkRecord> records;
   std::vector<LandmarksRow> rows;
   std::vector<FailedQuery> failures;  ///< the first ones: firm and wrong, or not right

@@ -41,7 +41,7 @@ struct RelocateMethodReport
 struct RelocateReport
 {
   std::vector<RelocateMethodReport> methods;
-  MapFacts map;
+  MapStatistics map;
   std::size_t without_truth = 0;
   bool complete = true;
   bool foreign = false;

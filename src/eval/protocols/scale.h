@@ -79,7 +79,7 @@ struct ScaleReport
 {
   std::string where;  ///< added to titles
   std::vector<ScaleRow> rows;
-  MapFacts map;  ///< the simulated worlds, or the log's whole map
+  MapStatistics map;  ///< the simulated worlds, or the log's whole map
   Provenance provenance;
 };
 

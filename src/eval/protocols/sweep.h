@@ -56,7 +56,7 @@ struct SweepReport
   std::string over;
   std::string label;  ///< of the swept axis
   std::vector<SweepRow> rows;  ///< by value, then by method, as they were asked for
-  MapFacts map;  ///< none where runs were merged
+  MapStatistics map;  ///< none where runs were merged
   double peak_rss_mb = 0;
   Provenance provenance;
 };

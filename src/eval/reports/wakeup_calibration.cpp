@@ -20,8 +20,7 @@ constexpr double kEllipse = 7.815;  // chi-square, 3 degrees of freedom, 95 %
 
 /// Counts the steps for which `inside` holds, and their unbroken stretches, right or wrong.
 template <class Inside>
-void countInto(CalibrationBin& bin, const TrackRun& run, const AccuracyGates& gates,
-               Inside&& inside)
+void countInto(CalibrationBin& bin, const Wakeup& run, const AccuracyGates& gates, Inside&& inside)
 {
   bool open = false;
   bool open_wrong = false;
@@ -32,7 +31,7 @@ void countInto(CalibrationBin& bin, const TrackRun& run, const AccuracyGates& ga
     bin.wrong_episodes.count += open_wrong;
     open = open_wrong = false;
   };
-  for (const TrackStepRecord& step : run.steps)
+  for (const WakeupStep& step : run.steps)
   {
     if (!inside(step))
     {
@@ -57,20 +56,20 @@ std::string percent(const Proportion& p)
 }
 }  // namespace
 
-SelfKnowledge selfKnowledgeOf(const TrackMethodReport& method, const AccuracyGates& gates)
+SelfKnowledge selfKnowledgeOf(const WakeupMethodReport& method, const AccuracyGates& gates)
 {
   SelfKnowledge knowledge;
   const bool tells = std::any_of(method.runs.begin(), method.runs.end(),
-                                 [](const TrackRun& run)
+                                 [](const Wakeup& run)
                                  { return !run.steps.empty() && run.steps.front().claim.belief; });
   if (!tells) return knowledge;
   for (std::size_t b = 0; b + 1 < kBinBorders.size(); ++b)
   {
     CalibrationBin bin{kBinBorders[b], kBinBorders[b + 1], {}, {}};
-    for (const TrackRun& run : method.runs)
+    for (const Wakeup& run : method.runs)
     {
       countInto(bin, run, gates,
-                [&](const TrackStepRecord& s)
+                [&](const WakeupStep& s)
                 {
                   const double weight = s.claim.weights.front();
                   return !s.claim.confident && weight >= bin.low && weight < bin.high;
@@ -80,10 +79,10 @@ SelfKnowledge selfKnowledgeOf(const TrackMethodReport& method, const AccuracyGat
   }
   CalibrationBin claims{0.99, 1, {}, {}};
   std::vector<double> nees;
-  for (const TrackRun& run : method.runs)
+  for (const Wakeup& run : method.runs)
   {
-    countInto(claims, run, gates, [](const TrackStepRecord& s) { return s.claim.confident; });
-    for (const TrackStepRecord& s : run.steps)
+    countInto(claims, run, gates, [](const WakeupStep& s) { return s.claim.confident; });
+    for (const WakeupStep& s : run.steps)
     {
       if (s.judged != Claim::right || std::isnan(s.nees)) continue;
       nees.push_back(s.nees);
@@ -139,7 +138,7 @@ std::string toMarkdown(const SelfKnowledge& knowledge)
          "; in the 95 % ellipse: " + percent(knowledge.in_ellipse) + " %\n";
 }
 
-std::vector<std::pair<std::string, Plot>> beliefPlots(const TrackMethodReport& method)
+std::vector<std::pair<std::string, Plot>> beliefPlots(const WakeupMethodReport& method)
 {
   constexpr double kBin = 0.5;  // [m]
   constexpr std::size_t kRunsDrawn = 6;
@@ -151,9 +150,9 @@ std::vector<std::pair<std::string, Plot>> beliefPlots(const TrackMethodReport& m
                false,
                {}};
   std::map<int, std::vector<double>> alive;
-  for (const TrackRun& run : method.runs)
+  for (const Wakeup& run : method.runs)
   {
-    for (const TrackStepRecord& step : run.steps)
+    for (const WakeupStep& step : run.steps)
     {
       if (!step.claim.belief) return {};
       alive[static_cast<int>(step.travelled / kBin)].push_back(step.claim.hypotheses);
@@ -172,12 +171,12 @@ std::vector<std::pair<std::string, Plot>> beliefPlots(const TrackMethodReport& m
   count.series = {mean, p95};
   for (const std::size_t r : evenlySpaced(method.runs.size(), kRunsDrawn))
   {
-    const TrackRun& run = method.runs[r];
+    const Wakeup& run = method.runs[r];
     PlotSeries first;
     first.title = "start " + std::to_string(run.start);
     PlotSeries second;
     second.title = "its rival";
-    for (const TrackStepRecord& step : run.steps)
+    for (const WakeupStep& step : run.steps)
     {
       first.points.emplace_back(step.travelled, step.claim.weights[0]);
       second.points.emplace_back(step.travelled, step.claim.weights[1]);

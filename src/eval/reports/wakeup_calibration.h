@@ -31,7 +31,7 @@ struct SelfKnowledge
 };
 
 /// Empty bins for a method that tells no weights.
-SelfKnowledge selfKnowledgeOf(const TrackMethodReport& method, const AccuracyGates& gates);
+SelfKnowledge selfKnowledgeOf(const WakeupMethodReport& method, const AccuracyGates& gates);
 
 nlohmann::ordered_json toJson(const SelfKnowledge& knowledge);
 
@@ -40,5 +40,5 @@ std::string toMarkdown(const SelfKnowledge& knowledge);
 
 /// How many hypotheses live against the distance driven, and the weights of the two heaviest of
 /// some runs, as plots with their file names; none for a method that tells no weights.
-std::vector<std::pair<std::string, Plot>> beliefPlots(const TrackMethodReport& method);
+std::vector<std::pair<std::string, Plot>> beliefPlots(const WakeupMethodReport& method);
 }  // namespace sigloc::detail

@@ -54,7 +54,7 @@ std::string definitions(const AccuracyGates& gates)
   return text.str();
 }
 
-struct TrackSummary
+struct WakeupSummary
 {
   std::size_t runs = 0;
   std::size_t wrong_runs = 0;
@@ -74,11 +74,11 @@ struct TrackSummary
 };
 
 /// Of the metres and of the seconds; those of logs without times are NaN.
-std::pair<Quantiles, Quantiles> quantilesOfEvents(const std::vector<TrackEvent>& events)
+std::pair<Quantiles, Quantiles> quantilesOfEvents(const std::vector<WakeupEvent>& events)
 {
   std::vector<double> metres;
   std::vector<double> seconds;
-  for (const TrackEvent& event : events)
+  for (const WakeupEvent& event : events)
   {
     metres.push_back(event.metres);
     if (!std::isnan(event.seconds)) seconds.push_back(event.seconds);
@@ -87,14 +87,14 @@ std::pair<Quantiles, Quantiles> quantilesOfEvents(const std::vector<TrackEvent>&
 }
 
 /// Of all runs, or of those of one group.
-TrackSummary summarizeRuns(const TrackMethodReport& method, const std::string& group = {})
+WakeupSummary summarizeRuns(const WakeupMethodReport& method, const std::string& group = {})
 {
-  TrackSummary s;
-  std::vector<TrackEvent> settled;
-  std::vector<TrackEvent> noticed;
+  WakeupSummary s;
+  std::vector<WakeupEvent> settled;
+  std::vector<WakeupEvent> noticed;
   std::vector<double> cpu;
   std::vector<double> times;
-  for (const TrackRun& run : method.runs)
+  for (const Wakeup& run : method.runs)
   {
     if (!group.empty() && run.group != group) continue;
     ++s.runs;
@@ -121,7 +121,7 @@ TrackSummary summarizeRuns(const TrackMethodReport& method, const std::string& g
       }
     }
     cpu.push_back(run.cpu_to_settled);
-    for (const TrackStepRecord& step : run.steps) times.push_back(step.time_ms);
+    for (const WakeupStep& step : run.steps) times.push_back(step.time_ms);
   }
   std::tie(s.distance_to_settled, s.seconds_to_settled) = quantilesOfEvents(settled);
   std::tie(s.distance_to_noticed, s.seconds_to_noticed) = quantilesOfEvents(noticed);
@@ -131,10 +131,10 @@ TrackSummary summarizeRuns(const TrackMethodReport& method, const std::string& g
 }
 
 /// Names of the groups that the runs belong to, if any.
-std::set<std::string> groupsOf(const TrackMethodReport& method)
+std::set<std::string> groupsOf(const WakeupMethodReport& method)
 {
   std::set<std::string> groups;
-  for (const TrackRun& run : method.runs)
+  for (const Wakeup& run : method.runs)
   {
     if (!run.group.empty()) groups.insert(run.group);
   }
@@ -142,7 +142,7 @@ std::set<std::string> groupsOf(const TrackMethodReport& method)
 }
 
 /// What every sub-command's summary tells, of runs instead of queries: see definitions.
-RelocationSummary endSummary(const TrackMethodReport& method, const TrackSummary& runs,
+RelocationSummary endSummary(const WakeupMethodReport& method, const WakeupSummary& runs,
                              const AccuracyGates& gates)
 {
   RelocationSummary s;
@@ -152,11 +152,11 @@ RelocationSummary endSummary(const TrackMethodReport& method, const TrackSummary
   s.claims_verdict = true;
   s.confidently_wrong = runs.wrong_runs;
   s.time_ms = runs.step_ms;
-  for (const TrackRun& run : method.runs)
+  for (const Wakeup& run : method.runs)
   {
     s.saw_nothing += std::all_of(run.steps.begin(), run.steps.end(),
-                                 [](const TrackStepRecord& step) { return step.saw_nothing; });
-    const TrackStepRecord& last = run.steps[judgedStep(run).value_or(run.steps.size() - 1)];
+                                 [](const WakeupStep& step) { return step.saw_nothing; });
+    const WakeupStep& last = run.steps[judgedStep(run).value_or(run.steps.size() - 1)];
     s.confident += last.claim.confident;
     s.confident_right += last.judged == Claim::right;
     s.inaccurate += last.judged == Claim::inaccurate;
@@ -176,9 +176,9 @@ RelocationSummary endSummary(const TrackMethodReport& method, const TrackSummary
   return s;
 }
 
-nlohmann::ordered_json methodJson(const TrackMethodReport& method, const AccuracyGates& gates)
+nlohmann::ordered_json methodJson(const WakeupMethodReport& method, const AccuracyGates& gates)
 {
-  const TrackSummary s = summarizeRuns(method);
+  const WakeupSummary s = summarizeRuns(method);
   nlohmann::ordered_json json = toJson(endSummary(method, s, gates));
   json["steps"] = s.steps;
   json["confidently_wrong_mapped"] = s.wrong_mapped_runs;
@@ -197,7 +197,7 @@ nlohmann::ordered_json methodJson(const TrackMethodReport& method, const Accurac
   json["calibration"] = detail::toJson(detail::selfKnowledgeOf(method, gates));
   for (const std::string& group : groupsOf(method))
   {
-    const TrackSummary part = summarizeRuns(method, group);
+    const WakeupSummary part = summarizeRuns(method, group);
     nlohmann::ordered_json& of_group = json["groups"][group];
     of_group["queries"] = part.runs;
     of_group["confidently_wrong"] = part.wrong_runs;
@@ -207,19 +207,19 @@ nlohmann::ordered_json methodJson(const TrackMethodReport& method, const Accurac
   return json;
 }
 
-std::string resultsCsv(const TrackReport& report)
+std::string resultsCsv(const WakeupReport& report)
 {
   TextStream csv;
   csv << "method,start,step,travelled_m,seconds,kidnapped,confident,x,y,phi,error_m,error_deg,"
          "claim,"
          "verdict,hypotheses,weight,second_weight,elsewhere,nees,mapped,time_ms\n";
-  for (const TrackMethodReport& method : report.methods)
+  for (const WakeupMethodReport& method : report.methods)
   {
-    for (const TrackRun& run : method.runs)
+    for (const Wakeup& run : method.runs)
     {
       for (std::size_t i = 0; i < run.steps.size(); ++i)
       {
-        const TrackStepRecord& r = run.steps[i];
+        const WakeupStep& r = run.steps[i];
         const bool kidnapped = run.kidnapped_at > 0 && i >= run.kidnapped_at;
         csv << method.name << "," << run.start << "," << r.step << ","
             << fixedNumber(r.travelled, 3) << "," << fixedNumber(r.seconds, 3) << "," << kidnapped
@@ -252,20 +252,20 @@ std::string resultsCsv(const TrackReport& report)
   return csv.str();
 }
 
-std::string eventCells(const std::optional<TrackEvent>& event)
+std::string eventCells(const std::optional<WakeupEvent>& event)
 {
   return event ? fixedNumber(event->metres, 3) + "," + fixedNumber(event->seconds, 3) : ",";
 }
 
 /// One row a run.
-std::string runsCsv(const TrackReport& report)
+std::string runsCsv(const WakeupReport& report)
 {
   TextStream csv;
   csv << "method,start,group,steps,right_at_end,settled_after_m,settled_after_s,wrong_steps,"
          "wrong_episodes,noticed_after_m,noticed_after_s\n";
-  for (const TrackMethodReport& method : report.methods)
+  for (const WakeupMethodReport& method : report.methods)
   {
-    for (const TrackRun& run : method.runs)
+    for (const Wakeup& run : method.runs)
     {
       csv << method.name << "," << run.start << "," << run.group << "," << run.steps.size() << ","
           << run.right_at_end << "," << eventCells(run.settled_after) << "," << run.wrong_steps
@@ -275,15 +275,15 @@ std::string runsCsv(const TrackReport& report)
   return csv.str();
 }
 
-std::vector<std::pair<std::string, Plot>> plotsOf(const TrackReport& report)
+std::vector<std::pair<std::string, Plot>> plotsOf(const WakeupReport& report)
 {
   Plot settled{"Distance driven until settled", "distance [m]", "share of runs", false, false, {}};
   Plot cpu{"CPU time until settled", "time [s]", "share of runs", true, false, {}};
-  for (const TrackMethodReport& method : report.methods)
+  for (const WakeupMethodReport& method : report.methods)
   {
     std::vector<double> distances;
     std::vector<double> seconds;
-    for (const TrackRun& run : method.runs)
+    for (const Wakeup& run : method.runs)
     {
       if (!run.settled_after) continue;
       distances.push_back(run.settled_after->metres);
@@ -293,21 +293,21 @@ std::vector<std::pair<std::string, Plot>> plotsOf(const TrackReport& report)
     cpu.series.push_back(cumulativeShare(method.name, seconds, method.runs.size()));
   }
   std::vector<std::pair<std::string, Plot>> plots = {{"settled.png", settled}, {"cpu.png", cpu}};
-  for (const TrackMethodReport& method : report.methods)
+  for (const WakeupMethodReport& method : report.methods)
   {
     for (auto& plot : detail::beliefPlots(method)) plots.push_back(std::move(plot));
   }
   return plots;
 }
 /// What came after a kidnapping; empty without one.
-std::string kidnappingTable(const TrackReport& report)
+std::string kidnappingTable(const WakeupReport& report)
 {
   std::vector<std::vector<std::string>> rows = {{"after the kidnapping", "noticed", "m", "p95", "s",
                                                  "p95", "settled again", "m", "p95", "s", "p95",
                                                  "CPU s", "p95"}};
-  for (const TrackMethodReport& method : report.methods)
+  for (const WakeupMethodReport& method : report.methods)
   {
-    const TrackSummary s = summarizeRuns(method);
+    const WakeupSummary s = summarizeRuns(method);
     if (s.noticed.cases == 0) continue;
     std::vector<std::string> row = {method.name, withInterval(s.noticed)};
     const auto add = [&](const Quantiles& quantiles, int decimals)
@@ -327,12 +327,12 @@ std::string kidnappingTable(const TrackReport& report)
 }
 }  // namespace
 
-std::string trackTable(const TrackReport& report)
+std::string wakeupTable(const WakeupReport& report)
 {
   std::vector<std::vector<std::string>> rows = {
       {"method", "runs", "right at end", "settled", "wrong runs", "of them mapped", "wrong steps",
        "episodes", "m to settle", "p95", "CPU s to settle", "p95", "step ms", "p95", "noticed"}};
-  const auto add = [&](const std::string& name, const TrackSummary& s)
+  const auto add = [&](const std::string& name, const WakeupSummary& s)
   {
     rows.push_back(
         {name, std::to_string(s.runs), withInterval(s.right_at_end), withInterval(s.settled),
@@ -342,7 +342,7 @@ std::string trackTable(const TrackReport& report)
          fixedNumber(s.cpu_to_settled.median, 3), fixedNumber(s.cpu_to_settled.p95, 3),
          fixedNumber(s.step_ms.median, 2), fixedNumber(s.step_ms.p95, 2), withInterval(s.noticed)});
   };
-  for (const TrackMethodReport& method : report.methods)
+  for (const WakeupMethodReport& method : report.methods)
   {
     add(method.name, summarizeRuns(method));
     for (const std::string& group : groupsOf(method))
@@ -353,20 +353,20 @@ std::string trackTable(const TrackReport& report)
   return markdownTable(rows) + kidnappingTable(report);
 }
 
-void writeTrackReport(const TrackReport& report, const std::filesystem::path& folder)
+void writeWakeupReport(const WakeupReport& report, const std::filesystem::path& folder)
 {
   RunReport files;
-  for (const TrackMethodReport& method : report.methods)
+  for (const WakeupMethodReport& method : report.methods)
   {
     files.summary["methods"][method.name] = methodJson(method, report.gates);
   }
   files.summary["map"] = toJson(report.map);
   files.summary["complete"] = report.complete;
   files.results = resultsCsv(report);
-  files.text = "# Wake-ups\n\n" + trackTable(report);
+  files.text = "# Wake-ups\n\n" + wakeupTable(report);
   if (report.foreign)
     files.text += "\nThe map is of another place: every confident step is wrong.\n";
-  for (const TrackMethodReport& method : report.methods)
+  for (const WakeupMethodReport& method : report.methods)
   {
     const std::string tables = detail::toMarkdown(detail::selfKnowledgeOf(method, report.gates));
     if (tables.empty()) continue;

@@ -23,7 +23,7 @@ std::size_t serializedBytes(const FeatureMap& map)
 }
 }  // namespace
 
-void MapFacts::add(const FeatureMap& map, double seconds)
+void MapStatistics::add(const FeatureMap& map, double seconds)
 {
   ++maps;
   features += map.features().size();
@@ -31,21 +31,22 @@ void MapFacts::add(const FeatureMap& map, double seconds)
   build_seconds += seconds;
 }
 
-nlohmann::ordered_json toJson(const MapFacts& facts)
+nlohmann::ordered_json toJson(const MapStatistics& statistics)
 {
-  return {{"maps", facts.maps},
-          {"features", facts.features},
-          {"build_s", facts.build_seconds},
-          {"bytes", facts.bytes}};
+  return {{"maps", statistics.maps},
+          {"features", statistics.features},
+          {"build_s", statistics.build_seconds},
+          {"bytes", statistics.bytes}};
 }
 
-std::string mapSection(const MapFacts& facts)
+std::string mapSection(const MapStatistics& statistics)
 {
   return "\n## Map\n\n" +
-         (facts.maps > 1 ? "* maps, of which these are sums: " + std::to_string(facts.maps) + "\n"
-                         : std::string()) +
-         "* features: " + std::to_string(facts.features) +
-         "\n* bytes, serialized: " + std::to_string(facts.bytes) +
-         "\n* built in [s]: " + fixedNumber(facts.build_seconds, 3) + "\n";
+         (statistics.maps > 1
+              ? "* maps, of which these are sums: " + std::to_string(statistics.maps) + "\n"
+              : std::string()) +
+         "* features: " + std::to_string(statistics.features) +
+         "\n* bytes, serialized: " + std::to_string(statistics.bytes) +
+         "\n* built in [s]: " + fixedNumber(statistics.build_seconds, 3) + "\n";
 }
 }  // namespace sigloc

@@ -11,7 +11,7 @@
 namespace sigloc
 {
 /// What the maps of a run hold and cost, summed where a run has several.
-struct MapFacts
+struct MapStatistics
 {
   std::size_t maps = 0;
   std::size_t features = 0;
@@ -22,8 +22,8 @@ struct MapFacts
 };
 
 /// The object "map" of summary.json.
-nlohmann::ordered_json toJson(const MapFacts& facts);
+nlohmann::ordered_json toJson(const MapStatistics& statistics);
 
 /// The same as a section of report.md.
-std::string mapSection(const MapFacts& facts);
+std::string mapSection(const MapStatistics& statistics);
 }  // namespace sigloc

@@ -18,7 +18,7 @@ namespace sigloc::detail
 {
 namespace
 {
-static_assert(std::is_trivially_copyable_v<TrackStepRecord>, "sent as bytes");
+static_assert(std::is_trivially_copyable_v<WakeupStep>, "sent as bytes");
 
 struct Header
 {
@@ -54,11 +54,11 @@ bool readAll(int file, void* data, std::size_t bytes)
   return true;
 }
 
-bool sendRun(int out, const TrackRun& run)
+bool sendRun(int out, const Wakeup& run)
 {
   const Header header{run.start, run.kidnapped_at, run.steps.size(), 0};
   return writeAll(out, &header, sizeof(header)) &&
-         writeAll(out, run.steps.data(), run.steps.size() * sizeof(TrackStepRecord));
+         writeAll(out, run.steps.data(), run.steps.size() * sizeof(WakeupStep));
 }
 
 void sendFailure(int out, const std::string& reason)
@@ -68,7 +68,7 @@ void sendFailure(int out, const std::string& reason)
 }
 
 // The worker: never returns, so that nothing of the parent is run or flushed twice.
-[[noreturn]] void work(int out, const std::function<TrackRun()>& job)
+[[noreturn]] void work(int out, const std::function<Wakeup()>& job)
 {
   try
   {
@@ -87,7 +87,7 @@ void sendFailure(int out, const std::string& reason)
 
 struct Received
 {
-  TrackRun run;
+  Wakeup run;
   std::string failure = "a worker process failed";  // empty: there is a run
 };
 
@@ -97,18 +97,18 @@ Received receive(int in)
   Header header{};
   if (!readAll(in, &header, sizeof(header))) return received;
   std::string reason(header.reason, ' ');
-  TrackRun& run = received.run;
+  Wakeup& run = received.run;
   run.start = header.start;
   run.kidnapped_at = header.kidnapped_at;
   run.steps.resize(header.steps);
   const bool whole = readAll(in, reason.data(), reason.size()) &&
-                     readAll(in, run.steps.data(), header.steps * sizeof(TrackStepRecord));
+                     readAll(in, run.steps.data(), header.steps * sizeof(WakeupStep));
   if (whole) received.failure = reason;
   return received;
 }
 }  // namespace
 
-TrackRun runInOwnProcess(const std::function<TrackRun()>& job)
+Wakeup runInOwnProcess(const std::function<Wakeup()>& job)
 {
   std::array<int, 2> ends{};
   if (pipe(ends.data()) != 0) throw std::runtime_error("cannot open a pipe to a worker process");

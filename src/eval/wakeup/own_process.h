@@ -16,5 +16,5 @@ namespace sigloc::detail
 /// of malloc and stdio again. What remains are statics of functions that another thread is filling
 /// at that very moment, and locks inside MRPT: the process would wait for ever. That has not been
 /// seen; with one thread (`--threads 1`) it cannot happen.
-TrackRun runInOwnProcess(const std::function<TrackRun()>& work);
+Wakeup runInOwnProcess(const std::function<Wakeup()>& work);
 }  // namespace sigloc::detail

@@ -19,23 +19,23 @@ namespace sigloc
 {
 namespace
 {
-using detail::TrackDrive;
-using detail::TrackDriveStep;
-using detail::TrackLeg;
+using detail::WakeupDrive;
+using detail::WakeupDriveStep;
+using detail::WakeupLeg;
 using mrpt::math::TPose2D;
 
 /// A drive in another place than the map: any step may start, and distance is what odometry says.
-TrackDrive readForeignDrive(const std::filesystem::path& rawlog)
+WakeupDrive readForeignDrive(const std::filesystem::path& rawlog)
 {
   RawlogReader reader(rawlog);
-  TrackDrive drive;
+  WakeupDrive drive;
   drive.foreign = true;
   double travelled = 0;
   while (auto step = reader.next())
   {
     if (step->motion) travelled += std::hypot(step->motion->mean.x, step->motion->mean.y);
     if (step->scans.empty()) continue;
-    TrackDriveStep out;
+    WakeupDriveStep out;
     out.travelled = travelled;
     out.may_start = true;
     out.step = std::move(*step);
@@ -55,21 +55,21 @@ bool isStampedLate(double time, double& latest)
   return is_late;
 }
 
-TrackDrive readDrive(const TrackOptions& options, const std::vector<TPose2D>& mapped_poses)
+WakeupDrive readDrive(const WakeupOptions& options, const std::vector<TPose2D>& mapped_poses)
 {
   const auto truth = GroundTruth::read(options.ground_truth, options.map_from_truth);
   std::optional<GroundTruth> start_frames;
   if (!options.start_from.empty()) start_frames = GroundTruth::read(options.start_from);
   constexpr double kSameScan = 0.5;  // [s] between the log's scan and the key frame
   RawlogReader reader(options.rawlog);
-  TrackDrive drive;
+  WakeupDrive drive;
   std::optional<TPose2D> last;
   double travelled = 0;
   double latest = 0;  // [s]
   for (std::size_t i = 0; auto step = reader.next(); ++i)
   {
     if (step->scans.empty()) continue;
-    TrackDriveStep out;
+    WakeupDriveStep out;
     if (!isStampedLate(step->time, latest)) out.truth = truth.at(i, step->time);
     if (out.truth && last) travelled += std::hypot(out.truth->x - last->x, out.truth->y - last->y);
     if (out.truth) last = out.truth;
@@ -84,7 +84,7 @@ TrackDrive readDrive(const TrackOptions& options, const std::vector<TPose2D>& ma
   return drive;
 }
 
-detail::LoggedDrive readLog(const TrackOptions& options)
+detail::LoggedDrive readLog(const WakeupOptions& options)
 {
   if (!options.landmarks.empty())
   {
@@ -118,7 +118,7 @@ struct Place
 
 // Where the log leaves the places that are allowed, the way counts no more: else the last place
 // before would be asked again and again. A robot that stands still is at one place only.
-std::vector<Place> placesOf(const TrackDrive& drive, double travel)
+std::vector<Place> placesOf(const WakeupDrive& drive, double travel)
 {
   std::vector<Place> places;
   const double last = drive.steps.empty() ? 0 : drive.steps.back().travelled - travel;
@@ -126,7 +126,7 @@ std::vector<Place> placesOf(const TrackDrive& drive, double travel)
   double before = 0;
   for (std::size_t i = 0; i < drive.steps.size(); ++i)
   {
-    const TrackDriveStep& step = drive.steps[i];
+    const WakeupDriveStep& step = drive.steps[i];
     if (!step.may_start || step.travelled > last + kRounding) continue;
     if (!places.empty()) way += std::min(step.travelled - before, kLongestStep);
     before = step.travelled;
@@ -157,7 +157,7 @@ std::vector<std::size_t> spacedStarts(const std::vector<Place>& places, std::siz
   return starts;
 }
 
-std::vector<std::size_t> startsOf(const TrackDrive& drive, const TrackOptions& options)
+std::vector<std::size_t> startsOf(const WakeupDrive& drive, const WakeupOptions& options)
 {
   const std::vector<Place> places = placesOf(drive, options.travel);
   const auto& path = options.landmarks.empty() ? options.rawlog : options.landmark_folder;
@@ -175,7 +175,7 @@ std::vector<std::size_t> startsOf(const TrackDrive& drive, const TrackOptions& o
   return spacedStarts(places, options.starts);
 }
 
-TrackLeg legFrom(const TrackDrive& drive, std::size_t start, double travel)
+WakeupLeg legFrom(const WakeupDrive& drive, std::size_t start, double travel)
 {
   std::size_t last = start;
   while (last < drive.steps.size() &&
@@ -187,10 +187,10 @@ TrackLeg legFrom(const TrackDrive& drive, std::size_t start, double travel)
 }
 
 /// The way of one wake-up; with `kidnap` carried half-way to the start half the list away.
-std::vector<TrackLeg> legsOf(const TrackDrive& drive, const std::vector<std::size_t>& starts,
-                             std::size_t which, const TrackOptions& options)
+std::vector<WakeupLeg> legsOf(const WakeupDrive& drive, const std::vector<std::size_t>& starts,
+                              std::size_t which, const WakeupOptions& options)
 {
-  std::vector<TrackLeg> legs = {legFrom(drive, starts[which], options.travel)};
+  std::vector<WakeupLeg> legs = {legFrom(drive, starts[which], options.travel)};
   if (options.kidnap)
   {
     const std::size_t elsewhere = starts[(which + starts.size() / 2) % starts.size()];
@@ -199,7 +199,7 @@ std::vector<TrackLeg> legsOf(const TrackDrive& drive, const std::vector<std::siz
   return legs;
 }
 
-void check(const TrackOptions& options)
+void check(const WakeupOptions& options)
 {
   if (options.starts == 0) throw std::invalid_argument("--starts must be at least 1");
   if (!(options.travel >= 0 && std::isfinite(options.travel)))
@@ -218,12 +218,12 @@ void check(const TrackOptions& options)
 }
 
 /// All wake-ups of one method, in the order of the starts.
-TrackMethodReport runMethod(const std::string& name, const detail::LoggedDrive& log,
-                            const std::vector<std::size_t>& starts, const TrackOptions& options)
+WakeupMethodReport runMethod(const std::string& name, const detail::LoggedDrive& log,
+                             const std::vector<std::size_t>& starts, const WakeupOptions& options)
 {
   resetPeakMemory();
   const auto factory = makeTrackingMethod(name, log.map, options.method);
-  TrackMethodReport method;
+  WakeupMethodReport method;
   method.name = name;
   method.runs.resize(starts.size());
   std::size_t done = 0;
@@ -250,12 +250,12 @@ TrackMethodReport runMethod(const std::string& name, const detail::LoggedDrive& 
 }
 }  // namespace
 
-TrackReport runTrack(const TrackOptions& options)
+WakeupReport runWakeups(const WakeupOptions& options)
 {
   check(options);
   const detail::LoggedDrive log = readLog(options);
   const std::vector<std::size_t> starts = startsOf(log.drive, options);
-  TrackReport report;
+  WakeupReport report;
   report.map.add(*log.map.features, log.map.build_seconds);
   report.complete = log.drive.complete;
   report.foreign = options.foreign;

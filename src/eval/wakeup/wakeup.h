@@ -21,7 +21,7 @@ namespace sigloc
 /// drives on. With `kidnap` it is carried to another start half-way. With `foreign` the log is of
 /// another place than the map: there is no truth, distances are those of the odometry, and every
 /// claim is wrong.
-struct TrackOptions
+struct WakeupOptions
 {
   std::string landmarks;  ///< "dlr" or "victoria-park": a landmark log in place of what follows
   std::filesystem::path landmark_folder;
@@ -44,13 +44,13 @@ struct TrackOptions
 };
 
 /// One step of a run, judged.
-struct TrackStepRecord
+struct WakeupStep
 {
   std::size_t step = 0;  ///< of the log
   double travelled = 0;  ///< [m] since the start
   double seconds = std::numeric_limits<double>::quiet_NaN();  ///< since the start, as the log tells
   bool saw_nothing = false;  ///< fewer than 10 valid beams, and no landmark
-  TrackClaim claim;
+  TrackingClaim claim;
   PoseError error;  ///< NaN without truth
   double nees = std::numeric_limits<double>::quiet_NaN();  ///< see squaredNormalisedError
   bool mapped = true;  ///< the truth lies within 1 m of a mapped pose, or the map has no poses
@@ -59,45 +59,45 @@ struct TrackStepRecord
 };
 
 /// How far into a drive something came about.
-struct TrackEvent
+struct WakeupEvent
 {
   double metres = 0;
   double seconds = std::numeric_limits<double>::quiet_NaN();  ///< NaN where the log has no times
 };
 
 /// One wake-up, judged. What is counted from the start is, after a kidnapping, counted from there.
-struct TrackRun
+struct Wakeup
 {
   std::size_t start = 0;  ///< step of the log; of a simulation, the number of the drive
   std::string group;  ///< kind of the simulated world, or empty
-  std::vector<TrackStepRecord> steps;
+  std::vector<WakeupStep> steps;
   std::size_t kidnapped_at = 0;  ///< index into steps; 0: not kidnapped
   bool right_at_end = false;  ///< at the last mapped step with truth
   /// Confident from there on where mapped, and not before a kidnapping was noticed; none: never.
-  std::optional<TrackEvent> settled_after;
+  std::optional<WakeupEvent> settled_after;
   double cpu_to_settled = 0;  ///< [s]; all that was spent when it never settles
   std::size_t wrong_steps = 0;  ///< off the mapped area too
   std::size_t wrong_mapped_steps = 0;  ///< of them, those on it
   std::size_t wrong_episodes = 0;
   /// After a kidnapping the first step that is not sure of a wrong place; none: never.
-  std::optional<TrackEvent> noticed_after;
+  std::optional<WakeupEvent> noticed_after;
 };
 
 /// Fills the judgements from the steps.
-void judgeRun(TrackRun& run);
+void judgeRun(Wakeup& run);
 
-struct TrackMethodReport
+struct WakeupMethodReport
 {
   std::string name;
-  std::vector<TrackRun> runs;
+  std::vector<Wakeup> runs;
   double peak_rss_mb = 0;
   std::vector<FailedQuery> failures;  ///< the first ones, see isFailedRun
 };
 
-struct TrackReport
+struct WakeupReport
 {
-  std::vector<TrackMethodReport> methods;
-  MapFacts map;
+  std::vector<WakeupMethodReport> methods;
+  MapStatistics map;
   bool complete = true;
   bool foreign = false;
   AccuracyGates gates;  ///< that the claims were judged by
@@ -105,18 +105,18 @@ struct TrackReport
 };
 
 /// True when a run made a wrong claim, or, where there is truth, was not right at its end.
-bool isFailedRun(const TrackRun& run);
+bool isFailedRun(const Wakeup& run);
 
 /// Index of the last mapped step with truth, at which a run is judged; none in a foreign map.
-std::optional<std::size_t> judgedStep(const TrackRun& run);
+std::optional<std::size_t> judgedStep(const Wakeup& run);
 
 /// Throws std::invalid_argument for options that make no sense and std::runtime_error
 /// ("path: reason") for a file that cannot be used.
-TrackReport runTrack(const TrackOptions& options);
+WakeupReport runWakeups(const WakeupOptions& options);
 
 /// Writes summary.json, results.csv (a row a step), runs.csv (a row a run) and report.md into a
 /// folder.
-void writeTrackReport(const TrackReport& report, const std::filesystem::path& folder);
+void writeWakeupReport(const WakeupReport& report, const std::filesystem::path& folder);
 
-std::string trackTable(const TrackReport& report);
+std::string wakeupTable(const WakeupReport& report);
 }  // namespace sigloc

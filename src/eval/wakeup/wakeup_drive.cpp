@@ -12,10 +12,10 @@ namespace sigloc::detail
 {
 namespace
 {
-void judge(const TrackDriveStep& step, bool foreign, const AccuracyGates& gates,
-           TrackStepRecord& record)
+void judge(const WakeupDriveStep& step, bool foreign, const AccuracyGates& gates,
+           WakeupStep& record)
 {
-  const TrackClaim& claim = record.claim;
+  const TrackingClaim& claim = record.claim;
   record.mapped = step.mapped;
   if (foreign)
   {
@@ -29,10 +29,10 @@ void judge(const TrackDriveStep& step, bool foreign, const AccuracyGates& gates,
 }
 
 /// What a run's method is shown: the steps of all legs, one after another.
-std::vector<RawlogStep> shownSteps(const std::vector<TrackLeg>& legs)
+std::vector<RawlogStep> shownSteps(const std::vector<WakeupLeg>& legs)
 {
   std::vector<RawlogStep> shown;
-  for (const TrackLeg& leg : legs)
+  for (const WakeupLeg& leg : legs)
   {
     for (std::size_t i = leg.first; i < leg.last; ++i)
     {
@@ -46,16 +46,16 @@ std::vector<RawlogStep> shownSteps(const std::vector<TrackLeg>& legs)
   return shown;
 }
 
-void judgeLeg(const TrackLeg& leg, const std::vector<TimedClaim>& claims,
-              const AccuracyGates& gates, TrackRun& run)
+void judgeLeg(const WakeupLeg& leg, const std::vector<TimedClaim>& claims,
+              const AccuracyGates& gates, Wakeup& run)
 {
-  const std::vector<TrackDriveStep>& steps = leg.drive->steps;
+  const std::vector<WakeupDriveStep>& steps = leg.drive->steps;
   const double before = run.steps.empty() ? 0 : run.steps.back().travelled;
   const double seconds_before = run.steps.empty() ? 0 : run.steps.back().seconds;
   for (std::size_t i = leg.first; i < leg.last; ++i)
   {
     const TimedClaim& timed = claims.at(run.steps.size());
-    TrackStepRecord record;
+    WakeupStep record;
     record.claim = timed.claim;
     record.time_ms = timed.time_ms;
     record.step = i;
@@ -79,19 +79,19 @@ bool isMapped(const mrpt::math::TPose2D& truth,
                      { return std::hypot(pose.x - truth.x, pose.y - truth.y) <= kMappedDistance; });
 }
 
-TrackRun runLegs(const TrackingMethodFactory& factory, const std::vector<TrackLeg>& legs,
-                 std::uint32_t seed, const AccuracyGates& gates)
+Wakeup runLegs(const TrackingMethodFactory& factory, const std::vector<WakeupLeg>& legs,
+               std::uint32_t seed, const AccuracyGates& gates)
 {
   const auto drive_all = [&]
   {
-    TrackRun run;
+    Wakeup run;
     run.start = legs.front().first;
     // Building the filter is part of what waking up costs.
     const double before = threadCpuSeconds();
     const auto method = factory.start(seed);
     const double set_up_ms = 1e3 * (threadCpuSeconds() - before);
     const std::vector<TimedClaim> claims = method->drive(shownSteps(legs));
-    for (const TrackLeg& leg : legs)
+    for (const WakeupLeg& leg : legs)
     {
       if (&leg != &legs.front()) run.kidnapped_at = run.steps.size();
       judgeLeg(leg, claims, gates, run);
@@ -99,7 +99,7 @@ TrackRun runLegs(const TrackingMethodFactory& factory, const std::vector<TrackLe
     run.steps.front().time_ms += set_up_ms;
     return run;
   };
-  TrackRun run = factory.needsOwnProcess() ? runInOwnProcess(drive_all) : drive_all();
+  Wakeup run = factory.needsOwnProcess() ? runInOwnProcess(drive_all) : drive_all();
   judgeRun(run);
   return run;
 }

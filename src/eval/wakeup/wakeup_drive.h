@@ -17,18 +17,18 @@
 namespace sigloc::detail
 {
 /// A step of a drive with what it is judged by.
-struct TrackDriveStep
+struct WakeupDriveStep
 {
   RawlogStep step;
   std::optional<mrpt::math::TPose2D> truth;
   double travelled = 0;  ///< [m] since the drive began, along the truth
   bool may_start = false;
-  bool mapped = true;  ///< see TrackStepRecord
+  bool mapped = true;  ///< see WakeupStep
 };
 
-struct TrackDrive
+struct WakeupDrive
 {
-  std::vector<TrackDriveStep> steps;
+  std::vector<WakeupDriveStep> steps;
   bool foreign = false;  ///< the drive is of another place than the map: every claim is wrong
   bool complete = true;  ///< false when the log was truncated
 };
@@ -37,7 +37,7 @@ struct TrackDrive
 struct LoggedDrive
 {
   EvaluationMap map;
-  TrackDrive drive;
+  WakeupDrive drive;
   std::vector<std::filesystem::path> files;
 };
 
@@ -47,9 +47,9 @@ struct LoggedDrive
 LoggedDrive readLandmarkDrive(const std::string& dataset, const std::filesystem::path& folder);
 
 /// Steps [first, last) of a drive.
-struct TrackLeg
+struct WakeupLeg
 {
-  const TrackDrive* drive = nullptr;
+  const WakeupDrive* drive = nullptr;
   std::size_t first = 0;
   std::size_t last = 0;
 };
@@ -60,11 +60,11 @@ bool isMapped(const mrpt::math::TPose2D& truth,
 
 /// Runs a method, lost at first, over one leg after another, carried from the end of each to the
 /// start of the next, and judges every step.
-TrackRun runLegs(const TrackingMethodFactory& factory, const std::vector<TrackLeg>& legs,
-                 std::uint32_t seed, const AccuracyGates& gates);
+Wakeup runLegs(const TrackingMethodFactory& factory, const std::vector<WakeupLeg>& legs,
+               std::uint32_t seed, const AccuracyGates& gates);
 
 /// Returns the step of a failed run that shows best what went wrong: the first wrong claim, else
 /// the step that it was judged by. `legs` as the run had them.
-FailedQuery failureOf(const TrackRun& run, const std::vector<TrackLeg>& legs,
+FailedQuery failureOf(const Wakeup& run, const std::vector<WakeupLeg>& legs,
                       const std::string& method, std::shared_ptr<const FeatureMap> map);
 }  // namespace sigloc::detail

@@ -12,16 +12,16 @@ namespace sigloc::detail
 {
 namespace
 {
-std::size_t tellingStep(const TrackRun& run)
+std::size_t tellingStep(const Wakeup& run)
 {
   const auto wrong =
       std::find_if(run.steps.begin(), run.steps.end(),
-                   [](const TrackStepRecord& step) { return step.judged == Claim::wrong; });
+                   [](const WakeupStep& step) { return step.judged == Claim::wrong; });
   if (wrong != run.steps.end()) return static_cast<std::size_t>(wrong - run.steps.begin());
   return judgedStep(run).value_or(run.steps.size() - 1);
 }
 
-RelocationRecord recordOf(const TrackStepRecord& step)
+RelocationRecord recordOf(const WakeupStep& step)
 {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   RelocationRecord record;
@@ -35,14 +35,14 @@ RelocationRecord recordOf(const TrackStepRecord& step)
 }
 }  // namespace
 
-FailedQuery failureOf(const TrackRun& run, const std::vector<TrackLeg>& legs,
+FailedQuery failureOf(const Wakeup& run, const std::vector<WakeupLeg>& legs,
                       const std::string& method, std::shared_ptr<const FeatureMap> map)
 {
   const std::size_t index = tellingStep(run);
-  const TrackStepRecord& step = run.steps[index];
+  const WakeupStep& step = run.steps[index];
   const bool kidnapped = run.kidnapped_at > 0 && index >= run.kidnapped_at;
-  const TrackDrive& drive = *legs[kidnapped ? 1 : 0].drive;
-  const TrackDriveStep& seen = drive.steps[step.step];
+  const WakeupDrive& drive = *legs[kidnapped ? 1 : 0].drive;
+  const WakeupDriveStep& seen = drive.steps[step.step];
   FailedQuery failure;
   failure.method = method;
   failure.map = std::move(map);

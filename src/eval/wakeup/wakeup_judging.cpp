@@ -9,7 +9,7 @@ namespace sigloc
 {
 namespace
 {
-using Steps = std::vector<TrackStepRecord>;
+using Steps = std::vector<WakeupStep>;
 
 /// Index of the first confident step from which the method stays so to the end, where mapped. What
 /// follows where nothing is mapped settles nothing by itself.
@@ -25,7 +25,7 @@ std::size_t settledAt(const Steps& steps)
 }
 
 /// Index of the first step after the kidnapping that is not sure of a wrong place.
-std::size_t noticedAt(const TrackRun& run)
+std::size_t noticedAt(const Wakeup& run)
 {
   std::size_t noticed = run.kidnapped_at;
   while (noticed < run.steps.size() && run.steps[noticed].claim.confident &&
@@ -37,14 +37,14 @@ std::size_t noticedAt(const TrackRun& run)
 }
 
 /// The way and time between two steps; none when there is no step `to`.
-std::optional<TrackEvent> eventAt(const Steps& steps, std::size_t from, std::size_t to)
+std::optional<WakeupEvent> eventAt(const Steps& steps, std::size_t from, std::size_t to)
 {
   if (to >= steps.size()) return std::nullopt;
-  return TrackEvent{steps[to].travelled - steps[from].travelled,
-                    steps[to].seconds - steps[from].seconds};
+  return WakeupEvent{steps[to].travelled - steps[from].travelled,
+                     steps[to].seconds - steps[from].seconds};
 }
 
-void countWrong(TrackRun& run)
+void countWrong(Wakeup& run)
 {
   for (std::size_t i = 0; i < run.steps.size(); ++i)
   {
@@ -56,7 +56,7 @@ void countWrong(TrackRun& run)
 }
 }  // namespace
 
-std::optional<std::size_t> judgedStep(const TrackRun& run)
+std::optional<std::size_t> judgedStep(const Wakeup& run)
 {
   for (std::size_t i = run.steps.size(); i > 0; --i)
   {
@@ -65,12 +65,12 @@ std::optional<std::size_t> judgedStep(const TrackRun& run)
   return std::nullopt;
 }
 
-bool isFailedRun(const TrackRun& run)
+bool isFailedRun(const Wakeup& run)
 {
   return run.wrong_steps > 0 || (judgedStep(run) && !run.right_at_end);
 }
 
-void judgeRun(TrackRun& run)
+void judgeRun(Wakeup& run)
 {
   const Steps& steps = run.steps;
   const std::size_t from = run.kidnapped_at;  // 0, the start, without a kidnapping

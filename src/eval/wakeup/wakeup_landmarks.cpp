@@ -27,7 +27,7 @@ LoggedDrive readLandmarkDrive(const std::string& dataset, const std::filesystem:
   for (std::size_t k = first; k < data.steps.size(); ++k)
   {
     const LandmarkStep& seen = data.steps[k];
-    TrackDriveStep step;
+    WakeupDriveStep step;
     step.step.time = std::numeric_limits<double>::quiet_NaN();  // these logs tell none
     step.step.motion = seen.motion;
     step.step.landmarks = seen.observed;

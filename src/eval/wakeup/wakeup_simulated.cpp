@@ -19,8 +19,8 @@ namespace sigloc
 {
 namespace
 {
-using detail::TrackDrive;
-using detail::TrackDriveStep;
+using detail::WakeupDrive;
+using detail::WakeupDriveStep;
 using mrpt::math::TPose2D;
 
 /// Failed drives of a method by their numbers: worlds end in any order.
@@ -192,18 +192,18 @@ class DrivenPlace
 
   std::shared_ptr<const FeatureMap> map() const { return map_.features; }
 
-  TrackDrive drive(std::uint64_t seed) const
+  WakeupDrive drive(std::uint64_t seed) const
   {
     DriveOptions how;
     how.metres = options_.travel;
     const std::vector<TPose2D> truth = simulateTruth(space_, how, seed);
     const std::vector<MotionIncrement> motions = simulateOdometry(truth, {}, seed);
     Random random(seed, 12);
-    TrackDrive drive;
+    WakeupDrive drive;
     drive.foreign = options_.foreign;
     for (std::size_t i = 0; i < truth.size(); ++i)
     {
-      TrackDriveStep step;
+      WakeupDriveStep step;
       step.step.time = how.step_time * static_cast<double>(i);
       if (options_.odometry) step.step.motion = motions[i];
       step.step.frame = mrpt::obs::CSensoryFrame::Create();
@@ -248,23 +248,23 @@ class DrivenPlace
 };
 
 /// One drive of one method; where it fails and there is room, `failures` gets it.
-TrackRun runDrive(const TrackingMethodFactory& factory, const std::string& method,
-                  const DrivenPlace& place, std::size_t number,
-                  const SimulatedTrackOptions& options, NumberedFailures& failures)
+Wakeup runDrive(const TrackingMethodFactory& factory, const std::string& method,
+                const DrivenPlace& place, std::size_t number, const SimulatedTrackOptions& options,
+                NumberedFailures& failures)
 {
   // Drives and worlds draw from seeds of their own.
   constexpr std::uint64_t kDrives = 1U << 20U;
   constexpr std::uint64_t kSecondLegs = 1U << 21U;
-  std::vector<TrackDrive> drives = {place.drive(seedOf(options.method.seed, kDrives + number))};
+  std::vector<WakeupDrive> drives = {place.drive(seedOf(options.method.seed, kDrives + number))};
   if (options.kidnap)
   {
     drives.push_back(place.drive(seedOf(options.method.seed, kSecondLegs + number)));
   }
-  std::vector<detail::TrackLeg> legs;
+  std::vector<detail::WakeupLeg> legs;
   legs.reserve(drives.size());
-  for (const TrackDrive& drive : drives) legs.push_back({&drive, 0, drive.steps.size()});
+  for (const WakeupDrive& drive : drives) legs.push_back({&drive, 0, drive.steps.size()});
   const auto seed = static_cast<std::uint32_t>(seedOf(options.method.seed, number));
-  TrackRun run = detail::runLegs(factory, legs, seed, simulationGates());
+  Wakeup run = detail::runLegs(factory, legs, seed, simulationGates());
   run.start = number;
   if (failures.size() < options.keep_failures && isFailedRun(run))
   {
@@ -312,10 +312,10 @@ void check(const SimulatedTrackOptions& options)
 }
 }  // namespace
 
-TrackReport runSimulatedTrack(const SimulatedTrackOptions& options)
+WakeupReport runSimulatedTrack(const SimulatedTrackOptions& options)
 {
   check(options);
-  TrackReport report;
+  WakeupReport report;
   report.provenance = {options.command, options.method.seed, {}};
   report.foreign = options.foreign;
   report.gates = simulationGates();
@@ -344,7 +344,7 @@ TrackReport runSimulatedTrack(const SimulatedTrackOptions& options)
     std::vector<NumberedFailures> failed(options.methods.size());
     for (std::size_t m = 0; m < report.methods.size(); ++m)
     {
-      TrackMethodReport& method = report.methods[m];
+      WakeupMethodReport& method = report.methods[m];
       const auto factory = makeTrackingMethod(method.name, map, options.method);
       for (std::size_t number = first; number < last; ++number)
       {
@@ -361,7 +361,7 @@ TrackReport runSimulatedTrack(const SimulatedTrackOptions& options)
   runParallel(worlds, options.threads, run_world);
   for (std::size_t m = 0; m < failures.size(); ++m)
   {
-    TrackMethodReport& method = report.methods[m];
+    WakeupMethodReport& method = report.methods[m];
     method.peak_rss_mb = peakMemoryMb();
     for (auto& [number, failure] : failures[m])
     {

@@ -40,5 +40,5 @@ struct SimulatedTrackOptions
 
 /// Runs the drives; results depend on the options and the seed only. Claims are judged by the gates
 /// of a right answer. Throws std::invalid_argument for options that make no sense.
-TrackReport runSimulatedTrack(const SimulatedTrackOptions& options);
+WakeupReport runSimulatedTrack(const SimulatedTrackOptions& options);
 }  // namespace sigloc

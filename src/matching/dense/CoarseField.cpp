@@ -88,16 +88,16 @@ std::vector<std::uint8_t> withNeighbours(const RasterFrame& blocks,
 
 /// Keeps the best `count` of looks that were a glance only, and those that tie with the last of
 /// them: which ones stay must not hang on their order.
-void keepBest(std::vector<QuickLook>& looks, std::size_t count)
+void keepBest(std::vector<CoarseScore>& looks, std::size_t count)
 {
   if (looks.size() <= count) return;
   std::array<std::uint32_t, 255 * kGlanceReturns + 1> with_score{};
-  for (const QuickLook& look : looks) ++with_score[look.score];
+  for (const CoarseScore& look : looks) ++with_score[look.score];
   std::size_t kept = 0;
   auto lowest = static_cast<std::uint32_t>(with_score.size());
   while (kept < count && lowest > 0) kept += with_score[--lowest];
   looks.erase(std::remove_if(looks.begin(), looks.end(),
-                             [&](const QuickLook& look) { return look.score < lowest; }),
+                             [&](const CoarseScore& look) { return look.score < lowest; }),
               looks.end());
 }
 }  // namespace
@@ -115,10 +115,10 @@ RasterFrame coarserFrame(const RasterFrame& fine, double cell)
 
 /// The first returns of a scan as offsets in cells, for each heading of a table once it is asked
 /// for. A scan of fewer returns is gone through again.
-class QuickField::TurnedReturns
+class CoarseField::TurnedReturns
 {
  public:
-  TurnedReturns(const DenseScan& scan, const QuickField& field)
+  TurnedReturns(const DenseScan& scan, const CoarseField& field)
       : bytes_(field.likelihoods_.data()),
         x0_(static_cast<float>(field.frame_.origin.x)),
         y0_(static_cast<float>(field.frame_.origin.y)),
@@ -136,12 +136,12 @@ class QuickField::TurnedReturns
   }
 
   /// Looks at the proposals that a robot could stand at by the first kGlanceReturns.
-  std::vector<QuickLook> glance(const std::vector<PoseProposal>& proposals)
+  std::vector<CoarseScore> glance(const std::vector<PoseProposal>& proposals)
   {
     const auto near_rim = static_cast<float>(border_);
     const auto right_rim = static_cast<float>(width_ - border_);
     const auto top_rim = static_cast<float>(height_ - border_);
-    std::vector<QuickLook> looks(proposals.size());
+    std::vector<CoarseScore> looks(proposals.size());
     std::size_t count = 0;
     for (std::uint32_t k = 0; k < proposals.size(); ++k)
     {
@@ -160,9 +160,9 @@ class QuickField::TurnedReturns
   }
 
   /// Adds what the other returns say at each look's pose to its score.
-  void lookFurther(std::vector<QuickLook>& looks, const std::vector<PoseProposal>& proposals)
+  void lookFurther(std::vector<CoarseScore>& looks, const std::vector<PoseProposal>& proposals)
   {
-    for (QuickLook& look : looks)
+    for (CoarseScore& look : looks)
     {
       look.score += sumAt<kGlanceReturns, kReturns>(proposals[look.index]);
     }
@@ -263,13 +263,13 @@ class QuickField::TurnedReturns
   std::unique_ptr<Turned[]> table_;  // its rows are left as they are until they are asked for
 };
 
-QuickField::QuickField(const DenseField& field) : frame_(likelihoodFrame(field.frame))
+CoarseField::CoarseField(const DenseField& field) : frame_(likelihoodFrame(field.frame))
 {
   fillLikelihoods(field);
   markStanding(field);
 }
 
-void QuickField::fillLikelihoods(const DenseField& field)
+void CoarseField::fillLikelihoods(const DenseField& field)
 {
   const std::uint32_t ratio = ratioOf(frame_, field.frame);
   border_ = std::min(static_cast<std::uint32_t>(std::ceil(kBorder / frame_.resolution)),
@@ -298,7 +298,7 @@ void QuickField::fillLikelihoods(const DenseField& field)
   }
 }
 
-void QuickField::markStanding(const DenseField& field)
+void CoarseField::markStanding(const DenseField& field)
 {
   const RasterFrame blocks = coarserFrame(field.frame, kStandingCell);
   const std::vector<std::uint8_t> standing = withNeighbours(blocks, freeBlocks(field, blocks));
@@ -316,11 +316,11 @@ void QuickField::markStanding(const DenseField& field)
   }
 }
 
-std::vector<QuickLook> QuickField::look(const DenseScan& scan,
-                                        const std::vector<PoseProposal>& proposals) const
+std::vector<CoarseScore> CoarseField::score(const DenseScan& scan,
+                                            const std::vector<PoseProposal>& proposals) const
 {
   TurnedReturns returns(scan, *this);
-  std::vector<QuickLook> looks = returns.glance(proposals);
+  std::vector<CoarseScore> looks = returns.glance(proposals);
   keepBest(looks, std::clamp(looks.size() / kGlanceShare, kLeastGlanceKept, kMostGlanceKept));
   returns.lookFurther(looks, proposals);
   return looks;

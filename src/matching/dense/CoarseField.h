@@ -15,7 +15,7 @@ namespace sigloc
 RasterFrame coarserFrame(const RasterFrame& fine, double cell);
 
 /// A proposal's first look.
-struct QuickLook
+struct CoarseScore
 {
   std::uint32_t score;  ///< sum of the likelihood bytes of the returns looked up
   std::uint32_t index;  ///< of the proposal
@@ -23,15 +23,15 @@ struct QuickLook
 
 /// The first look at many proposals: a few returns each, on a coarse raster of likelihoods, turned
 /// by a table of headings. Const and thread-safe. \cite algorithm section 6
-class QuickField
+class CoarseField
 {
  public:
-  explicit QuickField(const DenseField& field);
+  explicit CoarseField(const DenseField& field);
 
   /// Looks at the proposals that a robot could stand at, in their order; of very many only at those
   /// that are best by their first returns.
-  std::vector<QuickLook> look(const DenseScan& scan,
-                              const std::vector<PoseProposal>& proposals) const;
+  std::vector<CoarseScore> score(const DenseScan& scan,
+                                 const std::vector<PoseProposal>& proposals) const;
 
  private:
   class TurnedReturns;

@@ -40,7 +40,7 @@ constexpr double kSettleLoss = 0.01;  // of the score, that settling may cost
 constexpr double kDistinctDistance = 0.5;  // [m]
 constexpr double kApartDistance = 0.08;  // [m]
 constexpr double kDistinctAngle = 17.0 * M_PI / 180.0;  // [rad]
-constexpr std::size_t kRayBeams = SolidWalls::kRays;  // beams tested for passing through walls
+constexpr std::size_t kRayBeams = WallCrossings::kRays;  // beams tested for passing through walls
 constexpr std::size_t kFinalRays = 24;  // of them, for a pose that may still be no contender
 constexpr double kFreeMargin = 0.4;  // [m] from any wall that makes an end in free space count
 constexpr auto kFarFromWall = static_cast<std::uint8_t>(kFreeMargin / DenseField::kDistanceUnit);
@@ -180,8 +180,8 @@ SIGLOC_WIDE_VECTORS EndSums sumsOfEnds(const DenseField& field, const DenseScan&
 DenseVerifier::DenseVerifier(const DenseField& field) : field_(field)
 {
   if (field.cells.empty()) throw std::invalid_argument("DenseVerifier: the field has no cells");
-  quick_ = std::make_unique<QuickField>(field);
-  solid_walls_ = std::make_unique<SolidWalls>(field);
+  coarse_field_ = std::make_unique<CoarseField>(field);
+  wall_crossings_ = std::make_unique<WallCrossings>(field);
 }
 
 DenseVerifier::~DenseVerifier() = default;
@@ -193,7 +193,7 @@ std::vector<RankedPose> DenseVerifier::rank(const DenseScan& scan,
 {
   if (scan.size() == 0 || proposals.empty()) return before;
   // 1. A first look at every proposal with a few beams.
-  std::vector<QuickLook> looks = quick_->look(scan, proposals);
+  std::vector<CoarseScore> looks = coarse_field_->score(scan, proposals);
   poses_scored += looks.size();
 
   // 2. The best of each place, refined on some of the beams.
@@ -252,9 +252,9 @@ void DenseVerifier::settle(const DenseScan& scan, const DenseScan& balanced, Ran
 
 std::vector<RankedPose> DenseVerifier::refineBest(const DenseScan& scan,
                                                   const std::vector<PoseProposal>& proposals,
-                                                  std::vector<QuickLook> looks) const
+                                                  std::vector<CoarseScore> looks) const
 {
-  const auto worse = [](const QuickLook& a, const QuickLook& b)
+  const auto worse = [](const CoarseScore& a, const CoarseScore& b)
   { return a.score != b.score ? a.score < b.score : a.index > b.index; };
   // Few are taken before there are enough: a heap sorts no more than those.
   std::make_heap(looks.begin(), looks.end(), worse);
@@ -306,7 +306,7 @@ std::vector<float> DenseVerifier::explainedReturns(const DenseScan& scan, const 
   const Placement place(pose);
   const LikelihoodTable& fine = fineTable();
   const LikelihoodTable& coarse = coarseTable();
-  const std::uint64_t through = solid_walls_->throughBits(scan, pose, kRayBeams);
+  const std::uint64_t through = wall_crossings_->throughBits(scan, pose, kRayBeams);
   std::vector<float> explained(scan.size());
   CellView::Block block;
   for (std::size_t first = 0; first < scan.size(); first += CellView::Block::kSize)
@@ -344,7 +344,7 @@ DenseEvidence DenseVerifier::evaluate(const DenseScan& scan, const TPose2D& pose
   evidence.coarse = static_cast<double>(sums.coarse) / n;
   evidence.in_free = static_cast<double>(sums.in_free) / n;
   evidence.unknown = static_cast<double>(sums.unknown) / n;
-  evidence.through_wall = solid_walls_->throughShare(scan, pose, rays);
+  evidence.through_wall = wall_crossings_->throughShare(scan, pose, rays);
   evidence.score = 0.5 * (evidence.fine + evidence.coarse) -
                    kThroughPenalty * evidence.through_wall - kFreePenalty * evidence.in_free;
   return evidence;

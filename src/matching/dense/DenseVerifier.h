@@ -15,9 +15,9 @@
 
 namespace sigloc
 {
-struct QuickLook;
-class QuickField;
-class SolidWalls;
+struct CoarseScore;
+class CoarseField;
+class WallCrossings;
 
 /// Judges poses by the dense field. Never searches: every pose comes from a proposal and is refined
 /// in a few stages, by at most 0.5 m and 10 degrees each. Const and thread-safe. \cite algorithm
@@ -68,7 +68,7 @@ class DenseVerifier
  private:
   std::vector<RankedPose> refineBest(const DenseScan& scan,
                                      const std::vector<PoseProposal>& proposals,
-                                     std::vector<QuickLook> looks) const;
+                                     std::vector<CoarseScore> looks) const;
   void refineAll(const DenseScan& scan, std::vector<mrpt::math::TPose2D>& poses, int steps,
                  std::size_t beams, float least) const;
   void settle(const DenseScan& scan, const DenseScan& balanced, RankedPose& pose) const;
@@ -79,7 +79,7 @@ class DenseVerifier
   double fineLikelihood(const DenseScan& scan, const mrpt::math::TPose2D& pose) const;
 
   const DenseField& field_;
-  std::unique_ptr<const QuickField> quick_;
-  std::unique_ptr<const SolidWalls> solid_walls_;
+  std::unique_ptr<const CoarseField> coarse_field_;
+  std::unique_ptr<const WallCrossings> wall_crossings_;
 };
 }  // namespace sigloc

@@ -32,7 +32,7 @@ constexpr double kOffWall = 0.16;  // [m], of one that is not
 }  // namespace
 
 /// Look-ups of places given in the robot frame.
-class SceneFacts::PlacedField
+class ExplainedConstraints::PlacedField
 {
  public:
   PlacedField(const DenseField& field, const TPose2D& pose) : cells_(field), place_(pose) {}
@@ -59,7 +59,7 @@ class SceneFacts::PlacedField
 };
 
 /// Counts walls: pieces of one wall once, the pieces of a curved one as what it is made by.
-class SceneFacts::WallCount
+class ExplainedConstraints::WallCount
 {
  public:
   /// Adds a wall; returns whether it tells something that those before it did not.
@@ -86,7 +86,7 @@ class SceneFacts::WallCount
   std::vector<std::uint32_t> facts_of_curve_;
 };
 
-SceneFacts::SceneFacts(const std::vector<Feature>& observed)
+ExplainedConstraints::ExplainedConstraints(const std::vector<Feature>& observed)
 {
   for (const Feature& feature : observed)
   {
@@ -105,7 +105,7 @@ SceneFacts::SceneFacts(const std::vector<Feature>& observed)
   }
 }
 
-bool SceneFacts::isSameWall(const Wall& a, const Wall& b)
+bool ExplainedConstraints::isSameWall(const Wall& a, const Wall& b)
 {
   const TPoint2D d = a.middle - b.middle;
   return std::abs(b.normal.x * d.x + b.normal.y * d.y) < kSameOffset &&
@@ -113,13 +113,13 @@ bool SceneFacts::isSameWall(const Wall& a, const Wall& b)
 }
 
 /// True for a piece that goes on where another ends, and bends less than a corner does.
-bool SceneFacts::bendsOn(const Wall& a, const Wall& b)
+bool ExplainedConstraints::bendsOn(const Wall& a, const Wall& b)
 {
   const double joint = std::min((a.end - b.start).norm(), (a.start - b.end).norm());
   return joint < kJoint && std::abs(wrapToPi(a.direction - b.direction)) < kBend;
 }
 
-bool SceneFacts::isExplained(const Wall& wall, const PlacedField& field)
+bool ExplainedConstraints::isExplained(const Wall& wall, const PlacedField& field)
 {
   const TPoint2D along = wall.end - wall.start;
   const int samples = std::max(2, static_cast<int>(std::lround(wall.length / kSampleStep)));
@@ -131,7 +131,7 @@ bool SceneFacts::isExplained(const Wall& wall, const PlacedField& field)
   return sum > kExplained * samples;
 }
 
-std::uint32_t SceneFacts::explainedAt(const TPose2D& pose, const DenseField& field) const
+std::uint32_t ExplainedConstraints::explainedAt(const TPose2D& pose, const DenseField& field) const
 {
   const PlacedField placed(field, pose);
   WallCount walls;

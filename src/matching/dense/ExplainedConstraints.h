@@ -15,10 +15,10 @@ namespace sigloc
 {
 /// What a scene's features say of the robot's place, made ready to be asked of many poses.
 /// \cite algorithm eq. (7.5)
-class SceneFacts
+class ExplainedConstraints
 {
  public:
-  explicit SceneFacts(const std::vector<Feature>& observed);
+  explicit ExplainedConstraints(const std::vector<Feature>& observed);
 
   /// Returns how many independent facts the map explains when the robot stands at `pose`: a wall's
   /// offset counts one, however many pieces of it are seen, a wall end one, a circle two.

@@ -29,7 +29,7 @@ PoseProposal poseCarrying(const TPoint2D& in_robot, const TPoint2D& in_map, doub
 }
 }  // namespace
 
-BaseProposer::BaseProposer(const FeatureMap& map, const BaseProposerOptions& options)
+PoseProposer::PoseProposer(const FeatureMap& map, const PoseProposerOptions& options)
     : options_(options)
 {
   checkOptions(options);
@@ -88,7 +88,7 @@ BaseProposer::BaseProposer(const FeatureMap& map, const BaseProposerOptions& opt
             });
 }
 
-std::vector<PoseProposal> BaseProposer::propose(const std::vector<Feature>& observed) const
+std::vector<PoseProposal> PoseProposer::propose(const std::vector<Feature>& observed) const
 {
   std::vector<PoseProposal> proposals;
   proposals.reserve(std::min(options_.budget, kUsualProposals));
@@ -104,7 +104,7 @@ std::vector<PoseProposal> BaseProposer::propose(const std::vector<Feature>& obse
   return proposals;
 }
 
-std::vector<PoseProposal> BaseProposer::proposeFurther(const std::vector<Feature>& observed) const
+std::vector<PoseProposal> PoseProposer::proposeFurther(const std::vector<Feature>& observed) const
 {
   std::vector<PoseProposal> proposals;
   proposals.reserve(std::min(options_.thorough_budget, kUsualProposals));
@@ -118,7 +118,7 @@ std::vector<PoseProposal> BaseProposer::proposeFurther(const std::vector<Feature
   return proposals;
 }
 
-void BaseProposer::proposeWallEnds(const std::vector<Feature>& observed,
+void PoseProposer::proposeWallEnds(const std::vector<Feature>& observed,
                                    std::vector<PoseProposal>& out) const
 {
   for (const Feature& end : observed)
@@ -136,7 +136,7 @@ void BaseProposer::proposeWallEnds(const std::vector<Feature>& observed,
 }
 
 /// The longest observed walls that tell different things.
-std::vector<const Feature*> BaseProposer::wallsToSlide(const std::vector<Feature>& observed) const
+std::vector<const Feature*> PoseProposer::wallsToSlide(const std::vector<Feature>& observed) const
 {
   std::vector<const Feature*> walls;
   for (const Feature& feature : observed)
@@ -159,7 +159,7 @@ std::vector<const Feature*> BaseProposer::wallsToSlide(const std::vector<Feature
 }
 
 /// Lays an observed wall on every mapped one that is long enough, until there are `most` proposals.
-void BaseProposer::slide(const Feature& wall, std::size_t most,
+void PoseProposer::slide(const Feature& wall, std::size_t most,
                          std::vector<PoseProposal>& out) const
 {
   const TPoint2D normal = directionVector(wall);
@@ -193,7 +193,7 @@ void BaseProposer::slide(const Feature& wall, std::size_t most,
 }
 
 /// By the observed pairs from the `first` rarest to before the `last`.
-void BaseProposer::proposeCirclePairs(const std::vector<Feature>& observed, std::size_t first,
+void PoseProposer::proposeCirclePairs(const std::vector<Feature>& observed, std::size_t first,
                                       std::size_t last, std::vector<PoseProposal>& out) const
 {
   struct Choice

@@ -14,7 +14,7 @@
 
 namespace sigloc
 {
-struct BaseProposerOptions
+struct PoseProposerOptions
 {
   std::uint32_t budget = 20000;
   std::uint32_t slid_walls = 1;
@@ -32,7 +32,7 @@ struct BaseProposerOptions
   template <class V>
   static void visitFields(V&& visit)
   {
-    using O = BaseProposerOptions;
+    using O = PoseProposerOptions;
     visit(OptionField{"budget", &O::budget, 1U, 100000000U,
                       "[-] most proposals of one scene, further ones not counted"});
     visit(OptionField{"slid_walls", &O::slid_walls, 0U, 100U,
@@ -62,10 +62,10 @@ struct BaseProposerOptions
 /// Mode (e): poses from bases so small that their evidence alone would mean little, to be judged
 /// densely: one wall end, one wall slid along the mapped ones, or a rare pair of circles.
 /// Const and thread-safe. \cite algorithm eq. (4.8), (4.9)
-class BaseProposer
+class PoseProposer
 {
  public:
-  explicit BaseProposer(const FeatureMap& map, const BaseProposerOptions& options = {});
+  explicit PoseProposer(const FeatureMap& map, const PoseProposerOptions& options = {});
 
   /// Returns the poses proposed for observed features by bases enough for nearly every scene, the
   /// most telling ones first, at most `budget` of them.
@@ -106,7 +106,7 @@ class BaseProposer
   void proposeCirclePairs(const std::vector<Feature>& observed, std::size_t first, std::size_t last,
                           std::vector<PoseProposal>& out) const;
 
-  BaseProposerOptions options_;
+  PoseProposerOptions options_;
   std::array<std::vector<MappedEnd>, 2> wall_ends_;  // by side, longest wall first
   std::vector<MappedWall> walls_;  // longest first
   std::vector<CirclePair> pairs_;  // by distance

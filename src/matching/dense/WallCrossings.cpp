@@ -57,7 +57,7 @@ void spreadRings(std::vector<std::uint8_t>& rings, std::uint32_t width, std::uin
   }
 }
 
-constexpr std::size_t kRays = SolidWalls::kRays;
+constexpr std::size_t kRays = WallCrossings::kRays;
 
 /// In cells of the frame, from its origin.
 struct Rays
@@ -150,7 +150,7 @@ inline void lookAround(const RasterFrame& frame, const std::uint8_t* clear_rings
 }
 }  // namespace
 
-SolidWalls::SolidWalls(const DenseField& field) : frame_(field.frame)
+WallCrossings::WallCrossings(const DenseField& field) : frame_(field.frame)
 {
   clear_rings_.reserve(field.cells.size() + 1);
   for (const DenseCell& cell : field.cells)
@@ -162,7 +162,8 @@ SolidWalls::SolidWalls(const DenseField& field) : frame_(field.frame)
   clear_rings_.push_back(1);
 }
 
-double SolidWalls::throughShare(const DenseScan& scan, const TPose2D& pose, std::size_t beams) const
+double WallCrossings::throughShare(const DenseScan& scan, const TPose2D& pose,
+                                   std::size_t beams) const
 {
   const std::size_t count = std::min(beams, scan.size());
   const Placement place(pose);
@@ -175,17 +176,18 @@ double SolidWalls::throughShare(const DenseScan& scan, const TPose2D& pose, std:
   return static_cast<double>(crossed) / static_cast<double>(count);
 }
 
-std::uint64_t SolidWalls::throughBits(const DenseScan& scan, const TPose2D& pose,
-                                      std::size_t beams) const
+std::uint64_t WallCrossings::throughBits(const DenseScan& scan, const TPose2D& pose,
+                                         std::size_t beams) const
 {
   return crossings(scan, Placement(pose), 0, std::min({beams, kRays, scan.size()}));
 }
 
 /// Which of the beams meet a solid wall. They advance eight at a time, and the eights in turns: a
 /// ray's next look-up waits for its last, those of different rays don't wait for each other.
-SIGLOC_WIDE_VECTORS std::uint64_t SolidWalls::crossings(const DenseScan& scan,
-                                                        const Placement& place, std::size_t first,
-                                                        std::size_t count) const
+SIGLOC_WIDE_VECTORS std::uint64_t WallCrossings::crossings(const DenseScan& scan,
+                                                           const Placement& place,
+                                                           std::size_t first,
+                                                           std::size_t count) const
 {
   struct Eight
   {

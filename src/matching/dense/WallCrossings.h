@@ -15,12 +15,12 @@ namespace sigloc
 struct Placement;
 
 /// Tells which beams pass through walls that no beam goes through. Const and thread-safe.
-class SolidWalls
+class WallCrossings
 {
  public:
   static constexpr std::size_t kRays = 64;  ///< beams that are followed at a time
 
-  explicit SolidWalls(const DenseField& field);
+  explicit WallCrossings(const DenseField& field);
 
   /// Returns the share of the first `beams` of a scan that pass a solid wall more than 0.4 m before
   /// their end when the robot stands at `pose`. \cite algorithm eq. (6.8)

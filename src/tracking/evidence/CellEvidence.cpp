@@ -13,27 +13,27 @@ constexpr float kFullView = 3;  // returns that show what a cell holds
 constexpr double kMemory = 10.0;  // [m] of travel
 }  // namespace
 
-double ExplainedStructure::Cell::seen() const
+double CellEvidence::Cell::seen() const
 {
   return static_cast<double>(std::min(1.0F, returns / kFullView));
 }
 
-double ExplainedStructure::Cell::unexplained() const
+double CellEvidence::Cell::unexplained() const
 {
   return returns > 0 ? seen() * (1.0 - static_cast<double>(explained / returns)) : 0.0;
 }
 
-double ExplainedStructure::look(const GroundView& view, const std::vector<float>& explained,
-                                double travelled)
+double CellEvidence::addScan(const ObservedCells& view, const std::vector<float>& explained,
+                             double travelled)
 {
   forget(travelled);
   std::vector<Cell> looks(view.cells.size());
   for (std::size_t i = 0; i < explained.size(); ++i)
   {
-    if (view.cell_of[i] == GroundView::kNowhere) continue;
-    Cell& look = looks[view.cell_of[i]];
-    look.explained += explained[i];
-    look.returns += 1;
+    if (view.cell_of[i] == ObservedCells::kNowhere) continue;
+    Cell& addScan = looks[view.cell_of[i]];
+    addScan.explained += explained[i];
+    addScan.returns += 1;
   }
   const double unexplained_before = unexplained_;
   for (std::size_t k = 0; k < looks.size(); ++k)
@@ -51,7 +51,7 @@ double ExplainedStructure::look(const GroundView& view, const std::vector<float>
 }
 
 /// Now and then; a cell that is seen again is forgotten in time anyway.
-void ExplainedStructure::forget(double travelled)
+void CellEvidence::forget(double travelled)
 {
   if (travelled - tidied_ <= kMemory) return;
   tidied_ = travelled;

@@ -15,14 +15,14 @@ namespace sigloc
 /// once however often it is looked at: a chair that has been moved speaks for the wrong one of two
 /// places as long as it is in view, but it is one chair. Cells are those of the ground that
 /// odometry tells: what one holds is the same thing for all hypotheses. \cite algorithm eq. (8.5)
-class ExplainedStructure
+class CellEvidence
 {
  public:
   /// Takes a view in, of which the hypothesis explains each return by a share in [0, 1], after
   /// `travelled` [m] in all. Returns by how many cells what is left unexplained has grown; less
-  /// than 0 where a better look explains more. What was seen longer than 10 m ago is news again.
+  /// than 0 where a better addScan explains more. What was seen longer than 10 m ago is news again.
   /// `travelled` counts from any start, also below 0, and never falls.
-  double look(const GroundView& view, const std::vector<float>& explained, double travelled);
+  double addScan(const ObservedCells& view, const std::vector<float>& explained, double travelled);
 
   /// How many cells all looks so far have left unexplained; what was news again counts again.
   double unexplained() const { return unexplained_; }

@@ -23,13 +23,13 @@ std::uint64_t cellAt(double x, double y)
 }
 }  // namespace
 
-GroundView viewOf(const DenseScan& scan, const mrpt::math::TPose2D& frame_from_robot)
+ObservedCells observedCells(const DenseScan& scan, const mrpt::math::TPose2D& frame_from_robot)
 {
   const double c = std::cos(frame_from_robot.phi);
   const double s = std::sin(frame_from_robot.phi);
   std::vector<std::uint64_t> cell_of_return;
   cell_of_return.reserve(scan.size());
-  GroundView view;
+  ObservedCells view;
   for (std::size_t i = 0; i < scan.size(); ++i)
   {
     const auto x = static_cast<double>(scan.x[i]);
@@ -40,7 +40,7 @@ GroundView viewOf(const DenseScan& scan, const mrpt::math::TPose2D& frame_from_r
   }
   std::sort(view.cells.begin(), view.cells.end());
   view.cells.erase(std::unique(view.cells.begin(), view.cells.end()), view.cells.end());
-  view.cell_of.assign(scan.size(), GroundView::kNowhere);
+  view.cell_of.assign(scan.size(), ObservedCells::kNowhere);
   for (std::size_t i = 0; i < scan.size(); ++i)
   {
     if (scan.isolated[i] != 0) continue;

@@ -13,7 +13,7 @@
 namespace sigloc
 {
 /// Where a scan's returns end, as cells of 0.5 m of the frame that the robot's pose is given in.
-struct GroundView
+struct ObservedCells
 {
   static constexpr std::uint32_t kNowhere = 0xFFFFFFFF;
 
@@ -25,5 +25,5 @@ struct GroundView
 /// eq. (8.7), (8.29)
 constexpr std::size_t kCellsOfView = 14;
 
-GroundView viewOf(const DenseScan& scan, const mrpt::math::TPose2D& frame_from_robot);
+ObservedCells observedCells(const DenseScan& scan, const mrpt::math::TPose2D& frame_from_robot);
 }  // namespace sigloc

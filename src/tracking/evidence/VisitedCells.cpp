@@ -14,10 +14,10 @@ namespace
 constexpr double kMemory = 10.0;  // [m] of travel
 }  // namespace
 
-double SeenStructure::add(const DenseScan& scan, const mrpt::math::TPose2D& map_from_robot,
-                          double travelled)
+double VisitedCells::add(const DenseScan& scan, const mrpt::math::TPose2D& map_from_robot,
+                         double travelled)
 {
-  const std::vector<std::uint64_t> cells = viewOf(scan, map_from_robot).cells;
+  const std::vector<std::uint64_t> cells = observedCells(scan, map_from_robot).cells;
   std::size_t fresh = 0;
   for (const std::uint64_t cell : cells)
   {

@@ -11,9 +11,9 @@
 
 namespace sigloc
 {
-/// What a track has looked at so far, as coarse cells of the map. A second look at the same walls
-/// repeats the errors, and the likeness, of the first: only what is new to it is evidence.
-class SeenStructure
+/// What a track has looked at so far, as coarse cells of the map. A second addScan at the same
+/// walls repeats the errors, and the likeness, of the first: only what is new to it is evidence.
+class VisitedCells
 {
  public:
   /// Returns the share of the cells that the returns end in, seen from `map_from_robot`, that were

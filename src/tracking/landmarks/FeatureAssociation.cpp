@@ -237,7 +237,7 @@ std::vector<FeatureAssociation> FeatureAssociator::grownFromBases(
 }
 
 std::vector<FeatureAssociation> FeatureAssociator::associate(
-    const GaussianPose& predicted, const MapCorrelation& correlation) const
+    const GaussianPose& predicted, const SchmidtKalmanFilter& correlation) const
 {
   Growing start;
   start.result.pose = toEstimate(predicted);

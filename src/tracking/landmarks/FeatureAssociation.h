@@ -18,7 +18,7 @@ constexpr double kFeatureTempering = 0.25;
 struct FeatureAssociation
 {
   PoseEstimate pose;
-  MapCorrelation correlation;
+  SchmidtKalmanFilter correlation;
   std::vector<FeaturePairing> pairings;
   double log_odds = 0;  // against "all clutter", eq. (8.14)
   double fresh_share = 0;  // of the pairings, those with features not seen on the last stretch
@@ -39,7 +39,7 @@ class FeatureAssociator
   /// Returns the ways of pairing that hold a share worth following, at poses that can be told
   /// apart, best first; one where nothing is ambiguous. Never empty. Eq. (8.15)
   std::vector<FeatureAssociation> associate(const GaussianPose& predicted,
-                                            const MapCorrelation& correlation) const;
+                                            const SchmidtKalmanFilter& correlation) const;
 
   std::size_t size() const { return scene_.size(); }
 

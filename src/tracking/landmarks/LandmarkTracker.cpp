@@ -47,8 +47,8 @@ double bestScore(const std::vector<Track>& tracks)
 }
 }  // namespace
 
-FeatureFollowing::FeatureFollowing(std::shared_ptr<const SignatureMatcher> matcher,
-                                   const TrackerOptions& options)
+LandmarkTracker::LandmarkTracker(std::shared_ptr<const SignatureMatcher> matcher,
+                                 const TrackerOptions& options)
     : matcher_(std::move(matcher)), options_(options), mapped_types_(kFeatureTypes, false)
 {
   for (const Feature& feature : matcher_->map().features())
@@ -58,8 +58,8 @@ FeatureFollowing::FeatureFollowing(std::shared_ptr<const SignatureMatcher> match
   }
 }
 
-bool FeatureFollowing::look(TrackSet& set, const std::optional<MotionIncrement>& motion,
-                            const ObservedScene& scene)
+bool LandmarkTracker::addScan(TrackSet& set, const std::optional<MotionIncrement>& motion,
+                              const ObservedScene& scene)
 {
   seen_ = ofTypes(scene.features, mapped_types_);
   const MotionIncrement moved = motion.value_or(MotionIncrement{});
@@ -74,7 +74,7 @@ bool FeatureFollowing::look(TrackSet& set, const std::optional<MotionIncrement>&
   return !seen_.empty();
 }
 
-void FeatureFollowing::remember()
+void LandmarkTracker::remember()
 {
   if (!recent_.empty() && travelOf(since_recent_.mean, options_) < kStepTravel) return;
   recent_.push_back({since_recent_, seen_});
@@ -82,7 +82,7 @@ void FeatureFollowing::remember()
   if (recent_.size() > kRecentSteps) recent_.pop_front();
 }
 
-void FeatureFollowing::update(TrackSet& set, double travelled, std::uint64_t& next_id)
+void LandmarkTracker::update(TrackSet& set, double travelled, std::uint64_t& next_id)
 {
   const FeatureAssociator associator(*matcher_->featureVerifier(), seen_, travelled);
   std::vector<Track> updated;
@@ -115,15 +115,15 @@ void FeatureFollowing::update(TrackSet& set, double travelled, std::uint64_t& ne
 
 /// Rivals by what each pairs, the best of them against "somewhere else"; standing in the map at all
 /// by what is new.
-void FeatureFollowing::weigh(TrackSet& set, double travel) const
+void LandmarkTracker::weigh(TrackSet& set, double travel) const
 {
   if (set.tracks.empty()) return;
   const double best = bestScore(set.tracks);
   const double between = std::min(1.0, travel / options_.evidence_distance);
   for (Track& track : set.tracks)
   {
-    const double behind = std::max(kFeatureTempering * (track.score - best), -kMaxRelative);
-    track.hypothesis.weight *= std::exp(between * behind);
+    const double deficit = std::max(kFeatureTempering * (track.score - best), -kMaxRelative);
+    track.hypothesis.weight *= std::exp(between * deficit);
     const double evidence = kFeatureTempering * track.score;
     const double gain = evidence > 0 ? track.features.fresh_share * evidence
                                      : between * std::max(evidence, -kMaxAgainst);
@@ -134,7 +134,7 @@ void FeatureFollowing::weigh(TrackSet& set, double travel) const
   set.normalise();
 }
 
-std::vector<Feature> FeatureFollowing::gathered() const
+std::vector<Feature> LandmarkTracker::gathered() const
 {
   LocalMap local;
   for (const Step& step : recent_) local.add(step.motion, step.features);
@@ -142,17 +142,17 @@ std::vector<Feature> FeatureFollowing::gathered() const
   return local.features();
 }
 
-/// To confirm what is held one look is enough.
-RelocationResult FeatureFollowing::localize(const std::optional<PoseRegion>& region,
-                                            bool settled) const
+/// To confirm what is held one addScan is enough.
+RelocationResult LandmarkTracker::localize(const std::optional<PoseRegion>& region,
+                                           bool settled) const
 {
   ObservedScene scene;
   scene.features = settled || !gathers_ || recent_.empty() ? seen_ : gathered();
   return matcher_->localize(scene, region);
 }
 
-bool FeatureFollowing::relocate(TrackSet& set, const std::optional<PoseRegion>& region,
-                                double fresh_share, bool settled, std::uint64_t& next_id)
+bool LandmarkTracker::relocate(TrackSet& set, const std::optional<PoseRegion>& region,
+                               double fresh_share, bool settled, std::uint64_t& next_id)
 {
   const RelocationResult result = localize(region, settled);
   if (result.verdict == Verdict::too_little_seen) return false;
@@ -171,8 +171,8 @@ bool FeatureFollowing::relocate(TrackSet& set, const std::optional<PoseRegion>& 
 }
 
 /// Where a relocation finds poses that no track holds, as good as theirs, "somewhere else" gains.
-void FeatureFollowing::weighElsewhere(TrackSet& set, const RelocationResult& result,
-                                      double fresh_share) const
+void LandmarkTracker::weighElsewhere(TrackSet& set, const RelocationResult& result,
+                                     double fresh_share) const
 {
   if (set.tracks.empty()) return;
   double best_tracked = 0;  // "all clutter"
@@ -188,7 +188,7 @@ void FeatureFollowing::weighElsewhere(TrackSet& set, const RelocationResult& res
 
 /// The features of a candidate share the error of the odometry that gathered them, and its pose the
 /// errors of the mapped ones: its covariance is widened, so that the next steps decide.
-Track FeatureFollowing::startAt(const Candidate& candidate, std::uint64_t id) const
+Track LandmarkTracker::startAt(const Candidate& candidate, std::uint64_t id) const
 {
   Track track;
   track.hypothesis.pose = candidate.pose;
@@ -200,22 +200,22 @@ Track FeatureFollowing::startAt(const Candidate& candidate, std::uint64_t id) co
   return track;
 }
 
-bool FeatureFollowing::doubts(const Track& track)
+bool LandmarkTracker::doubts(const Track& track)
 {
   return track.features.doubt < kDoubt;
 }
 
-bool FeatureFollowing::contradicts(const Track& track)
+bool LandmarkTracker::contradicts(const Track& track)
 {
   return track.features.doubt < kContradicted;
 }
 
-bool FeatureFollowing::seesEnoughToTell() const
+bool LandmarkTracker::seesEnoughToTell() const
 {
   return seen_.size() >= kTelling;
 }
 
-double FeatureFollowing::reliabilityOf(const Track& track) const
+double LandmarkTracker::reliabilityOf(const Track& track) const
 {
   return seen_.empty() ? 0
                        : std::min(1.0, static_cast<double>(track.features.paired) /

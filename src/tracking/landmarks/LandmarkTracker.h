@@ -16,16 +16,16 @@ namespace sigloc
 /// How tracks are updated, weighed and proposed in a map that no dense field backs: by the features
 /// alone. Works on the tracks of a `HypothesisTracker`, which decides when.
 /// \cite algorithm section 8, "By features alone"
-class FeatureFollowing
+class LandmarkTracker
 {
  public:
   /// The matcher has a feature verifier.
-  FeatureFollowing(std::shared_ptr<const SignatureMatcher> matcher, const TrackerOptions& options);
+  LandmarkTracker(std::shared_ptr<const SignatureMatcher> matcher, const TrackerOptions& options);
 
   /// Takes in a step, before the tracks are moved on. False when nothing seen is of a kind that the
   /// map holds: the step can only predict.
-  bool look(TrackSet& set, const std::optional<MotionIncrement>& motion,
-            const ObservedScene& scene);
+  bool addScan(TrackSet& set, const std::optional<MotionIncrement>& motion,
+               const ObservedScene& scene);
 
   /// Pairs what was seen with the map at each track; ambiguous tracks split. Eq. (8.12) to (8.15)
   void update(TrackSet& set, double travelled, std::uint64_t& next_id);

@@ -53,8 +53,8 @@ Cross gainOf(const Cross& b, const Symmetric2& s)
 }
 }  // namespace
 
-void MapCorrelation::predict(const mrpt::math::TPose2D& map_from_previous,
-                             const mrpt::math::TPose2D& increment)
+void SchmidtKalmanFilter::predict(const mrpt::math::TPose2D& map_from_previous,
+                                  const mrpt::math::TPose2D& increment)
 {
   const double c = std::cos(map_from_previous.phi);
   const double s = std::sin(map_from_previous.phi);
@@ -70,15 +70,15 @@ void MapCorrelation::predict(const mrpt::math::TPose2D& map_from_previous,
   }
 }
 
-const MapCorrelation::Known* MapCorrelation::find(std::uint32_t feature) const
+const SchmidtKalmanFilter::Known* SchmidtKalmanFilter::find(std::uint32_t feature) const
 {
   const auto at = std::find_if(known_.begin(), known_.end(),
                                [&](const Known& known) { return known.feature == feature; });
   return at == known_.end() ? nullptr : &*at;
 }
 
-Symmetric2 MapCorrelation::innovation(const PoseEstimate& estimate, const PlanarMeasurement& m,
-                                      const Known* known, const Symmetric2& map_noise) const
+Symmetric2 SchmidtKalmanFilter::innovation(const PoseEstimate& estimate, const PlanarMeasurement& m,
+                                           const Known* known, const Symmetric2& map_noise) const
 {
   Symmetric2 s = innovationCovariance(estimate.covariance, m);
   if (known == nullptr) return s;
@@ -89,15 +89,15 @@ Symmetric2 MapCorrelation::innovation(const PoseEstimate& estimate, const Planar
   return s;
 }
 
-Symmetric2 MapCorrelation::innovation(const PoseEstimate& estimate, const PlanarMeasurement& m,
-                                      std::uint32_t feature, const Symmetric2& map_noise) const
+Symmetric2 SchmidtKalmanFilter::innovation(const PoseEstimate& estimate, const PlanarMeasurement& m,
+                                           std::uint32_t feature, const Symmetric2& map_noise) const
 {
   return innovation(estimate, m, find(feature), map_noise);
 }
 
 /// x <- x + K r, P <- P - K S K', C_j <- C_j - K J C_j for all remembered features.
-void MapCorrelation::apply(PoseEstimate& estimate, const PlanarMeasurement& m, const Cross& gain,
-                           const Symmetric2& innovation)
+void SchmidtKalmanFilter::apply(PoseEstimate& estimate, const PlanarMeasurement& m,
+                                const Cross& gain, const Symmetric2& innovation)
 {
   const auto& [a, b, t] = gain;
   const auto& r = m.residual;
@@ -129,8 +129,9 @@ void MapCorrelation::apply(PoseEstimate& estimate, const PlanarMeasurement& m, c
   }
 }
 
-void MapCorrelation::update(PoseEstimate& estimate, const PlanarMeasurement& m,
-                            std::uint32_t feature, const Symmetric2& map_noise, double travelled)
+void SchmidtKalmanFilter::update(PoseEstimate& estimate, const PlanarMeasurement& m,
+                                 std::uint32_t feature, const Symmetric2& map_noise,
+                                 double travelled)
 {
   if (!knows(feature)) known_.push_back({feature, map_noise, {}, travelled});
   const auto at = static_cast<std::size_t>(find(feature) - known_.data());
@@ -152,13 +153,13 @@ void MapCorrelation::update(PoseEstimate& estimate, const PlanarMeasurement& m,
   }
 }
 
-void MapCorrelation::updateFreely(PoseEstimate& estimate, const PlanarMeasurement& m)
+void SchmidtKalmanFilter::updateFreely(PoseEstimate& estimate, const PlanarMeasurement& m)
 {
   const Symmetric2 s = innovationCovariance(estimate.covariance, m);
   apply(estimate, m, gainOf(timesJacobian(estimate.covariance, m), s), s);
 }
 
-void MapCorrelation::forgetBefore(double travelled)
+void SchmidtKalmanFilter::forgetBefore(double travelled)
 {
   known_.erase(std::remove_if(known_.begin(), known_.end(),
                               [&](const Known& known) { return known.last_seen < travelled; }),

@@ -14,14 +14,14 @@ namespace sigloc
 {
 /// Keeps a pose filter honest in a map whose features have errors of their own.
 ///
-/// A mapped feature is wrong by the same error at every look. A filter that took it for fresh noise
-/// would believe to know the pose ever better from ever the same features. This is the Kalman
+/// A mapped feature is wrong by the same error at every addScan. A filter that took it for fresh
+/// noise would believe to know the pose ever better from ever the same features. This is the Kalman
 /// filter of Schmidt ("consider" filter): it carries, beside the pose, how the pose's error hangs
 /// together with the error of each feature it was lately updated with, and leaves the map itself
 /// alone. \cite algorithm eq. (8.12), (8.13)
 ///
 /// An update costs O(features remembered), which are those seen on the last stretch.
-class MapCorrelation
+class SchmidtKalmanFilter
 {
  public:
   /// Follows the pose from `map_from_previous` by an odometry increment.
@@ -37,7 +37,7 @@ class MapCorrelation
   void update(PoseEstimate& estimate, const PlanarMeasurement& m, std::uint32_t feature,
               const Symmetric2& map_noise, double travelled);
 
-  /// Updates the estimate by a measurement whose noise is all drawn anew at each look.
+  /// Updates the estimate by a measurement whose noise is all drawn anew at each addScan.
   void updateFreely(PoseEstimate& estimate, const PlanarMeasurement& m);
 
   /// True when the pose was updated with the feature and has not forgotten it since.

@@ -27,23 +27,24 @@ constexpr double kOfMissed = 2.0;  // log-odds where relocations find other plac
 constexpr std::size_t kFewRelocations = 4;
 constexpr double kOftenFound = 0.5;  // share of them from which on nothing,
 constexpr double kSeldomFound = 0.3;  // up to which all is taken
-constexpr double kOfThings = 16.0;  // log-odds of a metre of unexplained share times range ...
-constexpr double kUsualThings = 0.25;  // [m] ... beyond this, which the right one seldom exceeds,
-constexpr double kMostAgainstThings = 4.0;
-constexpr double kMostForThings = 1.5;
+constexpr double kOfUnexplained = 16.0;  // log-odds of a metre of unexplained share times range ...
+constexpr double kUsualUnexplained =
+    0.25;  // [m] ... beyond this, which the right one seldom exceeds,
+constexpr double kMostAgainst = 4.0;
+constexpr double kMostFor = 1.5;
 constexpr double kShownWay = 15.0;  // [m] driven, from which on they speak for it in full
 constexpr double kFarthest = 8.0;  // [m]
 constexpr double kLittleInScans = 0.15;  // share of whole scans left unexplained up to which all
 constexpr double kMuchInScans = 0.25;  // of it, and from which on nothing is told
-constexpr double kLittleOfGround = 0.25;  // the same for the share of the ground
-constexpr double kMuchOfGround = 0.35;
-constexpr double kMinFollowed = -8.0;
-constexpr double kMaxFollowed = 12.0;
+constexpr double kLittleOfCells = 0.25;  // the same for the share of the ground
+constexpr double kMuchOfCells = 0.35;
+constexpr double kMinTracked = -8.0;
+constexpr double kMaxTracked = 12.0;
 }  // namespace
 
-void Track::addFollowed(double log_odds)
+void Track::addTrackedLogOdds(double log_odds)
 {
-  followed = std::clamp(followed + log_odds, kMinFollowed, kMaxFollowed);
+  tracked_log_odds = std::clamp(tracked_log_odds + log_odds, kMinTracked, kMaxTracked);
 }
 
 void Track::addFit(double travel)
@@ -57,16 +58,16 @@ void Track::inherit(const Track& parent)
 {
   confirmed = std::max(confirmed, parent.confirmed);
   seen = parent.seen;
-  followed = std::max(followed, parent.followed);
-  on_the_way = parent.on_the_way;
-  followed_way = parent.followed_way;
+  tracked_log_odds = std::max(tracked_log_odds, parent.tracked_log_odds);
+  seen_while_tracked = parent.seen_while_tracked;
+  tracked_distance = parent.tracked_distance;
   explained = parent.explained;
 }
 
-double Track::presence() const
+double Track::inMapLogOdds() const
 {
   const double fit = misfit ? kFitSlope * std::log(kUsualMisfit / (*misfit + kMisfitFloor)) : 0.0;
-  return confirmed + followed + fit;
+  return confirmed + tracked_log_odds + fit;
 }
 
 double Track::missed() const
@@ -76,30 +77,31 @@ double Track::missed() const
   return std::clamp((kOftenFound - found_share) / (kOftenFound - kSeldomFound), 0.0, 1.0);
 }
 
-double Track::thingsExplained(const Circumstances& now) const
+double Track::explainedCellsLogOdds(const ClaimContext& now) const
 {
   const double share = explained.unexplainedShare();
   const double telling =
       std::clamp((kMuchInScans - now.unexplained) / (kMuchInScans - kLittleInScans), 0.0, 1.0) *
-      std::clamp((kMuchOfGround - share) / (kMuchOfGround - kLittleOfGround), 0.0, 1.0) *
+      std::clamp((kMuchOfCells - share) / (kMuchOfCells - kLittleOfCells), 0.0, 1.0) *
       std::min(1.0, explained.seen() / static_cast<double>(kCellsOfView));
-  // What was chosen for explaining the first look shows by and by that it explains the rest.
-  const double most_for = kMostForThings * std::min(1.0, followed_way / kShownWay);
+  // What was chosen for explaining the first addScan shows by and by that it explains the rest.
+  const double most_for = kMostFor * std::min(1.0, tracked_distance / kShownWay);
   const double things = share * std::min(now.range, kFarthest);
-  return telling * std::clamp(kOfThings * (kUsualThings - things), -kMostAgainstThings, most_for);
+  return telling *
+         std::clamp(kOfUnexplained * (kUsualUnexplained - things), -kMostAgainst, most_for);
 }
 
-double Track::standing(const Circumstances& now) const
+double Track::claimLogOdds(const ClaimContext& now) const
 {
-  if (!misfit) return presence();
+  if (!misfit) return inMapLogOdds();
   const double told = std::clamp(
       (kMuchUnexplained - explained.unexplainedShare()) / (kMuchUnexplained - kLittleUnexplained),
       0.0, 1.0);
   const double survived =
-      kSurvival * told * (std::clamp(followed_way, kUsualLife, kLongLife) - kUsualLife);
+      kSurvival * told * (std::clamp(tracked_distance, kUsualLife, kLongLife) - kUsualLife);
   const double contested = kOfRival * std::log(std::max(1.0, now.next / kNoRival)) +
-                           kOfLoss * std::max(0.0, -behind.told() - kUsualLoss) +
+                           kOfLoss * std::max(0.0, -deficit.smaller() - kUsualLoss) +
                            kOfMissed * missed();
-  return presence() + survived - contested + thingsExplained(now);
+  return inMapLogOdds() + survived - contested + explainedCellsLogOdds(now);
 }
 }  // namespace sigloc

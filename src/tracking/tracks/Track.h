@@ -19,38 +19,38 @@ namespace sigloc
 constexpr double kMaxRelative = 3.0;  // between rivals
 constexpr double kMaxLost = 3.0;  // for "somewhere else"
 constexpr double kMaxConfirmed = 12.0;  // what was confirmed long ago can still be lost
-constexpr double kMinConfirmed = -1.0;  // what look-alikes hid for long can still be confirmed
+constexpr double kMinConfirmed = -1.0;  // what addScan-alikes hid for long can still be confirmed
 constexpr double kMaxAgainst = 2.0;  // against a track, a metre
-constexpr double kHeld = 4.0;  // from which on a track is not given up for a look-alike
+constexpr double kRetained = 4.0;  // from which on a track is not given up for a addScan-alike
 constexpr double kFarBetter = 4.0;  // by which a place must beat what is held
 
 /// What a track remembers of the mapped features it was paired with.
 struct FeatureMemory
 {
-  MapCorrelation correlation;
+  SchmidtKalmanFilter correlation;
   std::size_t paired = 0;  // in the last step
   double fresh_share = 0;  // of them, those that were not seen on the last stretch
   double doubt = 0;  // log-odds lately lost against clutter, at most 0, eq. (8.20)
 };
 
-/// Log-odds that a track has lost to the best of each look, the first included, as two judges see
-/// it that err in different ways: `by_score` hears every scan again after a while, and a chair that
-/// was moved as long as it is in view; `by_ground` hears each piece of the ground once. The smaller
-/// loss is what the track has paid. Eq. (8.5)
-struct RivalEvidence
+/// Log-odds that a track has lost to the best of each addScan, the first included, as two judges
+/// see it that err in different ways: `by_score` hears every scan again after a while, and a chair
+/// that was moved as long as it is in view; `by_cells` hears each piece of the ground once. The
+/// smaller loss is what the track has paid. Eq. (8.5)
+struct LogLikelihoodDeficit
 {
   double by_score = 0;
-  double by_ground = 0;
+  double by_cells = 0;
 
-  double told() const { return std::max(by_score, by_ground); }
-  RivalEvidence operator+(const RivalEvidence& other) const
+  double smaller() const { return std::max(by_score, by_cells); }
+  LogLikelihoodDeficit operator+(const LogLikelihoodDeficit& other) const
   {
-    return {by_score + other.by_score, by_ground + other.by_ground};
+    return {by_score + other.by_score, by_cells + other.by_cells};
   }
 };
 
 /// What a claim of a track stands on besides what the track itself remembers.
-struct Circumstances
+struct ClaimContext
 {
   double next = 0;  // weight of the next track
   double range = 0;  // [m] median of a scan, lately
@@ -63,19 +63,20 @@ struct Track
   TrackedHypothesis hypothesis;
   double score = 0;  // of the last scan
   DenseEvidence evidence;  // of the last scan
-  mrpt::math::TPose2D judged_at;  // where the ground of that is judged, near the hypothesis
+  mrpt::math::TPose2D evaluated_at;  // where the ground of that is judged, near the hypothesis
   double mean_score = 0;  // running mean
   bool found = false;  // best of the whole map by this step's relocation
   std::size_t relocations = 0;  // since the track began; not counted without a field
   std::size_t times_found = 0;  // best of the whole map by so many of them
   double confirmed = 0;  // log-odds that relocations, each blind to the track, have given it
-  SeenStructure seen;  // what that evidence rests on
-  double followed = 0;  // log-odds from how the map explained what came into view on the way
-  SeenStructure on_the_way;  // what has come into view
+  VisitedCells seen;  // what that evidence rests on
+  double tracked_log_odds =
+      0;  // log-odds from how the map explained what came into view on the way
+  VisitedCells seen_while_tracked;  // what has come into view
   std::optional<double> misfit;  // of what is seen, known or new, lately; none without a field
-  double followed_way = 0;  // [m] driven since the track began
-  ExplainedStructure explained;  // how it explains what is seen, each thing once
-  RivalEvidence behind;  // its rivals
+  double tracked_distance = 0;  // [m] driven since the track began
+  CellEvidence explained;  // how it explains what is seen, each thing once
+  LogLikelihoodDeficit deficit;  // its rivals
   FeatureMemory features;  // in a map without a dense field
 
   /// True of a track that this step's relocation has started.
@@ -89,8 +90,8 @@ struct Track
     if (found_best) ++times_found;
   }
 
-  /// Adds to `followed`, within its bounds.
-  void addFollowed(double log_odds);
+  /// Adds to `tracked_log_odds`, within its bounds.
+  void addTrackedLogOdds(double log_odds);
 
   /// Takes what the map leaves unexplained of the last scan into its mean over some travel [m].
   void addFit(double travel);
@@ -99,21 +100,21 @@ struct Track
   void inherit(const Track& parent);
 
   /// Log-odds of standing in the map at all, eq. (8.22)
-  double presence() const;
+  double inMapLogOdds() const;
 
-  /// The same for a claim, which with a field also asks how long the track has been followed,
-  /// eq. (8.25), how far other places contest it, eq. (8.28), and how many things it fails to
-  /// explain, eq. (8.29).
-  double standing(const Circumstances& now) const;
+  /// The same for a claim, which with a field also asks how long the track has been
+  /// tracked_log_odds, eq. (8.25), how far other places contest it, eq. (8.28), and how many things
+  /// it fails to explain, eq. (8.29).
+  double claimLogOdds(const ClaimContext& now) const;
 
   /// How far relocations have found other places instead, in [0, 1]; few tell nothing.
   double missed() const;
 
   /// Log-odds by how many of the things in view the track has explained, eq. (8.29)
-  double thingsExplained(const Circumstances& now) const;
+  double explainedCellsLogOdds(const ClaimContext& now) const;
 
-  /// Whether a relocation or the way has told enough not to give the track up for a look-alike.
-  bool held() const { return std::max(confirmed, presence()) >= kHeld; }
+  /// Whether a relocation or the way has told enough not to give the track up for a addScan-alike.
+  bool retained() const { return std::max(confirmed, inMapLogOdds()) >= kRetained; }
 
   /// Whether the score `now` of the last scan is less by `drop` than the track's scores used to be.
   bool hasFallenTo(double now, double drop) const

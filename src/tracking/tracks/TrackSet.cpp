@@ -114,7 +114,7 @@ void TrackSet::update(const DenseScan& scan, const DenseVerifier& verifier)
   {
     ground_ = ground_ + (heaviest().hypothesis.pose.mean - left_);
   }
-  view_ = viewOf(scan, ground_);
+  view_ = observedCells(scan, ground_);
 }
 
 void TrackSet::follow(const DenseScan& scan, double travelled, double travel, double driven)
@@ -124,10 +124,10 @@ void TrackSet::follow(const DenseScan& scan, double travelled, double travel, do
   for (Track& track : tracks)
   {
     const double novelty =
-        std::min(most, track.on_the_way.add(scan, track.hypothesis.pose.mean, travelled));
-    track.addFollowed(novelty * followedLogOdds(track.evidence));
+        std::min(most, track.seen_while_tracked.add(scan, track.hypothesis.pose.mean, travelled));
+    track.addTrackedLogOdds(novelty * trackedLogOdds(track.evidence));
     track.addFit(travel);
-    track.followed_way += driven;
+    track.tracked_distance += driven;
   }
 }
 
@@ -149,7 +149,7 @@ void TrackSet::weigh(const DenseScan& scan, const DenseVerifier& verifier, doubl
   double most = -1;
   for (const Track& track : tracks)
   {
-    most = std::max(most, track.held() ? scoreOfUnhidden(track.evidence) : track.score);
+    most = std::max(most, track.retained() ? scoreOfUnhidden(track.evidence) : track.score);
   }
   const double for_lost = std::clamp(
       logLikelihoodOfScore(options_.lost_score) - logLikelihoodOfScore(most), -kMaxLost, kMaxLost);
@@ -165,20 +165,20 @@ void TrackSet::weighRivals(const DenseScan& scan, const DenseVerifier& verifier,
   std::vector<double> unexplained;
   for (Track& track : tracks)
   {
-    const auto explained = verifier.explainedReturns(scan, track.judged_at);
-    unexplained.push_back(track.explained.look(view_, explained, travelled));
+    const auto explained = verifier.explainedReturns(scan, track.evaluated_at);
+    unexplained.push_back(track.explained.addScan(view_, explained, travelled));
   }
   const double least = *std::min_element(unexplained.begin(), unexplained.end());
   const double best = logLikelihoodOfScore(best_score);
   const double share = shareBetweenRivals(scan, travel, options_);
   for (std::size_t k = 0; k < tracks.size(); ++k)
   {
-    RivalEvidence& behind = tracks[k].behind;
-    const double before = behind.told();
+    LogLikelihoodDeficit& deficit = tracks[k].deficit;
+    const double before = deficit.smaller();
     const double lead = logLikelihoodOfScore(tracks[k].score) - best;
-    behind.by_score += share * std::max(lead, -kMaxRelative);
-    behind.by_ground -= std::min(kMaxRelative, costOfUnexplained() * (unexplained[k] - least));
-    tracks[k].hypothesis.weight *= std::exp(behind.told() - before);
+    deficit.by_score += share * std::max(lead, -kMaxRelative);
+    deficit.by_cells -= std::min(kMaxRelative, costOfUnexplained() * (unexplained[k] - least));
+    tracks[k].hypothesis.weight *= std::exp(deficit.smaller() - before);
   }
 }
 
@@ -186,7 +186,7 @@ void TrackSet::showTo(Track& track, const DenseScan& scan, const DenseVerifier& 
                       double travelled) const
 {
   const auto explained = verifier.explainedReturns(scan, track.hypothesis.pose.mean);
-  track.explained.look(view_, explained, travelled);
+  track.explained.addScan(view_, explained, travelled);
 }
 
 void TrackSet::weighFirstLook()
@@ -211,9 +211,9 @@ void TrackSet::weighFirstLook()
   for (Track& track : tracks)
   {
     if (!track.isNew()) continue;
-    track.behind.by_score = std::log(track.hypothesis.weight / most);
-    track.behind.by_ground = -costOfUnexplained() * (track.explained.unexplained() - least);
-    track.hypothesis.weight = std::exp(track.behind.told());
+    track.deficit.by_score = std::log(track.hypothesis.weight / most);
+    track.deficit.by_cells = -costOfUnexplained() * (track.explained.unexplained() - least);
+    track.hypothesis.weight = std::exp(track.deficit.smaller());
     told += track.hypothesis.weight;
   }
   for (Track& track : tracks)
@@ -265,7 +265,7 @@ void TrackSet::weighElsewhere(const RelocationResult& result, double here, bool 
                               double fresh_share)
 {
   const bool firm = !beaten && std::any_of(tracks.begin(), tracks.end(),
-                                           [](const Track& track) { return track.held(); });
+                                           [](const Track& track) { return track.retained(); });
   const double told = std::clamp(here, firm ? 0.0 : -kMaxLost, kMaxLost);
   elsewhere *= std::exp(-fresh_share * told);
   const bool overruled = !firm && !result.candidates.empty() &&
@@ -275,8 +275,8 @@ void TrackSet::weighElsewhere(const RelocationResult& result, double here, bool 
   normalise();
 }
 
-/// What is only the floor of "somewhere else" starts tracks but feeds none: else look-alikes would
-/// draw on it at every relocation.
+/// What is only the floor of "somewhere else" starts tracks but feeds none: else addScan-alikes
+/// would draw on it at every relocation.
 void TrackSet::dealOut(const RelocationResult& result,
                        const std::function<Track(std::size_t k)>& start)
 {
@@ -315,8 +315,8 @@ void TrackSet::mergeAndPrune()
       into.weight += track.hypothesis.weight;
       into.id = std::min(into.id, track.hypothesis.id);
       same->confirmed = std::max(same->confirmed, track.confirmed);
-      same->followed = std::max(same->followed, track.followed);
-      same->followed_way = std::max(same->followed_way, track.followed_way);
+      same->tracked_log_odds = std::max(same->tracked_log_odds, track.tracked_log_odds);
+      same->tracked_distance = std::max(same->tracked_distance, track.tracked_distance);
       into.age = std::max(into.age, track.hypothesis.age);
       same->found = same->found || track.found;
     }

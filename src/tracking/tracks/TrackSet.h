@@ -25,8 +25,8 @@ bool isSamePlace(const mrpt::math::TPose2D& a, const mrpt::math::TPose2D& b);
 /// True for poses so near to each other that their tracks are merged.
 bool wouldMerge(const mrpt::math::TPose2D& a, const mrpt::math::TPose2D& b);
 
-/// The hypotheses that are followed and the weight of "somewhere else"; all weights sum to one.
-/// Each method is one step of \cite algorithm section 8.
+/// The hypotheses that are tracked_log_odds and the weight of "somewhere else"; all weights sum to
+/// one. Each method is one step of \cite algorithm section 8.
 class TrackSet
 {
  public:
@@ -44,7 +44,7 @@ class TrackSet
   /// and, where there are tracks, how much the best one explains. Eq. (8.5), (8.6), (8.26), (8.29)
   void weigh(const DenseScan& scan, const DenseVerifier& verifier, double travelled, double travel);
 
-  /// Lets a track that starts with the last scan look at it, which is no news to it any more.
+  /// Lets a track that starts with the last scan addScan at it, which is no news to it any more.
   void showTo(Track& track, const DenseScan& scan, const DenseVerifier& verifier,
               double travelled) const;
 
@@ -85,13 +85,13 @@ class TrackSet
   Track* trackAt(const mrpt::math::TPose2D& pose);
 
   /// What a claim of the first track depends on besides it, while tracks are sorted.
-  Circumstances circumstances() const
+  ClaimContext circumstances() const
   {
     return {tracks.size() > 1 ? tracks[1].hypothesis.weight : 0.0, range_, unexplained_};
   }
 
   /// What that claim stands on, while tracks are sorted. Must not be called on an empty set.
-  double standing() const { return tracks.front().standing(circumstances()); }
+  double claimLogOdds() const { return tracks.front().claimLogOdds(circumstances()); }
 
   /// The heaviest track. Must not be called on an empty set.
   const Track& heaviest() const;
@@ -108,7 +108,7 @@ class TrackSet
   // The robot's pose by odometry alone; without odometry, by the heaviest track.
   mrpt::math::TPose2D ground_;
   mrpt::math::TPose2D left_;  // the heaviest track's before the last prediction
-  GroundView view_;  // of the last scan, from there
+  ObservedCells view_;  // of the last scan, from there
   double unexplained_ = 0;  // share that the best track has left unexplained, lately
   double range_ = 0;  // [m] median of the scans, lately
 };

@@ -77,7 +77,7 @@ void updatePose(Track& track, const DenseScan& scan, const DenseVerifier& verifi
   if (slipped) pose = measured;
   const bool at_measured = slipped || (agrees && found.score > predicted.score);
   track.evidence = at_measured ? found : predicted;
-  track.judged_at = at_measured ? measured.mean : pose.mean;
+  track.evaluated_at = at_measured ? measured.mean : pose.mean;
   track.score = track.evidence.score;
 }
 }  // namespace sigloc

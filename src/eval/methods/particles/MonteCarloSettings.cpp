@@ -197,8 +197,8 @@ mrpt::obs::CActionCollection actionsOf(const RawlogStep& step, const MonteCarloS
   return actions;
 }
 
-TrackClaim TightCloud::claim(const mrpt::poses::CPose2D& mean,
-                             const mrpt::math::CMatrixDouble33& covariance)
+TrackingClaim TightCloud::claim(const mrpt::poses::CPose2D& mean,
+                                const mrpt::math::CMatrixDouble33& covariance)
 {
   constexpr double kDistance = 0.5;  // [m]
   constexpr double kAngle = 10 * M_PI / 180;  // [rad]
@@ -206,7 +206,7 @@ TrackClaim TightCloud::claim(const mrpt::poses::CPose2D& mean,
   const bool tight = std::sqrt(covariance(0, 0) + covariance(1, 1)) < kDistance &&
                      std::sqrt(covariance(2, 2)) < kAngle;
   tight_steps_ = tight ? tight_steps_ + 1 : 0;
-  TrackClaim claim;
+  TrackingClaim claim;
   claim.confident = tight_steps_ >= kSteps;
   claim.has_pose = true;
   claim.pose = mean.asTPose();

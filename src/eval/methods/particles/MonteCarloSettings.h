@@ -72,7 +72,8 @@ class TightCloud
 {
  public:
   /// Returns the claim of one more step.
-  TrackClaim claim(const mrpt::poses::CPose2D& mean, const mrpt::math::CMatrixDouble33& covariance);
+  TrackingClaim claim(const mrpt::poses::CPose2D& mean,
+                      const mrpt::math::CMatrixDouble33& covariance);
 
  private:
   int tight_steps_ = 0;

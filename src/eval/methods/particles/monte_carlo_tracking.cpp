@@ -20,7 +20,7 @@ class MonteCarloTracking : public SteppedTracking
   {
   }
 
-  TrackClaim step(const RawlogStep& step) override
+  TrackingClaim step(const RawlogStep& step) override
   {
     // pf-localization leaves its first step out.
     if (steps_++ > 0)
