@@ -29,7 +29,7 @@ void localizeFirstScan(const char* map_file, const char* rawlog_file)
   sigloc::RawlogReader log(rawlog_file);
   const auto step = log.next();
   if (!step) return;
-  const sigloc::RelocationResult result = matcher.localize(sigloc::observeScene(step->scans));
+  const sigloc::RelocationResult result = matcher.localize(sigloc::observe(*step));
 
   std::printf("%s (%.3f), elsewhere %.3f\n", sigloc::toString(result.verdict), result.probability,
               result.elsewhere);

@@ -42,7 +42,7 @@ void follow(const char* map_file, const char* rawlog_file)
   std::size_t count = 0;
   while (const auto step = log.next())
   {
-    tracker.step(step->motion, sigloc::observeScene(step->scans));
+    tracker.step(step->motion, sigloc::observe(*step));
     if (count++ % 20 == 0) show(count, tracker.belief());
   }
   show(count, tracker.belief());

@@ -101,8 +101,7 @@ void drawInto(const std::filesystem::path& folder, const std::vector<FailedQuery
       pictures = std::make_unique<PictureMaker>(*failure.map);
       drawn_map = failure.map;
     }
-    ObservedScene scene = observeScene(failure.query.scans);
-    scene.features.insert(scene.features.end(), failure.landmarks.begin(), failure.landmarks.end());
+    const ObservedScene scene = observeScene(failure.query.scans, failure.landmarks);
     const Belief belief = beliefOf(failure.answer);
     StepDrawing drawing;
     drawing.observed = &scene;

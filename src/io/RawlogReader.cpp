@@ -365,4 +365,9 @@ double RawlogReader::progress() const
 {
   return state_->ended ? 1.0 : state_->input.progress();
 }
+
+ObservedScene observe(const RawlogStep& step, const FeatureExtractorOptions& extraction)
+{
+  return observeScene(step.scans, step.landmarks, extraction);
+}
 }  // namespace sigloc

@@ -183,8 +183,7 @@ const StepRecord* LocalizationRun::next()
   }
 
   const Stopwatch extraction;
-  scene_ = observeScene(input->scans, setup_.features);
-  scene_.features.insert(scene_.features.end(), input->landmarks.begin(), input->landmarks.end());
+  scene_ = observe(*input, setup_.features);
   step.extraction_ms = extraction.milliseconds();
   const Stopwatch tracking;
   step.belief = state_->particles ? state_->particles->step(*input)

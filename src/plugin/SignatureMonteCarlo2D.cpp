@@ -30,10 +30,7 @@ constexpr std::size_t kCompared = 16;  // particles that tell whether the caller
 ObservedScene sceneOf(const CSensoryFrame* frame, const FeatureExtractorOptions& extraction)
 {
   if (frame == nullptr) return {};
-  ObservedScene scene = observeScene(laserScansOf(*frame), extraction);
-  const std::vector<Feature> landmarks = landmarksOf(*frame);
-  scene.features.insert(scene.features.end(), landmarks.begin(), landmarks.end());
-  return scene;
+  return observeScene(laserScansOf(*frame), landmarksOf(*frame), extraction);
 }
 
 std::shared_ptr<const SignatureMap> signatureMapIn(const mrpt::maps::CMetricMap::ConstPtr& map)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "sigloc/config/option_fields.h"
+#include "sigloc/features/Feature.h"
 #include "sigloc/features/LaserScan.h"
 #include "sigloc/features/ObservedScene.h"
 
@@ -53,4 +54,14 @@ struct FeatureExtractorOptions
 /// step is not positive. \cite algorithm section 2
 ObservedScene observeScene(const std::vector<LaserScan>& scans,
                            const FeatureExtractorOptions& options = {});
+
+/// The same with landmarks that another sensor measured, as features in the robot frame.
+inline ObservedScene observeScene(const std::vector<LaserScan>& scans,
+                                  const std::vector<Feature>& landmarks,
+                                  const FeatureExtractorOptions& options = {})
+{
+  ObservedScene scene = observeScene(scans, options);
+  scene.features.insert(scene.features.end(), landmarks.begin(), landmarks.end());
+  return scene;
+}
 }  // namespace sigloc

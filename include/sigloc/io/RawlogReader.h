@@ -13,6 +13,7 @@
 
 #include "sigloc/features/Feature.h"
 #include "sigloc/features/LaserScan.h"
+#include "sigloc/features/observe_scans.h"
 #include "sigloc/geometry/GaussianPose.h"
 
 namespace sigloc
@@ -30,6 +31,10 @@ struct RawlogStep
   /// collection led here.
   mrpt::obs::CActionCollection::Ptr actions;
 };
+
+/// Returns all that the robot observed in a step, laser returns and landmarks, in the robot frame:
+/// the input of SignatureMatcher and HypothesisTracker. The same errors as observeScene().
+ObservedScene observe(const RawlogStep& step, const FeatureExtractorOptions& extraction = {});
 
 /// What of a log makes no sense and was taken for not being there.
 struct LeftOutOfLog

@@ -16,7 +16,7 @@ namespace sigloc
 ///
 ///     HypothesisTracker tracker(matcher);
 ///     while (auto step = log.next())
-///       if (tracker.step(step->motion, observeScene(step->scans)).verdict == Verdict::localized)
+///       if (tracker.step(step->motion, observe(*step)).verdict == Verdict::localized)
 ///       ...
 ///
 /// Deterministic; not thread-safe (one tracker a robot); all budgets are operation counts.

@@ -53,9 +53,7 @@ class SignatureTracking : public SteppedTracking
 
   TrackingClaim step(const RawlogStep& step) override
   {
-    ObservedScene scene = observeScene(step.scans);
-    scene.features.insert(scene.features.end(), step.landmarks.begin(), step.landmarks.end());
-    return claimOf(tracker_.step(step.motion, scene));
+    return claimOf(tracker_.step(step.motion, observe(step)));
   }
 
  private:
