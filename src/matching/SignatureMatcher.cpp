@@ -8,6 +8,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "geometry/same_place.h"
 #include "matching/candidate_probabilities.h"
 #include "matching/candidates.h"
 #include "matching/dense/DenseVerifier.h"

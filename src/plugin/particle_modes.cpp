@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "plugin/particle_modes.h"
 
+#include "geometry/same_place.h"
+
 #include <mrpt/math/wrap2pi.h>
 
 #include <algorithm>
@@ -21,8 +23,6 @@ constexpr double kBinSize = 0.5;  // [m]
 constexpr double kBinAngle = 20.0 * M_PI / 180.0;
 constexpr double kModeDistance = 0.75;  // [m]
 constexpr double kModeAngle = 20.0 * M_PI / 180.0;
-constexpr double kNearDistance = 0.5;  // [m]
-constexpr double kNearAngle = 17.0 * M_PI / 180.0;
 constexpr double kLeastWeight = 1e-4;  // of a mode
 constexpr int kMeanShifts = 3;
 
@@ -57,11 +57,6 @@ Bin binOf(const TPose2D& pose)
           std::lround(wrapToPi(pose.phi) / kBinAngle)};
 }
 
-bool near(const TPose2D& a, const TPose2D& b, double distance, double angle)
-{
-  return std::hypot(a.x - b.x, a.y - b.y) <= distance && std::abs(wrapToPi(a.phi - b.phi)) <= angle;
-}
-
 /// A particle in the heaviest bin of those that no mode has taken, or null.
 const WeightedPose* densest(const std::vector<WeightedPose>& poses)
 {
@@ -89,7 +84,7 @@ ParticleMode momentsAround(const std::vector<WeightedPose>& poses, const TPose2D
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
   for (const WeightedPose& p : poses)
   {
-    if (p.taken || !near(p.pose, center, kModeDistance, kModeAngle)) continue;
+    if (p.taken || !withinReach(p.pose, center, kModeDistance, kModeAngle)) continue;
     const Eigen::Vector3d apart(p.pose.x - center.x, p.pose.y - center.y,
                                 wrapToPi(p.pose.phi - center.phi));
     mode.weight += p.weight;
@@ -127,7 +122,7 @@ std::vector<ParticleMode> modesOf(const mrpt::poses::CPosePDFParticles& particle
     }
     for (WeightedPose& p : poses)
     {
-      if (near(p.pose, center, kModeDistance, kModeAngle)) p.taken = true;
+      if (withinReach(p.pose, center, kModeDistance, kModeAngle)) p.taken = true;
     }
     if (mode.weight > kLeastWeight) modes.push_back(mode);
   }
@@ -142,7 +137,7 @@ double weightNear(const mrpt::poses::CPosePDFParticles& particles, const TPose2D
   double weight = 0;
   for (const WeightedPose& p : normalised(particles))
   {
-    if (near(p.pose, pose, kNearDistance, kNearAngle)) weight += p.weight;
+    if (samePlace(p.pose, pose)) weight += p.weight;
   }
   return weight;
 }

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "geometry/same_place.h"
 #include "matching/dense/CellView.h"
 #include "matching/dense/CoarseField.h"
 #include "matching/dense/likelihood_table.h"
@@ -37,9 +38,7 @@ constexpr int kFinalSteps = 2;
 constexpr std::size_t kSettled = 4;
 constexpr int kSettleSteps = 12;
 constexpr double kSettleLoss = 0.01;  // of the score, that settling may cost
-constexpr double kDistinctDistance = 0.5;  // [m]
 constexpr double kApartDistance = 0.08;  // [m]
-constexpr double kDistinctAngle = 17.0 * M_PI / 180.0;  // [rad]
 constexpr std::size_t kRayBeams = WallCrossings::kRays;  // beams tested for passing through walls
 constexpr std::size_t kFinalRays = 24;  // of them, for a pose that may still be no contender
 constexpr double kFreeMargin = 0.4;  // [m] from any wall that makes an end in free space count
@@ -58,12 +57,6 @@ float sharpLikelihood(const CellView::Block& block, std::size_t i, float resolut
   return std::exp(kSlope * (x * x + y * y));
 }
 
-bool distinct(const TPose2D& a, const TPose2D& b, double distance)
-{
-  return std::hypot(a.x - b.x, a.y - b.y) > distance ||
-         std::abs(wrapToPi(a.phi - b.phi)) > kDistinctAngle;
-}
-
 /// Best first; ties are broken by the pose, so that the order never depends on the history.
 bool better(const RankedPose& a, const RankedPose& b)
 {
@@ -75,16 +68,17 @@ bool better(const RankedPose& a, const RankedPose& b)
 
 /// Keeps the best of each group of poses that are not distinct; at most `count`.
 void keepDistinct(std::vector<RankedPose>& poses, std::size_t count,
-                  double distance = kDistinctDistance)
+                  double distance = kSamePlaceDistance)
 {
   std::sort(poses.begin(), poses.end(), better);
   std::vector<RankedPose> kept;
   for (const RankedPose& candidate : poses)
   {
     if (kept.size() == count) break;
-    const bool fresh = std::all_of(kept.begin(), kept.end(),
-                                   [&](const RankedPose& other)
-                                   { return distinct(candidate.pose, other.pose, distance); });
+    const bool fresh = std::all_of(
+        kept.begin(), kept.end(),
+        [&](const RankedPose& other)
+        { return !withinReach(candidate.pose, other.pose, distance, kSamePlaceAngle); });
     if (fresh) kept.push_back(candidate);
   }
   poses = std::move(kept);

@@ -14,7 +14,7 @@ namespace
 {
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 constexpr std::size_t kMostItems = 4096;  // then the worse half is dropped
-constexpr std::int64_t kHeadingCells = 21;  // of at least kMergeAngle
+constexpr std::int64_t kHeadingCells = 21;  // of at least kSamePlaceAngle
 
 bool ranksBefore(const FeatureHypothesis& a, const FeatureHypothesis& b)
 {
@@ -36,8 +36,8 @@ struct CellIndex
 CellIndex cellOf(const mrpt::math::TPose2D& pose)
 {
   const double turn = mrpt::math::wrapTo2Pi(pose.phi) / (2 * M_PI);
-  return {static_cast<std::int64_t>(std::floor(pose.x / kMergeDistance)),
-          static_cast<std::int64_t>(std::floor(pose.y / kMergeDistance)),
+  return {static_cast<std::int64_t>(std::floor(pose.x / kSamePlaceDistance)),
+          static_cast<std::int64_t>(std::floor(pose.y / kSamePlaceDistance)),
           static_cast<std::int64_t>(turn * static_cast<double>(kHeadingCells)) % kHeadingCells};
 }
 
@@ -55,14 +55,6 @@ std::size_t bitOf(const FeaturePairing& pairing)
   return static_cast<std::size_t>(mixed >> 50);  // 14 bits
 }
 }  // namespace
-
-bool samePlace(const mrpt::math::TPose2D& a, const mrpt::math::TPose2D& b)
-{
-  const double dx = a.x - b.x;
-  const double dy = a.y - b.y;
-  return dx * dx + dy * dy <= kMergeDistance * kMergeDistance &&
-         std::abs(mrpt::math::wrapToPi(a.phi - b.phi)) <= kMergeAngle;
-}
 
 void HypothesisSet::enterCells(std::uint32_t index)
 {

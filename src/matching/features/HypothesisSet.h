@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "geometry/same_place.h"
 #include "matching/features/FeatureHypothesis.h"
 
 #include <cstdint>
@@ -10,13 +11,6 @@
 
 namespace sigloc
 {
-/// Two poses are one place when they are nearer than both of these.
-constexpr double kMergeDistance = 0.5;  // [m]
-constexpr double kMergeAngle = 0.2967;  // [rad], 17 degrees
-
-/// True when two poses are one place.
-bool samePlace(const mrpt::math::TPose2D& a, const mrpt::math::TPose2D& b);
-
 /// Verified hypotheses gathered during one query, equal poses merged through a hash grid of poses:
 /// of several at one place the best stays. \cite algorithm eq. (5.13)
 class HypothesisSet

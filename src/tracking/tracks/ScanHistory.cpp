@@ -9,6 +9,7 @@
 #include <functional>
 #include <utility>
 
+#include "geometry/same_place.h"
 #include "matching/candidate_probabilities.h"
 
 namespace sigloc
@@ -107,7 +108,7 @@ std::optional<ScanHistory::WaySays> ScanHistory::compareWith(const std::vector<V
   {
     const Look& addScan = lookBack(k);
     const Visit& own = visits.emplace_back(way.visit(addScan));
-    if (isSamePlace(own.pose, rival[k].pose))
+    if (samePlace(own.pose, rival[k].pose))
     {
       if (sum.smaller() <= kBranches) return {};
       return WaySays{{}, true, {}};

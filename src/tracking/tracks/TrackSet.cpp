@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "geometry/pose_fusion.h"
+#include "geometry/same_place.h"
 #include "matching/candidate_probabilities.h"
 #include "tracking/tracks/pose_update.h"
 #include "tracking/tracks/travel.h"
@@ -22,8 +23,6 @@ using mrpt::math::wrapToPi;
 
 namespace
 {
-constexpr double kSameDistance = 0.5;  // [m], a proposal this near to a track confirms it
-constexpr double kSameAngle = 17.0 * M_PI / 180.0;
 constexpr double kMergeDistance = 0.3;  // [m]
 constexpr double kMergeAngle = 10.0 * M_PI / 180.0;
 constexpr double kScanMemory = 10.0;  // [m] of travel
@@ -35,11 +34,6 @@ constexpr double kMostNews = 4.0;  // views that a metre can bring
 constexpr double kScoreMemory = 0.9;  // of the running mean of the score, per step
 constexpr double kMinSigma = 0.005;  // [m], floor of a step's motion
 constexpr double kMinTurnSigma = 0.002;  // [rad]
-
-bool coincide(const TPose2D& a, const TPose2D& b, double distance, double angle)
-{
-  return std::hypot(a.x - b.x, a.y - b.y) <= distance && std::abs(wrapToPi(a.phi - b.phi)) <= angle;
-}
 
 double medianRange(const DenseScan& scan)
 {
@@ -68,14 +62,9 @@ double shareBetweenRivals(const DenseScan& scan, double travel, const TrackerOpt
          std::min(1.0, travel / (kBold * options.evidence_distance));
 }
 
-bool isSamePlace(const TPose2D& a, const TPose2D& b)
-{
-  return coincide(a, b, kSameDistance, kSameAngle);
-}
-
 bool wouldMerge(const TPose2D& a, const TPose2D& b)
 {
-  return coincide(a, b, kMergeDistance, kMergeAngle);
+  return withinReach(a, b, kMergeDistance, kMergeAngle);
 }
 
 double TrackSet::predict(const std::optional<MotionIncrement>& motion)
@@ -249,7 +238,7 @@ Track* TrackSet::trackAt(const TPose2D& pose)
 {
   for (Track& track : tracks)
   {
-    if (isSamePlace(track.hypothesis.pose.mean, pose)) return &track;
+    if (samePlace(track.hypothesis.pose.mean, pose)) return &track;
   }
   return nullptr;
 }

@@ -19,9 +19,6 @@ namespace sigloc
 /// the one before. Few returns tell little: half of a score may hang on three specks. Eq. (8.5)
 double shareBetweenRivals(const DenseScan& scan, double travel, const TrackerOptions& options);
 
-/// True for a pose so near to a track that it is the track's.
-bool isSamePlace(const mrpt::math::TPose2D& a, const mrpt::math::TPose2D& b);
-
 /// True for poses so near to each other that their tracks are merged.
 bool wouldMerge(const mrpt::math::TPose2D& a, const mrpt::math::TPose2D& b);
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "eval/methods/lattice/DenseSearchSpace.h"
 
+#include "geometry/same_place.h"
+
 #include <mrpt/math/wrap2pi.h>
 
 #include <algorithm>
@@ -17,8 +19,6 @@ using mrpt::math::TPose2D;
 namespace
 {
 constexpr double kLongestRange = 80.0;  // [m], end points beyond it are not looked up
-constexpr double kDistinctDistance = 0.5;  // [m]
-constexpr double kDistinctAngle = 17.0 * M_PI / 180.0;  // [rad]
 
 // Wide enough that no return can leave the bordered grid.
 std::uint32_t borderOf(const RasterFrame& frame)
@@ -72,12 +72,7 @@ std::vector<Candidate> distinctCandidates(const std::vector<Candidate>& ranked, 
     const TPose2D& pose = candidate.pose.mean;
     const bool seen =
         std::any_of(distinct.begin(), distinct.end(),
-                    [&](const Candidate& other)
-                    {
-                      const TPose2D& o = other.pose.mean;
-                      return std::hypot(o.x - pose.x, o.y - pose.y) <= kDistinctDistance &&
-                             std::abs(mrpt::math::angDistance(o.phi, pose.phi)) <= kDistinctAngle;
-                    });
+                    [&](const Candidate& other) { return samePlace(other.pose.mean, pose); });
     if (!seen) distinct.push_back(candidate);
   }
   return distinct;
