@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/pose_fusion.h"
+#include "matching/verdict.h"
 
 namespace sigloc
 {
@@ -35,9 +35,6 @@ constexpr double kWallTempering = 0.25;
 constexpr double kPlaceTempering = 0.5;
 constexpr double kPriorElsewhere =
     0.002;  // of standing off the map, and of a generator that failed
-constexpr double kLocalized = 0.99;
-constexpr double kNotHere = 0.98;
-constexpr double kMaxOpenSigma = 0.5;  // [m], a wider pose is a line of poses
 
 /// The score of the best candidate but the k-th, or what chance reaches where there is none.
 double rivalScore(const RelocationResult& result, std::size_t k)
@@ -56,29 +53,21 @@ double unhiddenShare(const DenseEvidence& evidence)
 /// The verdict that the weights allow.
 void decide(RelocationResult& result)
 {
+  VerdictGrounds grounds;
+  grounds.poses = result.candidates.size();
   if (result.candidates.empty())
   {
     result.elsewhere = 1;
-    result.verdict = Verdict::not_here;
-    result.probability = 1;
-    return;
-  }
-  const Candidate& first = result.candidates.front();
-  if (first.probability >= kLocalized && largestPositionSigma(first.pose) < kMaxOpenSigma)
-  {
-    result.verdict = Verdict::localized;
-    result.probability = first.probability;
-  }
-  else if (result.elsewhere >= kNotHere)
-  {
-    result.verdict = Verdict::not_here;
-    result.probability = result.elsewhere;
   }
   else
   {
-    result.verdict = Verdict::ambiguous;
-    result.probability = 1.0 - first.probability;
+    grounds.first = result.candidates.front().probability;
+    grounds.first_pose = result.candidates.front().pose;
   }
+  grounds.elsewhere = result.elsewhere;
+  const VerdictDecision decision = decideVerdict(grounds);
+  result.verdict = decision.verdict;
+  result.probability = decision.probability;
 }
 }  // namespace
 

@@ -7,12 +7,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/pose_fusion.h"
+#include "geometry/same_place.h"
 #include "io/motion_conversion.h"
 #include "matching/candidate_probabilities.h"
 #include "matching/dense/DenseVerifier.h"
 #include "plugin/particle_modes.h"
 #include "sigloc/plugin/SignatureMonteCarlo2D.h"
+#include "tracking/belief_verdict.h"
 #include "tracking/tracks/travel.h"
 
 namespace sigloc
@@ -23,8 +24,6 @@ using mrpt::math::wrapToPi;
 namespace
 {
 constexpr std::size_t kScoreBeams = 180;  // the heaviest mode is judged by
-constexpr double kMaxOpenSigma = 0.5;  // [m], a wider pose is a line of poses
-constexpr double kNotHere = 0.98;
 constexpr double kMaxLost = 3.0;  // log-odds
 constexpr double kMaxConfirmed = 6.0;  // log-odds
 constexpr double kMaxAgainst = 2.0;  // log-odds a metre
@@ -40,8 +39,7 @@ constexpr double kMoved = 0.15;  // [m], more than the jitter of a standing robo
 
 bool same(const TPose2D& a, const TPose2D& b)
 {
-  return std::hypot(a.x - b.x, a.y - b.y) <= kSameDistance &&
-         std::abs(wrapToPi(a.phi - b.phi)) <= kSameAngle;
+  return withinReach(a, b, kSameDistance, kSameAngle);
 }
 
 /// What one relocation says of a pose it gives probability p. Eq. (9.3)
@@ -227,35 +225,14 @@ void SignatureMonteCarlo2D::publish(bool blind)
     hypothesis.pose.covariance(2, 2) += kLeastTurnSigma * kLeastTurnSigma;
     belief_.hypotheses.push_back(hypothesis);
   }
-  if (modes_.empty())
+  BeliefGrounds grounds;
+  grounds.sees_too_little = blind;
+  if (!modes_.empty())
   {
-    belief_.verdict = blind ? Verdict::too_little_seen : Verdict::not_here;
-    belief_.probability = belief_.elsewhere;
-    belief_.reason = blind ? "fewer returns than needed" : "nothing in the map explains the scan";
-    return;
+    belief_.reliability = reliability_;
+    grounds.confirmed = modes_.front().confirmed >= tracking_.confirmation;
   }
-  const TrackedHypothesis& first = belief_.hypotheses.front();
-  belief_.reliability = reliability_;
-  const bool open = largestPositionSigma(first.pose) >= kMaxOpenSigma;
-  const bool confirmed = modes_.front().confirmed >= tracking_.confirmation;
-  if (first.weight >= tracking_.localized_probability && confirmed && !open)
-  {
-    belief_.verdict = Verdict::localized;
-    belief_.probability = first.weight;
-    belief_.reason = "the particles have gathered";
-  }
-  else if (belief_.elsewhere >= kNotHere)
-  {
-    belief_.verdict = Verdict::not_here;
-    belief_.probability = belief_.elsewhere;
-    belief_.reason = "no particle explains the scan";
-  }
-  else
-  {
-    belief_.verdict = Verdict::ambiguous;
-    belief_.probability = 1 - first.weight;
-    belief_.reason =
-        confirmed ? "the particles are spread" : "relocation has not confirmed the particles yet";
-  }
+  const auto& field = matcher_->map().field();
+  setVerdict(belief_, grounds, tracking_.localized_probability, field ? &*field : nullptr);
 }
 }  // namespace sigloc

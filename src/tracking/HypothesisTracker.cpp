@@ -366,6 +366,6 @@ void HypothesisTracker::State::publish(const ObservedScene& scene)
     grounds.confirmed = set.claimLogOdds() >= options.confirmation;
     grounds.doubtful = doubtful();
   }
-  decideVerdict(belief, grounds, options.localized_probability, fieldOf(matcher->map()));
+  setVerdict(belief, grounds, options.localized_probability, fieldOf(matcher->map()));
 }
 }  // namespace sigloc

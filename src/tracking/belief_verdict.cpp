@@ -2,57 +2,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tracking/belief_verdict.h"
 
-#include "geometry/pose_fusion.h"
+#include "matching/verdict.h"
 #include "tracking/rivals.h"
 
 namespace sigloc
 {
-namespace
+void setVerdict(Belief& belief, const BeliefGrounds& more, double sure, const DenseField* field)
 {
-constexpr double kMaxOpenSigma = 0.5;  // [m], a wider pose is a line of poses
-constexpr double kNotHere = 0.98;
-
-void say(Belief& belief, Verdict verdict, double probability, const std::string& reason)
-{
-  belief.verdict = verdict;
-  belief.probability = probability;
-  belief.reason = reason;
-}
-}  // namespace
-
-void decideVerdict(Belief& belief, const BeliefGrounds& grounds, double sure,
-                   const DenseField* field)
-{
-  if (belief.hypotheses.empty())
+  VerdictGrounds grounds;
+  grounds.poses = belief.hypotheses.size();
+  grounds.elsewhere = belief.elsewhere;
+  grounds.confirmed = more.confirmed;
+  grounds.doubtful = more.doubtful;
+  grounds.sees_too_little = more.sees_too_little;
+  if (grounds.poses > 0)
   {
-    if (grounds.sees_too_little)
-    {
-      say(belief, Verdict::too_little_seen, belief.elsewhere, "fewer returns than needed");
-    }
-    else
-    {
-      say(belief, Verdict::not_here, belief.elsewhere, "nothing in the map explains the scan");
-    }
-    return;
+    grounds.first = belief.hypotheses.front().weight;
+    grounds.first_pose = belief.hypotheses.front().pose;
   }
-  const TrackedHypothesis& first = belief.hypotheses.front();
-  const bool open = largestPositionSigma(first.pose) >= kMaxOpenSigma;
-  if (first.weight >= sure && grounds.confirmed && !grounds.doubtful && !open)
-  {
-    say(belief, Verdict::localized, first.weight, "one hypothesis holds");
-  }
-  else if (belief.elsewhere >= kNotHere)
-  {
-    say(belief, Verdict::not_here, belief.elsewhere, "no hypothesis explains the scan");
-  }
-  else
-  {
-    const bool rivalled = first.weight < sure || belief.hypotheses.size() > 1;
-    say(belief, Verdict::ambiguous, 1.0 - first.weight,
-        open               ? "the position is open along a line"
-        : grounds.doubtful ? "the hypothesis explains much less than it used to"
-        : rivalled         ? describeRivals(belief.hypotheses, field)
-                           : "too little of what has been seen is explained by this map alone");
-  }
+  const VerdictDecision decision = decideVerdict(grounds, sure);
+  belief.verdict = decision.verdict;
+  belief.probability = decision.probability;
+  const bool has_rivals =
+      decision.reason == VerdictReason::not_sure ||
+      (decision.reason == VerdictReason::unconfirmed && belief.hypotheses.size() > 1);
+  belief.reason = has_rivals ? describeRivals(belief.hypotheses, field) : toString(decision.reason);
 }
 }  // namespace sigloc

@@ -15,9 +15,8 @@ struct BeliefGrounds
   bool sees_too_little = false;  ///< to say that the robot is not here
 };
 
-/// Sets the verdict of a belief, its probability and its reason from the hypotheses (heaviest
-/// first) and "somewhere else"; a claim takes the weight `sure`. Without a field (null) the reason
-/// does not say where rivals differ. \cite algorithm section 8, "Verdict"
-void decideVerdict(Belief& belief, const BeliefGrounds& grounds, double sure,
-                   const DenseField* field);
+/// Sets the verdict of a belief, its probability and its reason, by decideVerdict() on its
+/// hypotheses (heaviest first) and "somewhere else"; a claim takes the weight `sure`. Without a
+/// field (null) the reason does not say where rivals differ.
+void setVerdict(Belief& belief, const BeliefGrounds& more, double sure, const DenseField* field);
 }  // namespace sigloc

@@ -85,7 +85,7 @@ TEST(DecideVerdict, ClaimsOnlyWhatNothingSpeaksAgainst)
   for (const Case& c : cases)
   {
     Belief belief = c.belief;
-    decideVerdict(belief, c.grounds, kSure, nullptr);
+    setVerdict(belief, c.grounds, kSure, nullptr);
     EXPECT_EQ(belief.verdict, c.verdict) << c.what;
     EXPECT_NEAR(belief.probability, c.probability, 1e-9) << c.what;
     EXPECT_NE(belief.reason.find(c.reason), std::string::npos) << c.what << ": " << belief.reason;

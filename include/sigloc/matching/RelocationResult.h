@@ -10,6 +10,9 @@
 
 namespace sigloc
 {
+/// From this probability on a pose is claimed.
+constexpr double kLocalizedProbability = 0.99;
+
 /// What is claimed about the robot's place.
 enum class Verdict : std::uint8_t
 {

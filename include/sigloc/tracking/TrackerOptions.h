@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "sigloc/config/option_fields.h"
+#include "sigloc/matching/RelocationResult.h"
 
 namespace sigloc
 {
@@ -12,7 +13,7 @@ namespace sigloc
 struct TrackerOptions
 {
   std::uint32_t max_hypotheses = 20;
-  double localized_probability = 0.99;
+  double localized_probability = kLocalizedProbability;
   double prune_weight = 1e-4;
   double evidence_distance = 1.0;
   double evidence_turn = 3.0;
