@@ -1,0 +1,68 @@
+# SPDX-FileCopyrightText: 2026 the sigloc authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Intervals and fits, and how they are written."""
+import math
+
+Z = 1.959964
+# 97.5 % points of Student's t, from one degree of freedom on.
+STUDENT = (12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228)
+NONE = "-"
+
+
+def wilson(count, cases):
+    """The 95 % interval of a share of at least one case."""
+    share = count / cases
+    scale = 1 + Z * Z / cases
+    middle = (share + Z * Z / (2 * cases)) / scale
+    half = Z * math.sqrt(share * (1 - share) / cases + Z * Z / (4 * cases * cases)) / scale
+    return max(0.0, middle - half), min(1.0, middle + half)
+
+
+def share(count, cases):
+    """A share with its interval, for shares that are usually near 1."""
+    if not cases:
+        return NONE
+    low, high = wilson(count, cases)
+    return f"{count / cases:.3f} ({low:.2f}-{high:.2f})"
+
+
+def rare(count, cases):
+    """A count with its share and interval in per cent, for what should not happen."""
+    if not cases:
+        return NONE
+    low, high = wilson(count, cases)
+    return f"{count} = {100 * count / cases:.2f} % ({100 * low:.2f}-{100 * high:.2f})"
+
+
+def number(value, decimals):
+    return NONE if value is None else f"{value:.{decimals}f}"
+
+
+def times(value):
+    """A ratio with two digits or more."""
+    return NONE if value is None else f"{value:.0f}" if value >= 10 else f"{value:.1f}"
+
+
+def fit_exponent(points):
+    """Slope of log y over log x and half of its 95 % interval, None of two points."""
+    xs = [math.log(x) for x, _ in points]
+    ys = [math.log(max(y, 1e-12)) for _, y in points]
+    x_mean = sum(xs) / len(xs)
+    y_mean = sum(ys) / len(ys)
+    spread = sum((x - x_mean) ** 2 for x in xs)
+    slope = sum((x - x_mean) * (y - y_mean) for x, y in zip(xs, ys)) / spread
+    if len(points) < 3:
+        return slope, None
+    residuals = sum((y - y_mean - slope * (x - x_mean)) ** 2 for x, y in zip(xs, ys))
+    freedom = len(points) - 2
+    student = STUDENT[min(freedom, len(STUDENT)) - 1]
+    return slope, student * math.sqrt(residuals / freedom / spread)
+
+
+def exponent(points):
+    if len({x for x, _ in points}) < 2:
+        return NONE
+    slope, half = fit_exponent(points)
+    if half is None:
+        return f"{slope:.2f}"
+    return f"{slope:.2f} ({slope - half:.2f} to {slope + half:.2f})"

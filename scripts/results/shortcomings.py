@@ -1,0 +1,100 @@
+# SPDX-FileCopyrightText: 2026 the sigloc authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Where the figures fall short: a sentence or two each, from the tables that are there."""
+from results import drives, scans, simulated
+from results.numbers import NONE
+
+
+def shortcomings(tables):
+    """Bullets from the page's tables by title."""
+    makers = (one_scan, features, recorded, landmark_tracking, moved, half_mapped, no_odometry,
+              foreign_kind, foreign_size, sweep)  # fmt: skip
+    return [text for text in (maker(tables) for maker in makers) if text]
+
+
+def one_scan(tables):
+    table = tables[scans.ONE_SCAN]
+    low = table.extreme("right@1", scans.whole_scans(table))
+    return (f"**One scan**: on {low} the first answer is right in {table.cell(low, 'right@1')}, "
+            f"one of ten in {table.cell(low, 'right@10')}.")  # fmt: skip
+
+
+def features(tables):
+    table = tables[scans.ONE_SCAN]
+    parts = [f"{table.cell(name, 'localized, right')} of {table.cell(name, 'scans')} on "
+             f"{name.split(',')[0]}" for name in table.rows if name.endswith(scans.FEATURES)]  # fmt: skip
+    if not parts:
+        return None
+    return f"**Features alone claim little**: *localized* are {' and '.join(parts)}."
+
+
+def recorded(tables):
+    table = tables[drives.WAKE_UPS]
+    low = table.extreme("right at the end", drives.laser_rows(table))
+    wrong = [name for name in drives.laser_rows(table) if table.cell(name, "wrong at some step")]
+    text = f"**Recorded drives**: fewest end right on {low}: {table.cell(low, 'right at the end')}."
+    if wrong:
+        counts = ", ".join(f"{name} ({table.cell(name, 'wrong at some step')} of "
+                           f"{table.cell(name, 'starts')})" for name in wrong)  # fmt: skip
+        text += f" Wrong at some step: {counts}."
+    return text
+
+
+def landmark_tracking(tables):
+    table = tables[drives.WAKE_UPS]
+    name = "dlr, landmarks"
+    if name not in table.rows:
+        return None
+    return (f"**Tracking by landmarks**: on dlr {table.cell(name, 'right at the end')} of "
+            f"{table.cell(name, 'starts')} starts end right, and "
+            f"{table.cell(name, 'wrong at some step')} are wrong at some step.")  # fmt: skip
+
+
+def simulated_row(tables, name, title, word):
+    table = tables[simulated.WAKE_UPS]
+    if name not in table.rows:
+        return None
+    return (f"**{title}**: {word} {table.cell(name, 'right at the end')} end right; wrong at some step "
+            f"are {table.cell(name, 'wrong at some step %')}.")  # fmt: skip
+
+
+def moved(tables):
+    name = "half of the furniture moved: corridor"
+    return simulated_row(tables, name, "Moved furniture", "in corridors")
+
+
+def half_mapped(tables):
+    name = "half of the world mapped: all"
+    return simulated_row(tables, name, "Unmapped copies", "with half a map")
+
+
+def no_odometry(tables):
+    return simulated_row(tables, "no odometry: all", "No odometry", "by scans alone")
+
+
+def foreign_row(tables, name, title):
+    """The kind with the largest share of claims."""
+    table = tables[simulated.FOREIGN]
+    if name not in table.rows:
+        return None
+    claims = {kind: table.cell(name, kind) for kind in simulated.KINDS}
+    claims = {kind: text for kind, text in claims.items() if text != NONE}
+    kind = max(claims, key=lambda kind: float(claims[kind].split(" = ")[1].split()[0]))
+    return f"**{title}**: claimed at some step are, in {kind}s, {claims[kind]}."
+
+
+def foreign_kind(tables):
+    return foreign_row(tables, simulated.SAME_KIND, "Another building of the same kind")
+
+
+def foreign_size(tables):
+    return foreign_row(tables, simulated.SAME_SIZE, "The same outer walls, other contents")
+
+
+def sweep(tables):
+    table = tables[simulated.SWEEPS]
+    low = simulated.hardest(table)
+    if low is None:
+        return None
+    value, rest = table.cell(low, "hardest: right@1").split(": ")
+    return f"**Harder worlds**: at {value}, {low}, the first answer is right in {rest}."
