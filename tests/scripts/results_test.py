@@ -1,0 +1,230 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 the sigloc authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Tests of scripts/write_results.py and scripts/readme_numbers on a bench of made-up figures."""
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(ROOT / "scripts"))
+
+from results import numbers, simulated  # noqa: E402
+
+COMMAND = "scripts/bench --data DIR"
+KINDS = ("office", "corridor", "hall")
+README = "# x\n<!-- results: old -->\nold\n<!-- /results -->\nafter\n"
+
+
+def quantiles(value):
+    return {"median": value, "p95": value, "mean": value}
+
+
+def scan(right, queries, milliseconds, claimed=0, wrong=0):
+    return {
+        "queries": queries, "recall_at_1_counts": [right, queries], "recall_at_10": 1.0,
+        "confident": claimed + wrong, "confident_right": claimed, "confidently_wrong": wrong,
+        "inaccurate": 0, "time_ms": quantiles(milliseconds),
+    }  # fmt: skip
+
+
+def drive(right, runs, wrong=0):
+    return {
+        "queries": runs, "right_at_end_counts": [right, runs], "confidently_wrong": wrong,
+        "confidently_wrong_mapped": wrong, "inaccurate": 0, "settled_counts": [right, runs],
+        "distance_to_settled_m": quantiles(2.5), "cpu_s_to_settled": quantiles(0.1),
+        "step_ms": quantiles(0.2),
+    }  # fmt: skip
+
+
+def simulated_drives(right, runs, kinds=KINDS):
+    groups = {kind: drive(right, runs) for kind in kinds}
+    return {**drive(right * len(kinds), runs * len(kinds)), "groups": groups}
+
+
+class Bench:
+    """Writes the folder that scripts/bench would."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        (folder / "command").write_text(COMMAND + "\n")
+        (folder / "runs.csv").write_text("run,seconds\n")
+
+    def add(self, name, methods, rows=None, commit="abc1234"):
+        (self.folder / name).mkdir()
+        provenance = {"version": "9.9", "commit": commit, "mrpt": "MRPT 2.5.8", "compiler": "12",
+                      "processor": "abacus", "processors": 2}  # fmt: skip
+        summary = {"methods": methods, "provenance": provenance}
+        (self.folder / name / "summary.json").write_text(json.dumps(summary))
+        if rows is not None:
+            head = "method,start,group,right_at_end,settled_after_m,wrong_steps"
+            (self.folder / name / "runs.csv").write_text("\n".join([head] + rows) + "\n")
+        with open(self.folder / "runs.csv", "a") as file:
+            file.write(f"{name},60\n")
+
+    def fill(self):
+        for name in ("campus", "intel", "fhw-reversed", "infinite-corridor-reversed"):
+            self.add(f"scan-{name}", {"signature": scan(87, 99, 0.5, 48), "exhaustive": scan(77, 99, 500),
+                                      "lattice": scan(80, 99, 5)})  # fmt: skip
+        self.add("scans-freiburg-101-in-intel", {"signature": scan(0, 300, 0.5)})
+        self.add("scans-fhw-in-acapulco", {"signature": scan(0, 100, 0.5, 0, 1)})
+        rows = ["signature,0,,1,1.5,0", "signature,1,,1,4,0"]
+        self.add("track-campus", {"signature": drive(19, 20)}, rows)
+        self.add("track-dlr", {"signature": drive(3, 20, 2)}, [])
+        self.add("sim-mapped", {"signature": simulated_drives(98, 100)})
+        self.add("sim-moved", {"signature": simulated_drives(90, 100, KINDS[:2])})
+        # 6 worlds of 2 drives; worlds 3 to 5 get the map of another kind.
+        rows = [f"signature,{i},{KINDS[i // 2 % 3]},0,,{int(i in (0, 6))}" for i in range(12)]
+        self.add("sim-foreign-mixed", {"signature": drive(0, 12, 2)}, rows)
+        for kind in KINDS:
+            rows = [f"signature,{i},{kind},0,,{int(kind == 'hall' and i < 2)}" for i in range(4)]
+            self.add(f"sim-foreign-{kind}", {"signature": drive(0, 4)}, rows)
+            self.add(f"same-size-{kind}-1", {"signature": drive(0, 4)}, rows)
+
+
+def run(script, *arguments):
+    return subprocess.run([sys.executable, "-B", ROOT / "scripts" / script, *arguments],
+                          capture_output=True, text=True, check=False)  # fmt: skip
+
+
+class ResultsTest(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.root = pathlib.Path(temporary.name)
+        self.out = self.root / "out"
+        self.out.mkdir()
+        self.bench = Bench(self.out)
+        self.docs = self.root / "docs" / "results"
+        (self.root / "README.md").write_text(README)
+
+    def write(self):
+        return run("write_results.py", self.out, self.docs)
+
+    def readme_numbers(self, mode):
+        return run("readme_numbers", mode, "--root", self.root)
+
+    def page(self):
+        self.bench.fill()
+        done = self.write()
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return (self.docs / "RESULTS.md").read_text()
+
+    def assert_fails(self, done, *parts):
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        for part in parts:
+            self.assertIn(part, done.stderr)
+
+    def test_page_names_its_commit_and_holds_the_figures(self):
+        page = self.page()
+        self.assertIn("commit abc1234", page)
+        self.assertIn("| campus | 99 | 0.879 (0.80-0.93) | 1.000 | 48 | 0 |", page)
+        self.assertIn("| 1000 | 10 |", page)  # what exhaustive and lattice take
+        self.assertIn("| freiburg-101 in intel, chosen on | 300 |", page)
+        self.assertIn("| all but the one chosen on | 100 | 1 = 1.00 % (0.18-5.45) |", page)
+        self.assertIn("| half of the furniture moved: all | 200 | 0.900", page)
+        self.assertNotIn("furniture moved: hall", page)
+        self.assertTrue((self.docs / "images" / "wake-ups.png").read_bytes().startswith(b"\x89PNG"))
+
+    def test_page_keeps_to_its_style(self):
+        lines = self.page().splitlines()
+        self.assertLessEqual(len(lines), 200)
+        text = " ".join(line for line in lines if line and line[0] not in "|#!")
+        for sentence in re.split(r"[.?] |\* \*\*", text):
+            self.assertLessEqual(len(sentence.split()), 30, sentence)
+
+    def test_foreign_maps_of_the_same_kind_are_counted_apart(self):
+        page = self.page()
+        other = next(line for line in page.splitlines() if line.startswith("| of another kind |"))
+        self.assertIn("| 1 of 2 = 50.00 %", other)  # drive 6 is of world 3, an office
+        self.assertIn("| 1 of 6 = 16.67 %", other)
+        self.assertIn("| 1 of 3 |", other)
+        same = next(line for line in page.splitlines() if line.startswith("| of the same kind |"))
+        self.assertIn("| 0 of 4 = 0.00 % (0.00-48.99) | 0 of 4 = 0.00 %", same)
+        self.assertIn("| 2 of 4 = 50.00 %", same)
+        self.assertIn("| 1 of 6 |", same)
+
+    def test_runs_of_different_commits_are_refused(self):
+        self.bench.fill()
+        self.bench.add("track-intel", {"signature": drive(1, 1)}, commit="fff0000")
+        self.assert_fails(self.write(), "different commits", "abc1234", "fff0000 (track-intel)")
+        self.assertFalse(self.docs.exists())
+
+    def test_uncommitted_changes_are_refused(self):
+        self.bench.add("track-intel", {"signature": drive(1, 1)}, commit="abc1234-dirty")
+        self.assert_fails(self.write(), "abc1234-dirty")
+
+    def test_a_quick_bench_never_leaves_its_folder(self):
+        self.bench.fill()
+        (self.out / "command").write_text("scripts/bench --quick --data DIR\n")
+        self.assert_fails(self.write(), "quick")
+        done = run("write_results.py", self.out, self.out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("quick trial", (self.out / "RESULTS.md").read_text())
+
+    def test_missing_and_broken_input_gets_one_line(self):
+        self.assert_fails(self.write(), "runs.csv", "lists no runs")
+        self.bench.fill()
+        (self.out / "track-dlr" / "summary.json").write_text("{")
+        self.assert_fails(self.write(), "track-dlr/summary.json", "no summary")
+        (self.out / "track-dlr" / "summary.json").unlink()
+        self.assert_fails(self.write(), "track-dlr/summary.json", "No such file")
+
+    def test_readme_gets_the_numbers_and_a_difference_is_found(self):
+        self.assert_fails(self.readme_numbers("--check"), "RESULTS.md")
+        page = self.page()
+        self.assert_fails(self.readme_numbers("--check"), "README.md:2:")
+        self.assertEqual(self.readme_numbers("--write").returncode, 0)
+        self.assertEqual(self.readme_numbers("--check").returncode, 0)
+        readme = (self.root / "README.md").read_text()
+        self.assertIn("| median time, one thread | 0.50 ms |", readme)
+        self.assertIn("2 of 4 in halls", " ".join(readme.split()))
+        self.assertTrue(readme.startswith("# x\n") and readme.endswith("after\n"))
+        (self.docs / "RESULTS.md").write_text(page.replace("| 48 | 0 |", "| 47 | 0 |"))
+        self.assert_fails(self.readme_numbers("--check"), "README.md:", "| 48 |", "| 47 |")
+
+    def test_readme_sentences_are_short(self):
+        self.page()
+        self.readme_numbers("--write")
+        text = " ".join(line for line in (self.root / "README.md").read_text().splitlines()
+                        if line and line[0] not in "|#<")  # fmt: skip
+        for sentence in re.split(r"[.?] ", text):
+            self.assertLessEqual(len(sentence.split()), 25, sentence)
+
+    def test_a_row_that_is_gone_is_named(self):
+        page = self.page()
+        (self.docs / "RESULTS.md").write_text(page.replace("| campus | 99", "| camp | 99"))
+        self.assert_fails(self.readme_numbers("--write"), "One scan, whole map", "no row 'campus'")
+
+    def test_readme_without_the_markers_is_refused(self):
+        self.page()
+        (self.root / "README.md").write_text("# x\n")
+        self.assert_fails(self.readme_numbers("--write"), "README.md", "needs one line")
+
+
+class NumbersTest(unittest.TestCase):
+    def test_few_points_get_the_interval_of_students_t(self):
+        slope, half = numbers.fit_exponent([(1, 1), (2, 2.2), (4, 4)])
+        self.assertAlmostEqual(slope, 1.0)
+        self.assertAlmostEqual(half, 12.706 * 0.0794, places=3)
+        self.assertEqual(numbers.exponent([(1, 1), (2, 4)]), "2.00")
+        self.assertEqual(numbers.exponent([(1, 1)]), "-")
+
+    def test_wilson(self):
+        low, high = numbers.wilson(0, 100)
+        self.assertEqual(low, 0)
+        self.assertAlmostEqual(high, 0.0370, places=4)
+
+    def test_a_world_of_an_unexpected_kind_is_refused(self):
+        with self.assertRaises(simulated.BadInput):
+            simulated.of_another_kind(0, 6, "hall")
+
+
+if __name__ == "__main__":
+    unittest.main()
