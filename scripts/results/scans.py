@@ -53,9 +53,10 @@ def one_scan(bench):
                   method["confidently_wrong"], method["inaccurate"], number(median, 2),
                   share(*others[0]["recall_at_1_counts"]) if others[0] else "-",
                   *ratios)  # fmt: skip
-        asked += method["queries"]
-        claimed += method["confident"]
-        wrong += method["confidently_wrong"]
+        if not name.endswith(FEATURES):
+            asked += method["queries"]
+            claimed += method["confident"]
+            wrong += method["confidently_wrong"]
     low = table.extreme("right@1", whole_scans(table))
     text = (
         "Asked: where in the map was one scan taken, at which heading?",

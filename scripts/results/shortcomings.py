@@ -16,7 +16,7 @@ def one_scan(tables):
     table = tables[scans.ONE_SCAN]
     low = table.extreme("right@1", scans.whole_scans(table))
     return (f"**One scan**: on {low} the first answer is right in {table.cell(low, 'right@1')}, "
-            f"one of ten in {table.cell(low, 'right@10')}.")  # fmt: skip
+            f"among ten answers in {table.cell(low, 'right@10')}.")  # fmt: skip
 
 
 def features(tables):
