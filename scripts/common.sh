@@ -5,10 +5,20 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-# Prints the names listed in scripts/packages.txt.
+# Prints the purposes of scripts/packages.txt.
+listed_purposes()
+{
+  sed -n 's/^\[\(.*\)\]$/\1/p' scripts/packages.txt
+}
+
+# listed_packages PURPOSE...: prints the names that scripts/packages.txt lists under them.
 listed_packages()
 {
-  sed -e 's/#.*//' -e '/^[[:space:]]*$/d' scripts/packages.txt
+  awk -v purposes="$*" '
+    BEGIN { for (n = split(purposes, names, " "); n > 0; n--) wanted[names[n]] }
+    { sub(/#.*/, "") }
+    /^\[/ { listing = substr($1, 2, length($1) - 2) in wanted; next }
+    listing && NF { print $1 }' scripts/packages.txt | sort -u
 }
 
 # Prints our own source files that match the given git path patterns; files not yet added included.
