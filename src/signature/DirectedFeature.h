@@ -31,7 +31,7 @@ static_assert(sizeof(DirectedFeature) <= 64, "one cache line");
 /// Returns the view of a feature by itself: a segment covers its own length.
 inline DirectedFeature directed(const Feature& feature)
 {
-  const double half = feature.type == FeatureType::segment ? 0.5 * feature.size : 0;
+  const double half = isSegment(feature.type) ? 0.5 * feature.size : 0;
   return {&feature,
           feature.position,
           {std::cos(feature.direction), std::sin(feature.direction)},
@@ -39,22 +39,6 @@ inline DirectedFeature directed(const Feature& feature)
           half,
           feature.label,
           feature.type};
-}
-
-inline bool isSegment(FeatureType type)
-{
-  return type == FeatureType::segment;
-}
-/// Everything but a segment marks a place in the plane.
-inline bool isPointLike(FeatureType type)
-{
-  return type != FeatureType::segment;
-}
-/// A corner or wall end carries a direction besides its place; a circle's only says where it was
-/// seen from.
-inline bool hasBearing(FeatureType type)
-{
-  return type == FeatureType::corner || type == FeatureType::wall_end;
 }
 
 inline double dot(const mrpt::math::TPoint2D& a, const mrpt::math::TPoint2D& b)

@@ -31,7 +31,7 @@ BinaryKey distanceToLine(const DirectedFeature& line, const DirectedFeature& pla
           false};
 }
 
-/// Bearing of `other` in the frame of a corner or wall end.
+/// Bearing of `other` in the frame of a directed place.
 BinaryKey bearingFrom(const DirectedFeature& corner, const DirectedFeature& other)
 {
   const TPoint2D between = other.position() - corner.position();

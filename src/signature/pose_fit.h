@@ -31,7 +31,7 @@ std::optional<PoseEstimate> poseFromPlaces(const mrpt::math::TPoint2D* observed,
                                            const mrpt::math::TPoint2D* mapped, std::size_t count,
                                            double variance);
 
-/// Returns the pose that one corner or wall end fixes by itself. nullopt for other types.
+/// Returns the pose that one corner or other directed place fixes by itself, else nullopt.
 std::optional<PoseEstimate> poseFromCorner(const DirectedPairing& pairing, double relative_sigma);
 
 /// Returns the least-squares pose over the pairings, by Gauss-Newton from `start`, with its

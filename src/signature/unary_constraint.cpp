@@ -8,37 +8,23 @@ bool unaryCompatible(const DirectedFeature& observed, const DirectedFeature& map
 {
   if (observed.type() != mapped.type()) return false;
   if (observed.label >= 0 && mapped.label >= 0 && observed.label != mapped.label) return false;
-  if (observed.type() == FeatureType::point) return true;
+  const FeatureType type = observed.type();
+  if (!hasSize(type)) return true;
   const Feature& e = *observed.feature;
   const Feature& f = *mapped.feature;
   // A vanishing variance would make the gate an equality test on floating point numbers.
   constexpr double kRounding = 1e-12;
   const double variance = e.size_variance + f.size_variance + kRounding;
-  switch (e.type)
+  if (isSegment(type))
   {
-    case FeatureType::point:
-      return true;
-    case FeatureType::circle:
-    case FeatureType::corner:
-    {
-      const double difference = e.size - f.size;
-      return difference * difference <= gate * variance;
-    }
-    case FeatureType::segment:
-    {
-      // One-sided: a wall is seen in part, never longer than it is.
-      const Feature& piece = e;
-      const double end_variance =
-          varianceAlong(piece, observed.tangent()) + varianceAlong(f, mapped.tangent());
-      const double excess = observed.length() - mapped.length();
-      return excess <= 0 || excess * excess <= gate * (variance + 2 * end_variance);
-    }
-    case FeatureType::wall_end:
-    {
-      const double excess = e.size - f.size;
-      return e.side == f.side && (excess <= 0 || excess * excess <= gate * variance);
-    }
+    // One-sided: a wall is seen in part, never longer than it is.
+    const double end_variance =
+        varianceAlong(e, observed.tangent()) + varianceAlong(f, mapped.tangent());
+    const double excess = observed.length() - mapped.length();
+    return excess <= 0 || excess * excess <= gate * (variance + 2 * end_variance);
   }
-  return false;
+  const double excess = e.size - f.size;
+  const bool agrees = excess * excess <= gate * variance;
+  return isSeenInPart(type) ? e.side == f.side && (excess <= 0 || agrees) : agrees;
 }
 }  // namespace sigloc

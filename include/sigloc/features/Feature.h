@@ -6,12 +6,15 @@
 #include <mrpt/math/TPoint2D.h>
 #include <mrpt/math/TPose2D.h>
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace sigloc
 {
-/// What a feature is. The numeric values are stored in `.sigmap` files.
+/// What a feature is. The numeric values are stored in `.sigmap` files. A new type is entered
+/// before `count` and gets a row in kFeatureTraits.
 enum class FeatureType : std::uint8_t
 {
   point = 0,  ///< landmark or reflector: a place, nothing else
@@ -19,7 +22,127 @@ enum class FeatureType : std::uint8_t
   circle = 2,  ///< pillar or trunk
   corner = 3,  ///< two walls that meet: vertex, bisector, opening
   wall_end = 4,  ///< a wall that stops at a jump edge: end point, direction of the wall, side
+  count  ///< the number of types; it stays last, and no feature has it
 };
+
+/// What the geometry of a feature is. Code that is not about one type asks for this.
+enum class FeatureGeometry : std::uint8_t
+{
+  place,  ///< a point of the plane without direction
+  viewed,  ///< a place whose direction only says where it was seen from
+  directed,  ///< a place with a direction of its own, so that one feature fixes a pose
+  wall,  ///< a directed piece of wall, which may be seen in several parts
+};
+
+/// What `Feature::size` is.
+enum class FeatureSize : std::uint8_t
+{
+  none,
+  length,  ///< [m]; an observed length may be less than the mapped one
+  radius,  ///< [m], of a round outline about the position
+  opening,  ///< [rad]
+};
+
+/// What code needs to know of a feature type.
+struct FeatureTraits
+{
+  FeatureType type = FeatureType::count;
+  const char* name = "";
+  const char* plural = "";  ///< a key of `sigloc-map info`
+  FeatureGeometry geometry = FeatureGeometry::place;
+  FeatureSize size = FeatureSize::none;
+  const char* size_name = "";
+  std::array<std::uint8_t, 3> color{};  ///< red, green and blue in drawn maps
+  bool has_side = false;  ///< `Feature::side` is used
+};
+
+/// Index of a type in kFeatureTraits and in every array of kFeatureTypes.
+constexpr std::size_t typeIndex(FeatureType type)
+{
+  return static_cast<std::size_t>(type);
+}
+
+constexpr std::size_t kFeatureTypes = typeIndex(FeatureType::count);
+
+/// The traits of each type, in the order of the enum.
+inline constexpr auto kFeatureTraits = []
+{
+  using T = FeatureType;
+  using G = FeatureGeometry;
+  using S = FeatureSize;
+  return std::array<FeatureTraits, kFeatureTypes>{{
+      {T::point, "point", "points", G::place, S::none, "", {20, 20, 20}},
+      {T::segment, "segment", "segments", G::wall, S::length, "length", {31, 78, 160}},
+      {T::circle, "circle", "circles", G::viewed, S::radius, "radius", {110, 120, 0}},
+      {T::corner, "corner", "corners", G::directed, S::opening, "opening", {0, 140, 130}},
+      {T::wall_end, "wall_end", "wall_ends", G::directed, S::length, "length", {150, 90, 20}, true},
+  }};
+}();
+
+constexpr bool everyTypeHasItsRow()
+{
+  for (std::size_t k = 0; k < kFeatureTypes; ++k)
+  {
+    if (typeIndex(kFeatureTraits[k].type) != k) return false;
+  }
+  return true;
+}
+static_assert(everyTypeHasItsRow(), "kFeatureTraits needs a row a type, in the order of the enum");
+static_assert(kFeatureTypes <= 32, "hasTrait has a bit for each type");
+
+constexpr const FeatureTraits& traitsOf(FeatureType type)
+{
+  return kFeatureTraits[typeIndex(type)];
+}
+
+/// Whether a trait of a type has a value. Tests a bit of a constant: cheap in inner loops.
+template <auto trait, auto value>
+constexpr bool hasTrait(FeatureType type)
+{
+  constexpr std::uint32_t types = []
+  {
+    std::uint32_t bits = 0;
+    for (std::size_t k = 0; k < kFeatureTypes; ++k)
+    {
+      if (kFeatureTraits[k].*trait == value) bits |= 1U << k;
+    }
+    return bits;
+  }();
+  return (types >> typeIndex(type) & 1U) != 0;
+}
+
+constexpr bool isSegment(FeatureType type)
+{
+  return hasTrait<&FeatureTraits::geometry, FeatureGeometry::wall>(type);
+}
+/// Everything but a segment marks a place in the plane.
+constexpr bool isPointLike(FeatureType type)
+{
+  return !isSegment(type);
+}
+constexpr bool hasDirection(FeatureType type)
+{
+  return !hasTrait<&FeatureTraits::geometry, FeatureGeometry::place>(type);
+}
+/// A corner or wall end carries a direction besides its place; a circle's only says where it was
+/// seen from.
+constexpr bool hasBearing(FeatureType type)
+{
+  return hasTrait<&FeatureTraits::geometry, FeatureGeometry::directed>(type);
+}
+constexpr bool hasSize(FeatureType type)
+{
+  return !hasTrait<&FeatureTraits::size, FeatureSize::none>(type);
+}
+/// The size is a length, and an observed one may be less than the mapped one.
+constexpr bool isSeenInPart(FeatureType type)
+{
+  return hasTrait<&FeatureTraits::size, FeatureSize::length>(type);
+}
+constexpr bool isRound(FeatureType type)
+{
+  return hasTrait<&FeatureTraits::size, FeatureSize::radius>(type);
+}
 
 /// Which end of its directed segment a wall end is: a mirror image swaps the two.
 enum class WallSide : std::uint8_t

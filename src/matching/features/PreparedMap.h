@@ -11,12 +11,6 @@
 
 namespace sigloc
 {
-constexpr std::size_t kFeatureTypes = 5;
-inline std::size_t typeIndex(FeatureType type)
-{
-  return static_cast<std::size_t>(type);
-}
-
 /// What all modes need of a map, computed once: directed views of its features, the spatial hash,
 /// and how dense features of each type are. Refers to the map, which must outlive it.
 class PreparedMap
