@@ -40,8 +40,7 @@ Feature transformed(const mrpt::math::TPose2D& b_from_a, const Feature& feature_
 {
   Feature feature = feature_in_a;
   feature.position = b_from_a.composePoint(feature_in_a.position);
-  const bool has_direction = feature.type != FeatureType::point;
-  if (has_direction)
+  if (hasDirection(feature.type))
   {
     feature.direction = mrpt::math::wrapToPi(feature_in_a.direction + b_from_a.phi);
   }

@@ -17,11 +17,6 @@ using mrpt::math::TPose2D;
 
 namespace
 {
-bool isPlace(const Feature& feature)
-{
-  return feature.type != FeatureType::segment;
-}
-
 /// A feature of the previous robot frame seen from the current one, the motion's uncertainty added.
 Feature moved(const MotionIncrement& previous_from_current, const Feature& feature)
 {
@@ -41,7 +36,7 @@ Feature moved(const MotionIncrement& previous_from_current, const Feature& featu
   const double mixed = shift.xy + turn.x * turn.y * q.tt + turn.x * along_y + turn.y * along_x;
   p(0, 1) += mixed;
   p(1, 0) += mixed;
-  if (feature.type != FeatureType::point) out.direction_variance += q.tt;
+  if (hasDirection(feature.type)) out.direction_variance += q.tt;
   return out;
 }
 
@@ -103,7 +98,7 @@ Feature LocalMap::widened(const Feature& seen) const
   // The centre fitted to a trunk's near side shifts with the side it is seen from, again and again
   // the same way: averaging does not take that out.
   Feature feature = seen;
-  const double radius = seen.type == FeatureType::circle ? seen.size : 0.0;
+  const double radius = isRound(seen.type) ? seen.size : 0.0;
   widen(feature,
         options_.place_sigma * options_.place_sigma + std::pow(options_.radius_share * radius, 2));
   return feature;
@@ -182,8 +177,9 @@ void LocalMap::add(const MotionIncrement& motion, const std::vector<Feature>& ob
   segments_.clear();
   for (const Feature& feature : observed)
   {
-    (isPlace(feature) ? seen : segments_).push_back(isPlace(feature) ? widened(feature) : feature);
-    Feature& last = isPlace(feature) ? seen.back() : segments_.back();
+    const bool is_place = isPointLike(feature.type);
+    (is_place ? seen : segments_).push_back(is_place ? widened(feature) : feature);
+    Feature& last = is_place ? seen.back() : segments_.back();
     last.parent = -1;  // what it was made of is not kept beside it
     last.sightings = 1;
   }
@@ -205,7 +201,7 @@ void LocalMap::add(const MotionIncrement& motion, const std::vector<Feature>& ob
     known[match.observed] = true;
     Feature& place = places_[match.gathered];
     fuse(place, seen[match.observed]);
-    const double radius = place.type == FeatureType::circle ? place.size : 0.0;
+    const double radius = isRound(place.type) ? place.size : 0.0;
     widen(place, std::pow(kLasting * options_.place_sigma, 2) +
                      std::pow(kLasting * options_.radius_share * radius, 2));
   }

@@ -24,6 +24,10 @@ constexpr std::size_t kAngleBins = 72;
 
 void checkFeature(const Feature& feature, std::size_t k)
 {
+  if (typeIndex(feature.type) >= kFeatureTypes)
+  {
+    throw std::invalid_argument("FeatureMap: feature " + std::to_string(k) + " has no known type");
+  }
   const auto& p = feature.position_covariance;
   const bool finite = std::isfinite(feature.position.x) && std::isfinite(feature.position.y) &&
                       std::isfinite(feature.direction) && std::isfinite(feature.size) &&
@@ -95,7 +99,7 @@ std::vector<WallLine> linkWalls(const std::vector<Feature>& features)
   std::vector<std::vector<std::uint32_t>> bins(kAngleBins);
   for (std::uint32_t k = 0; k < features.size(); ++k)
   {
-    if (features[k].type != FeatureType::segment) continue;
+    if (!isSegment(features[k].type)) continue;
     order.push_back(k);
     bins[angleBin(features[k].direction)].push_back(k);
   }

@@ -30,7 +30,7 @@ std::uint64_t keyOf(std::int64_t x, std::int64_t y)
 std::vector<TPoint2D> samplesOf(const Feature& feature)
 {
   std::vector<TPoint2D> samples;
-  if (feature.type == FeatureType::segment)
+  if (isSegment(feature.type))
   {
     const TPoint2D start = segmentStart(feature);
     const auto steps = static_cast<int>(std::ceil(feature.size / kSpacing)) + 1;
@@ -39,7 +39,7 @@ std::vector<TPoint2D> samplesOf(const Feature& feature)
       samples.push_back(start + tangentVector(feature) * (feature.size * i / steps));
     }
   }
-  else if (feature.type == FeatureType::circle)
+  else if (isRound(feature.type))
   {
     const auto steps = static_cast<int>(std::ceil(2 * M_PI * feature.size / kSpacing)) + 3;
     for (int i = 0; i < steps; ++i)
@@ -60,13 +60,13 @@ std::vector<TPoint2D> samplesOf(const Feature& feature)
 TPoint2D nearestPlaceOn(const Feature& feature, const TPoint2D& point)
 {
   const TPoint2D to_point = point - feature.position;
-  if (feature.type == FeatureType::segment)
+  if (isSegment(feature.type))
   {
     const TPoint2D tangent = tangentVector(feature);
     const double along = tangent.x * to_point.x + tangent.y * to_point.y;
     return feature.position + tangent * std::clamp(along, -0.5 * feature.size, 0.5 * feature.size);
   }
-  if (feature.type == FeatureType::circle)
+  if (isRound(feature.type))
   {
     const double norm = to_point.norm();
     const TPoint2D outward = norm > 0 ? to_point * (1.0 / norm) : directionVector(feature);

@@ -227,7 +227,7 @@ TEST(FeatureMap, RefusesWhatIsNoFeature)
   const double nan = std::nan("");
   const Feature good = wallPiece(0, 2, 0, true);
   EXPECT_NO_THROW(FeatureMap({good}));
-  std::vector<Feature> bad(7, good);
+  std::vector<Feature> bad(8, good);
   bad[0].position.x = nan;
   bad[1].direction = std::numeric_limits<double>::infinity();
   bad[2].position_covariance(0, 0) = -1;
@@ -235,6 +235,7 @@ TEST(FeatureMap, RefusesWhatIsNoFeature)
   bad[4].direction_variance = -1e-9;
   bad[5].position_covariance(1, 0) = nan;
   bad[6].size_variance = nan;
+  bad[7].type = FeatureType::count;
   for (std::size_t k = 0; k < bad.size(); ++k)
   {
     EXPECT_THROW(FeatureMap({good, bad[k]}), std::invalid_argument) << k;

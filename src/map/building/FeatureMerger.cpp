@@ -45,11 +45,6 @@ void walkAlong(const Feature& segment, double spacing, double beyond, Visit&& vi
     visit(p.x, p.y);
   }
 }
-
-bool directed(FeatureType type)
-{
-  return type == FeatureType::corner || type == FeatureType::wall_end;
-}
 }  // namespace
 
 FeatureMerger::FeatureMerger(const MapBuildingOptions& options, std::vector<MergedSegment> segments,
@@ -73,7 +68,7 @@ void FeatureMerger::add(const std::vector<Feature>& features_in_map)
   ++scan_;
   for (const Feature& feature : features_in_map)
   {
-    if (feature.type == FeatureType::segment)
+    if (isSegment(feature.type))
     {
       addSegment(feature);
     }
@@ -210,7 +205,7 @@ void FeatureMerger::addPlace(const Feature& place)
         const Feature& mapped = places_[k].feature;
         if (mapped.type != place.type || mapped.side != place.side || mapped.label != place.label)
           continue;
-        if (directed(place.type) &&
+        if (hasBearing(place.type) &&
             std::abs(wrapToPi(mapped.direction - place.direction)) > kMaxTurn)
           continue;
         const double distance = (mapped.position - place.position).norm();
@@ -240,9 +235,8 @@ void FeatureMerger::addPlace(const Feature& place)
   // Running means; the hash keeps the first place, from which the mean moves by less than a cell.
   const double n = merged.count++;
   feature.position = (feature.position * n + place.position) * (1.0 / (n + 1));
-  const bool length_like = place.type == FeatureType::wall_end;
-  feature.size =
-      length_like ? std::max(feature.size, place.size) : (feature.size * n + place.size) / (n + 1);
+  feature.size = isSeenInPart(place.type) ? std::max(feature.size, place.size)
+                                          : (feature.size * n + place.size) / (n + 1);
   merged.cosine_sum += std::cos(place.direction);
   merged.sine_sum += std::sin(place.direction);
   feature.direction = std::atan2(merged.sine_sum, merged.cosine_sum);

@@ -20,14 +20,12 @@ namespace
 bool covers(const Feature& mapped, const Feature& feature, const MapBuildingOptions& options)
 {
   if (mapped.type != feature.type) return false;
-  const bool directed = feature.type == FeatureType::segment ||
-                        feature.type == FeatureType::corner ||
-                        feature.type == FeatureType::wall_end;
   const double turn = std::abs(mrpt::math::wrapToPi(mapped.direction - feature.direction));
-  if (feature.type != FeatureType::segment)
+  if (isPointLike(feature.type))
   {
     const double apart = (mapped.position - feature.position).norm();
-    return apart <= options.merge_point_distance && (!directed || turn <= 3 * options.merge_angle);
+    return apart <= options.merge_point_distance &&
+           (!hasBearing(feature.type) || turn <= 3 * options.merge_angle);
   }
   if (turn > options.merge_angle) return false;
   const auto lies_on = [&](const TPoint2D& end)
@@ -41,10 +39,10 @@ std::vector<Feature> unionOf(const std::vector<Feature>& mapped, const std::vect
                              const MapBuildingOptions& options)
 {
   // One index for each type: the nearest feature of another type must not hide the right one.
-  std::vector<std::vector<Feature>> by_type(5);
+  std::vector<std::vector<Feature>> by_type(kFeatureTypes);
   for (const Feature& feature : mapped)
   {
-    by_type[static_cast<std::size_t>(feature.type)].push_back(feature);
+    by_type[typeIndex(feature.type)].push_back(feature);
   }
   std::vector<NearestFeature> nearest;
   nearest.reserve(by_type.size());
@@ -55,7 +53,7 @@ std::vector<Feature> unionOf(const std::vector<Feature>& mapped, const std::vect
   std::vector<std::int32_t> new_index(seen.size(), -1);
   for (std::size_t i = 0; i < seen.size(); ++i)
   {
-    const NearestFeature& same_type = nearest[static_cast<std::size_t>(seen[i].type)];
+    const NearestFeature& same_type = nearest[typeIndex(seen[i].type)];
     const auto hit = same_type.find(seen[i].position, reach);
     if (hit && covers(same_type.features()[hit->feature], seen[i], options)) continue;
     new_index[i] = static_cast<std::int32_t>(all.size());

@@ -92,7 +92,7 @@ ExplainedConstraints::ExplainedConstraints(const std::vector<Feature>& observed)
   {
     const TPoint2D along = directionVector(feature);
     const TPoint2D& place = feature.position;
-    if (feature.type == FeatureType::segment)
+    if (isSegment(feature.type))
     {
       const TPoint2D half = TPoint2D(along.y, -along.x) * (0.5 * feature.size);
       walls_.push_back({feature.direction, feature.size, place, along, place - half, place + half});

@@ -141,7 +141,7 @@ std::vector<const Feature*> PoseProposer::wallsToSlide(const std::vector<Feature
   std::vector<const Feature*> walls;
   for (const Feature& feature : observed)
   {
-    if (feature.type == FeatureType::segment) walls.push_back(&feature);
+    if (isSegment(feature.type)) walls.push_back(&feature);
   }
   std::stable_sort(walls.begin(), walls.end(),
                    [](const Feature* a, const Feature* b) { return a->size > b->size; });
