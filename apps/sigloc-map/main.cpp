@@ -21,21 +21,22 @@ namespace
 using nlohmann::ordered_json;
 
 constexpr const char* kProgram = "sigloc-map";
-constexpr std::array<const char*, 5> kTypeNames = {"points", "segments", "circles", "corners",
-                                                   "wall_ends"};
 
 ordered_json describe(const sigloc::FeatureMap& map, const std::filesystem::path& path)
 {
-  std::array<std::size_t, kTypeNames.size()> counts{};
+  std::array<std::size_t, sigloc::kFeatureTypes> counts{};
   for (const sigloc::Feature& feature : map.features())
   {
-    ++counts.at(static_cast<std::size_t>(feature.type));
+    ++counts.at(sigloc::typeIndex(feature.type));
   }
   ordered_json info;
   info["file"] = path.string();
   info["bytes"] = std::filesystem::file_size(path);
   info["features"] = map.features().size();
-  for (std::size_t i = 0; i < counts.size(); ++i) info[kTypeNames[i]] = counts[i];
+  for (std::size_t i = 0; i < counts.size(); ++i)
+  {
+    info[sigloc::kFeatureTraits[i].plural] = counts[i];
+  }
   info["lines"] = map.lines().size();
   const sigloc::PlanarBox box = sigloc::boundsOf(map);
   info["bounds_m"] = {box.x_min, box.x_max, box.y_min, box.y_max};

@@ -8,6 +8,7 @@
 #include <mrpt/poses/CPose2D.h>
 #include <mrpt/serialization/CArchive.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <ostream>
@@ -34,36 +35,22 @@ using mrpt::serialization::CArchive;
 
 namespace
 {
-const char* nameOf(FeatureType type)
-{
-  switch (type)
-  {
-    case FeatureType::point:
-      return "point";
-    case FeatureType::segment:
-      return "segment";
-    case FeatureType::circle:
-      return "circle";
-    case FeatureType::corner:
-      return "corner";
-    case FeatureType::wall_end:
-      break;
-  }
-  return "wall end";
-}
-
 void describe(const Feature& feature, std::ostream& out)
 {
+  const FeatureTraits& traits = traitsOf(feature.type);
+  std::string name = traits.name;
+  std::replace(name.begin(), name.end(), '_', ' ');
   const auto& p = feature.position_covariance;
-  out << nameOf(feature.type) << " at (" << feature.position.x << ", " << feature.position.y
-      << ") m +- " << std::sqrt(p(0, 0) + p(1, 1)) << " m";
-  if (feature.type != FeatureType::point)
+  out << name << " at (" << feature.position.x << ", " << feature.position.y << ") m +- "
+      << std::sqrt(p(0, 0) + p(1, 1)) << " m";
+  if (hasDirection(feature.type))
   {
-    const bool is_angle = feature.type == FeatureType::corner;
-    out << ", direction " << mrpt::RAD2DEG(feature.direction) << " deg, "
-        << (is_angle                              ? "opening "
-            : feature.type == FeatureType::circle ? "radius "
-                                                  : "length ")
+    out << ", direction " << mrpt::RAD2DEG(feature.direction) << " deg";
+  }
+  if (hasSize(feature.type))
+  {
+    const bool is_angle = traits.size == FeatureSize::opening;
+    out << ", " << traits.size_name << ' '
         << (is_angle ? mrpt::RAD2DEG(feature.size) : feature.size) << (is_angle ? " deg" : " m");
   }
   if (feature.label >= 0) out << ", label " << feature.label;
@@ -132,8 +119,13 @@ void ObservationSignatures::getDescriptionAsText(std::ostream& out) const
 
 std::string ObservationSignatures::exportTxtHeader() const
 {
-  return "COUNT then for each feature: TYPE(0=point,1=segment,2=circle,3=corner,4=wall_end) X Y "
-         "DIRECTION SIZE";
+  std::string types;
+  for (const FeatureTraits& traits : kFeatureTraits)
+  {
+    if (!types.empty()) types += ',';
+    types += std::to_string(typeIndex(traits.type)) + '=' + traits.name;
+  }
+  return "COUNT then for each feature: TYPE(" + types + ") X Y DIRECTION SIZE";
 }
 
 std::string ObservationSignatures::exportTxtDataRow() const

@@ -31,11 +31,6 @@ constexpr double kTruthHeight = 0.6;
 
 constexpr std::uint32_t kMaxTextureSide = 2048;
 
-const TColor kSegmentColor(31, 78, 160);
-const TColor kCircleColor(110, 120, 0);
-const TColor kCornerColor(0, 140, 130);
-const TColor kWallEndColor(150, 90, 20);
-const TColor kPointColor(20, 20, 20);
 const TColor kReturnColor(225, 30, 30);
 const TColor kObservedColor(255, 140, 0);
 const TColor kPoseColor(0, 150, 60);
@@ -116,27 +111,23 @@ void addCorner(TriangleBatch& batch, const Feature& corner, double leg, double w
 void addFeature(TriangleBatch& batch, const Feature& feature, double width, bool small_features,
                 const std::optional<TColor>& one_color)
 {
-  switch (feature.type)
+  const auto& [red, green, blue] = traitsOf(feature.type).color;
+  const TColor color = one_color.value_or(TColor(red, green, blue));
+  if (isSegment(feature.type))
   {
-    case FeatureType::segment:
-      batch.addLine(segmentStart(feature), segmentEnd(feature), width,
-                    one_color.value_or(kSegmentColor));
-      break;
-    case FeatureType::circle:
-      batch.addRing(feature.position, std::max(feature.size, 0.7 * width), 0.7 * width,
-                    one_color.value_or(kCircleColor));
-      break;
-    case FeatureType::corner:
-      if (small_features)
-        addCorner(batch, feature, 4 * width, width, one_color.value_or(kCornerColor));
-      break;
-    case FeatureType::wall_end:
-      if (small_features)
-        batch.addDisc(feature.position, 1.2 * width, one_color.value_or(kWallEndColor));
-      break;
-    case FeatureType::point:
-      if (small_features) batch.addDisc(feature.position, width, one_color.value_or(kPointColor));
-      break;
+    batch.addLine(segmentStart(feature), segmentEnd(feature), width, color);
+  }
+  else if (isRound(feature.type))
+  {
+    batch.addRing(feature.position, std::max(feature.size, 0.7 * width), 0.7 * width, color);
+  }
+  else if (small_features && traitsOf(feature.type).size == FeatureSize::opening)
+  {
+    addCorner(batch, feature, 4 * width, width, color);
+  }
+  else if (small_features)
+  {
+    batch.addDisc(feature.position, hasBearing(feature.type) ? 1.2 * width : width, color);
   }
 }
 
@@ -295,7 +286,7 @@ PlanarBox boundsOf(const FeatureMap& map)
   for (const Feature& feature : map.features())
   {
     include(feature.position.x, feature.position.y);
-    if (feature.type != FeatureType::segment) continue;
+    if (isPointLike(feature.type)) continue;
     for (const TPoint2D& end : {segmentStart(feature), segmentEnd(feature)}) include(end.x, end.y);
   }
   if (map.field())

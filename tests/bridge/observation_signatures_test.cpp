@@ -123,9 +123,24 @@ TEST(ObservationSignatures, DescribesExportsAndDrawsItself)
   while (row >> number) ++numbers;
   EXPECT_EQ(numbers, 25U);
   EXPECT_EQ(seen.exportTxtHeader().find('\n'), std::string::npos);
+  EXPECT_NE(seen.exportTxtHeader().find("(0=point,1=segment,2=circle,3=corner,4=wall_end"),
+            std::string::npos);
   mrpt::opengl::CSetOfObjects scene;
   seen.getVisualizationInto(scene);
   EXPECT_FALSE(scene.empty());
+}
+
+TEST(ObservationSignatures, DescribesEachTypeByItsOwnSize)
+{
+  ObservationSignatures seen(roomScan());
+  seen.features = sampleFeatures();
+  const std::string text = textOf(seen);
+  for (const char* const expected :
+       {"point at (1.000, 0.667) m +- 0.173 m\n", "segment at (1.100", "radius 0.820 m",
+        "opening 59.015 deg", "wall end at (1.400", "length 1.240 m"})
+  {
+    EXPECT_NE(text.find(expected), std::string::npos) << expected << " in\n" << text;
+  }
 }
 
 TEST(ObservationSignatures, IsEmptyForAScanThatCannotBeUsed)

@@ -13,7 +13,7 @@
 
 namespace sigloc::test
 {
-/// One feature of every type, no two numbers alike.
+/// One feature of each type that the golden files hold, no two numbers alike.
 inline std::vector<Feature> sampleFeatures()
 {
   std::vector<Feature> features;

@@ -28,8 +28,7 @@ Feature readFeature(CArchive& in)
       feature.position.y >> feature.direction >> feature.size >> covariance(0, 0) >>
       covariance(0, 1) >> covariance(1, 0) >> covariance(1, 1) >> feature.direction_variance >>
       feature.size_variance >> feature.label >> feature.sightings >> feature.parent;
-  if (type > static_cast<std::uint8_t>(FeatureType::wall_end) ||
-      side > static_cast<std::uint8_t>(WallSide::end))
+  if (type >= kFeatureTypes || side > static_cast<std::uint8_t>(WallSide::end))
   {
     throw std::runtime_error("unknown feature type");
   }
