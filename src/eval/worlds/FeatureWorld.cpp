@@ -15,7 +15,7 @@ using mrpt::math::TPose2D;
 
 namespace
 {
-FeatureType drawType(const std::array<double, 5>& weights, Random& random)
+FeatureType drawType(const std::array<double, kFeatureTypes>& weights, Random& random)
 {
   double left = random.uniform() * std::accumulate(weights.begin(), weights.end(), 0.0);
   for (std::size_t t = 0; t < weights.size(); ++t)
@@ -31,24 +31,21 @@ Feature randomFeature(const FeatureWorldOptions& options, Random& random)
   Feature feature;
   feature.type = drawType(options.type_weights, random);
   feature.position_covariance.setZero();
-  if (feature.type == FeatureType::point) return feature;
-  feature.direction = random.uniform(-M_PI, M_PI);
-  switch (feature.type)
+  const FeatureTraits& traits = traitsOf(feature.type);
+  if (hasDirection(feature.type)) feature.direction = random.uniform(-M_PI, M_PI);
+  if (traits.size == FeatureSize::length)
   {
-    case FeatureType::segment:
-      feature.size = random.uniform(1.0, 4.0);
-      break;
-    case FeatureType::circle:
-      feature.size = random.uniform(0.1, 0.5);
-      break;
-    case FeatureType::corner:
-      feature.size = random.chance(0.5) ? 0.5 * M_PI : 1.5 * M_PI;
-      break;
-    default:
-      feature.size = random.uniform(1.0, 4.0);
-      feature.side = random.chance(0.5) ? WallSide::start : WallSide::end;
-      break;
+    feature.size = random.uniform(1.0, 4.0);
   }
+  else if (traits.size == FeatureSize::opening)
+  {
+    feature.size = random.chance(0.5) ? 0.5 * M_PI : 1.5 * M_PI;
+  }
+  else if (traits.size != FeatureSize::none)
+  {
+    feature.size = random.uniform(0.1, 0.5);
+  }
+  if (traits.has_side) feature.side = random.chance(0.5) ? WallSide::start : WallSide::end;
   return feature;
 }
 
@@ -60,13 +57,12 @@ Feature disturbed(const Feature& feature, double sigma, double angle_sigma, Rand
   out.position.y += sigma * random.normal();
   out.position_covariance(0, 0) += sigma * sigma;
   out.position_covariance(1, 1) += sigma * sigma;
-  const bool directed = feature.type != FeatureType::point;
-  if (directed)
+  if (hasDirection(feature.type))
   {
     out.direction = mrpt::math::wrapToPi(out.direction + angle_sigma * random.normal());
     out.direction_variance += angle_sigma * angle_sigma;
   }
-  if (feature.type == FeatureType::circle)
+  if (isRound(feature.type))
   {
     out.size = std::max(0.01, out.size + sigma * random.normal());
     out.size_variance += sigma * sigma;
@@ -119,7 +115,7 @@ std::vector<Feature> observeFeatures(const FeatureWorld& world, const TPose2D& m
     const TPoint2D offset = feature.position - TPoint2D{map_from_robot.x, map_from_robot.y};
     if (offset.norm() > options.range || !random.chance(options.detection)) continue;
     Feature visible = transformed(robot_from_map, feature);
-    if (visible.type == FeatureType::segment) cutPiece(visible, random);
+    if (isSegment(visible.type)) cutPiece(visible, random);
     seen.push_back(disturbed(visible, options.observation_sigma, options.angle_sigma, random));
   }
   const auto shuffle = [&](std::vector<Feature>& features)
@@ -155,11 +151,11 @@ std::vector<Feature> mirrored(const std::vector<Feature>& features)
     feature.position.x = -feature.position.x;
     feature.position_covariance(0, 1) = -feature.position_covariance(0, 1);
     feature.position_covariance(1, 0) = -feature.position_covariance(1, 0);
-    if (feature.type != FeatureType::point)
+    if (hasDirection(feature.type))
     {
       feature.direction = mrpt::math::wrapToPi(M_PI - feature.direction);
     }
-    if (feature.type == FeatureType::wall_end)
+    if (traitsOf(feature.type).has_side)
     {
       feature.side = feature.side == WallSide::start ? WallSide::end : WallSide::start;
     }

@@ -25,8 +25,7 @@ struct FeatureWorldOptions
   double map_angle_sigma = 0.002;  ///< [rad]
   double detection = 0.87;  ///< share of the features in range that are seen
   double spurious = 0.3;  ///< share of the observed features that are not in the map
-  /// Relative frequency of point, segment, circle, corner, wall end.
-  std::array<double, 5> type_weights{1, 0, 0, 0, 0};
+  std::array<double, kFeatureTypes> type_weights{1};  ///< relative frequency of each type
 };
 
 struct FeatureWorld

@@ -29,8 +29,7 @@ bool higherScore(const Candidate& a, const Candidate& b)
 
 bool hasHeading(const Feature& feature)
 {
-  return feature.type == FeatureType::segment || feature.type == FeatureType::corner ||
-         feature.type == FeatureType::wall_end;
+  return isSegment(feature.type) || hasBearing(feature.type);
 }
 }  // namespace
 
@@ -93,19 +92,13 @@ bool FeatureVoting::unaryCompatible(const Feature& observed, std::size_t mapped)
   const Feature& feature = map_.features()[mapped];
   if (feature.type != observed.type) return false;
   if (observed.label >= 0 && feature.label >= 0 && observed.label != feature.label) return false;
-  switch (observed.type)
+  if (isSegment(observed.type))
   {
-    case FeatureType::segment:
-      return observed.size <= wall_length_[mapped] + options_.size_tolerance;
-    case FeatureType::wall_end:
-      return observed.side == feature.side;
-    case FeatureType::circle:
-    case FeatureType::corner:
-      return std::abs(observed.size - feature.size) <= options_.size_tolerance;
-    case FeatureType::point:
-      return true;
+    return observed.size <= wall_length_[mapped] + options_.size_tolerance;
   }
-  return false;
+  if (isSeenInPart(observed.type)) return observed.side == feature.side;
+  return !hasSize(observed.type) ||
+         std::abs(observed.size - feature.size) <= options_.size_tolerance;
 }
 
 void FeatureVoting::voteForPlaces(const Feature& observed, std::size_t mapped, double heading,
@@ -117,7 +110,7 @@ void FeatureVoting::voteForPlaces(const Feature& observed, std::size_t mapped, d
   const TPoint2D& p = observed.position;
   const TPoint2D place = feature.position - TPoint2D(c * p.x - s * p.y, s * p.x + c * p.y) - low_;
   // A wall leaves the place along it open: the observed piece may lie anywhere on the mapped one.
-  const bool wall = observed.type == FeatureType::segment;
+  const bool wall = isSegment(observed.type);
   const double slide = wall ? 0.5 * std::max(0.0, feature.size - observed.size) : 0;
   const TPoint2D along = wall ? tangentVector(feature) : TPoint2D(0, 0);
   const auto steps = static_cast<int>(slide / options_.cell);
