@@ -25,7 +25,7 @@ class HypothesisSet
   bool explains(const FeaturePairing& first, const FeaturePairing& second) const;
 
   std::uint32_t bestSupport() const { return best_support_; }
-  /// Index of the best so far by log-odds, or -1.
+  /// The best so far by log-odds, or nullptr.
   const FeatureHypothesis* best() const;
 
   /// Returns the best `count`, best first, mutually apart; ties ordered by pose.
