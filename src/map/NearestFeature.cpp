@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "geometry/cell_key.h"
+
 namespace sigloc
 {
 using mrpt::math::TPoint2D;
@@ -20,11 +22,6 @@ constexpr double kSpacing = 0.25;  // [m]
 std::int64_t cellIndex(double coordinate)
 {
   return static_cast<std::int64_t>(std::floor(coordinate / kCell));
-}
-
-std::uint64_t keyOf(std::int64_t x, std::int64_t y)
-{
-  return (static_cast<std::uint64_t>(x) << 32U) ^ (static_cast<std::uint64_t>(y) & 0xFFFFFFFFU);
 }
 
 std::vector<TPoint2D> samplesOf(const Feature& feature)
@@ -81,7 +78,7 @@ NearestFeature::NearestFeature(std::vector<Feature> features) : features_(std::m
   {
     for (const TPoint2D& sample : samplesOf(features_[k]))
     {
-      auto& cell = cells_[keyOf(cellIndex(sample.x), cellIndex(sample.y))];
+      auto& cell = cells_[cellKey(cellIndex(sample.x), cellIndex(sample.y))];
       const auto index = static_cast<std::uint32_t>(k);
       if (cell.empty() || cell.back() != index) cell.push_back(index);
     }
@@ -96,7 +93,7 @@ std::optional<NearestFeature::Hit> NearestFeature::find(const TPoint2D& point, d
   {
     for (std::int64_t x = cellIndex(point.x - reach); x <= cellIndex(point.x + reach); ++x)
     {
-      const auto cell = cells_.find(keyOf(x, y));
+      const auto cell = cells_.find(cellKey(x, y));
       if (cell == cells_.end()) continue;
       for (const std::uint32_t k : cell->second)
       {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "geometry/cell_key.h"
+
 namespace sigloc
 {
 using mrpt::math::TPoint2D;
@@ -69,14 +71,12 @@ static_assert(kTile == 1 << 5);
 
 std::uint64_t keyOf(const CellIndex& cell)
 {
-  return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(tileOf(cell.x))) << 32U) |
-         static_cast<std::uint32_t>(tileOf(cell.y));
+  return cellKey(tileOf(cell.x), tileOf(cell.y));
 }
 
 CellIndex nameOf(std::uint64_t key)
 {
-  return {static_cast<std::int32_t>(key >> 32U) * kTile,
-          static_cast<std::int32_t>(key & 0xFFFFFFFFU) * kTile};
+  return {xOfCell(key) * kTile, yOfCell(key) * kTile};
 }
 
 std::size_t indexInTile(const CellIndex& cell)

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <utility>
 
+#include "geometry/cell_key.h"
+
 namespace sigloc
 {
 using mrpt::math::TPoint2D;
@@ -22,12 +24,10 @@ constexpr double kHeadingSigma = 0.01;  // [rad]
 constexpr double kMaxTurn = 0.4;  // [rad], between sightings of one corner or wall end
 constexpr double kEndNearCorner = 0.3;  // [m]
 
-std::uint64_t cellKey(double x, double y, double size)
+std::uint64_t keyAt(double x, double y, double size)
 {
-  const auto ix = static_cast<std::int32_t>(std::floor(x / size));
-  const auto iy = static_cast<std::int32_t>(std::floor(y / size));
-  return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(ix)) << 32U) |
-         static_cast<std::uint32_t>(iy);
+  return cellKey(static_cast<std::int32_t>(std::floor(x / size)),
+                 static_cast<std::int32_t>(std::floor(y / size)));
 }
 
 /// Calls `visit(x, y)` at points every `spacing` along a segment prolonged by `beyond` [m] at both
@@ -102,7 +102,7 @@ void FeatureMerger::addSegment(const Feature& segment)
   double best_offset = 1e9;
   const auto look = [&](double x, double y)
   {
-    const auto cell = segment_cells_.find(cellKey(x, y, kSegmentCell));
+    const auto cell = segment_cells_.find(keyAt(x, y, kSegmentCell));
     if (cell == segment_cells_.end()) return;
     for (const std::uint32_t k : cell->second)
     {
@@ -176,7 +176,7 @@ void FeatureMerger::registerSegment(std::uint32_t index, const Feature& segment)
   walkAlong(segment, 0.5 * kSegmentCell, 0.0,
             [&](double x, double y)
             {
-              auto& cell = segment_cells_[cellKey(x, y, kSegmentCell)];
+              auto& cell = segment_cells_[keyAt(x, y, kSegmentCell)];
               if (std::find(cell.begin(), cell.end(), index) == cell.end()) cell.push_back(index);
             });
 }
@@ -184,7 +184,7 @@ void FeatureMerger::registerSegment(std::uint32_t index, const Feature& segment)
 void FeatureMerger::registerPlace(std::uint32_t index)
 {
   const TPoint2D& p = places_[index].feature.position;
-  place_cells_[cellKey(p.x, p.y, kPlaceCell)].push_back(index);
+  place_cells_[keyAt(p.x, p.y, kPlaceCell)].push_back(index);
 }
 
 void FeatureMerger::addPlace(const Feature& place)
@@ -197,8 +197,8 @@ void FeatureMerger::addPlace(const Feature& place)
   {
     for (int dy = -cells; dy <= cells; ++dy)
     {
-      const auto cell = place_cells_.find(cellKey(place.position.x + dx * kPlaceCell,
-                                                  place.position.y + dy * kPlaceCell, kPlaceCell));
+      const auto cell = place_cells_.find(keyAt(place.position.x + dx * kPlaceCell,
+                                                place.position.y + dy * kPlaceCell, kPlaceCell));
       if (cell == place_cells_.end()) continue;
       for (const std::uint32_t k : cell->second)
       {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/cell_key.h"
+
 namespace sigloc
 {
 namespace
@@ -18,8 +20,7 @@ std::uint64_t cellAt(double x, double y)
     constexpr double kFarthest = 1e9;  // [cells]; nobody drives so far, but an int must hold it
     return static_cast<std::int32_t>(std::clamp(std::floor(along / kCell), -kFarthest, kFarthest));
   };
-  return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(at(x))) << 32U) |
-         static_cast<std::uint32_t>(at(y));
+  return cellKey(at(x), at(y));
 }
 }  // namespace
 
