@@ -4,21 +4,15 @@
 
 #include <cmath>
 
+#include "matching/features/SplitMix.h"
+
 namespace sigloc
 {
-namespace
+// SplitMix spreads neighbouring seeds over all 64 bits.
+Random::Random(std::uint64_t seed, std::uint64_t stream)
+    : engine_(SplitMix(seed ^ SplitMix(stream).next()).next())
 {
-/// One step of the splitmix64 generator: spreads neighbouring seeds over all 64 bits.
-std::uint64_t mixed(std::uint64_t value)
-{
-  value += 0x9E3779B97F4A7C15ULL;
-  value = (value ^ (value >> 30U)) * 0xBF58476D1CE4E5B9ULL;
-  value = (value ^ (value >> 27U)) * 0x94D049BB133111EBULL;
-  return value ^ (value >> 31U);
 }
-}  // namespace
-
-Random::Random(std::uint64_t seed, std::uint64_t stream) : engine_(mixed(seed ^ mixed(stream))) {}
 
 double Random::uniform()
 {
