@@ -35,12 +35,13 @@ if(SIGLOC_COVERAGE)
   target_link_options(sigloc_flags INTERFACE --coverage)
 endif()
 
-# sigloc_add_library(NAME [INTERNAL] PARTS part... LINK target...): a library from src/<part>/**.cpp.
-# It is shared and installed; INTERNAL: static, for our own programs alone. Users see include/ only;
-# what is built here may add SIGLOC_PRIVATE_HEADERS.
+# sigloc_add_library(NAME [INTERNAL] PARTS part... LINK target... [PRIVATE_LINK target...]): a library
+# from src/<part>/**.cpp. It is shared and installed; INTERNAL: static, for our own programs alone.
+# Users see include/ only, and do without what PRIVATE_LINK names; what is built here may add
+# SIGLOC_PRIVATE_HEADERS.
 set(SIGLOC_PRIVATE_HEADERS "${PROJECT_SOURCE_DIR}/src")
 function(sigloc_add_library name)
-  cmake_parse_arguments(ARG "INTERNAL" "" "PARTS;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "INTERNAL" "" "PARTS;LINK;PRIVATE_LINK" ${ARGN})
   set(sources)
   foreach(part IN LISTS ARG_PARTS)
     file(GLOB_RECURSE part_sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/${part}/*.cpp")
@@ -57,7 +58,8 @@ function(sigloc_add_library name)
   target_include_directories(${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_include_directories(${name} PRIVATE "${SIGLOC_PRIVATE_HEADERS}")
-  target_link_libraries(${name} PUBLIC ${ARG_LINK} PRIVATE $<BUILD_INTERFACE:sigloc_flags>)
+  target_link_libraries(${name} PUBLIC ${ARG_LINK}
+    PRIVATE "$<BUILD_INTERFACE:${ARG_PRIVATE_LINK};sigloc_flags>")
 endfunction()
 
 # sigloc_add_app(NAME LINK target...): an executable from apps/<NAME>/*.cpp. Its target is called
@@ -72,6 +74,6 @@ function(sigloc_add_app name)
   add_executable(${target} ${sources})
   set_target_properties(${target} PROPERTIES OUTPUT_NAME ${name})
   target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/apps/common")
-  target_link_libraries(${target} PRIVATE ${ARG_LINK} CLI11::CLI11 sigloc_flags)
+  target_link_libraries(${target} PRIVATE ${ARG_LINK} CLI11::CLI11 fmt::fmt sigloc_flags)
   set_property(GLOBAL APPEND PROPERTY SIGLOC_APPS ${target})
 endfunction()

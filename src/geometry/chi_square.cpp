@@ -2,28 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/chi_square.h"
 
+#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <stdexcept>
 
 namespace sigloc
 {
-namespace
-{
-// Regularised lower incomplete gamma function P(a, x) by its power series: accurate for the x of
-// interest here (a few times a), where it converges within some hundred terms.
-double lowerGamma(double a, double x)
-{
-  double term = std::exp(a * std::log(x) - x - logGamma(a + 1));
-  double sum = term;
-  for (int k = 1; k < 10000 && term > 1e-17 * sum; ++k)
-  {
-    term *= x / (a + k);
-    sum += term;
-  }
-  return sum;
-}
-}  // namespace
-
 double logGamma(double x)
 {
   int sign = 0;
@@ -36,16 +20,7 @@ double chiSquareGate(double probability, int degrees)
   {
     throw std::invalid_argument("chiSquareGate: needs 0 < probability < 1 and degrees >= 1");
   }
-  // Bisection: the distribution function is monotone and the gates are computed once.
-  double low = 0;
-  double high = degrees + 10.0;
-  while (lowerGamma(0.5 * degrees, 0.5 * high) < probability) high *= 2;
-  for (int k = 0; k < 100; ++k)
-  {
-    const double middle = 0.5 * (low + high);
-    (lowerGamma(0.5 * degrees, 0.5 * middle) < probability ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
+  return boost::math::quantile(boost::math::chi_squared(degrees), probability);
 }
 
 ChiSquareGates::ChiSquareGates(double probability, int max_degrees) : probability_(probability)
