@@ -68,6 +68,9 @@ RESTRICTED = [
     (r"wx/.*", set(), "wxWidgets has no place here"),
 ]
 
+# What only our own sources use: whoever has sigloc installed need not have these.
+NOT_IN_PUBLIC_HEADERS = re.compile(r"(boost|fmt|nlohmann)/.*|(png|zlib)\.h")
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 SOURCE = ROOT / "src"
 INCLUDED = ROOT / "include"
@@ -151,6 +154,8 @@ def include_violations(path, kind, name, header):
     for pattern, folders, reason in RESTRICTED:
         if re.fullmatch(pattern, header) and kind not in folders and name not in folders:
             yield f"{header}: {reason}"
+    if path.parts[0] == "include" and NOT_IN_PUBLIC_HEADERS.fullmatch(header):
+        yield f"{header}: users do without it"
     if ".." in header:
         yield f"{header}: include from the root, not relative to the folder"
 

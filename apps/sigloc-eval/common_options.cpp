@@ -2,15 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common_options.h"
 
+#include <fmt/core.h>
+
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <iomanip>
 #include <iostream>
 #include <limits>
-#include <sstream>
 #include <stdexcept>
 
 #include "eval/data/method_names.h"
@@ -103,16 +103,15 @@ std::optional<PoseRegion> CommonOptions::poseRegion() const
 
 CLI::Validator numberFrom(double low, double high)
 {
-  std::ostringstream range;
-  range << "from " << low << " to " << high;
-  const auto check = [low, high, text = range.str()](const std::string& input) -> std::string
+  const std::string range = fmt::format("from {:g} to {:g}", low, high);
+  const auto check = [low, high, range](const std::string& input) -> std::string
   {
     char* end = nullptr;
     const double value = std::strtod(input.c_str(), &end);
     const bool whole = end != input.c_str() && *end == '\0';
-    return whole && value >= low && value <= high ? "" : input + ": not a number " + text;
+    return whole && value >= low && value <= high ? "" : input + ": not a number " + range;
   };
-  return {check, range.str()};
+  return {check, range};
 }
 
 CLI::Option* addPoseOption(CLI::App& command, const std::string& name, std::vector<double>& values,
@@ -151,12 +150,9 @@ std::function<void(const std::string&, double)> progressBar(bool quiet)
   if (quiet || isatty(STDERR_FILENO) == 0) return {};
   return [](const std::string& what, double share)
   {
-    constexpr int kWidth = 40;
-    const int filled = static_cast<int>(std::lround(share * kWidth));
-    std::cerr << "\r" << std::left << std::setw(20) << what << " ["
-              << std::string(static_cast<std::size_t>(filled), '#')
-              << std::string(static_cast<std::size_t>(kWidth - filled), ' ') << "] " << std::right
-              << std::setw(3) << std::lround(100 * share) << " %" << (share >= 1 ? "\n" : "")
+    const std::string bar(static_cast<std::size_t>(std::lround(40 * share)), '#');
+    std::cerr << fmt::format("\r{:<20} [{:<40}] {:3} %{}", what, bar, std::lround(100 * share),
+                             share >= 1 ? "\n" : "")
               << std::flush;
   };
 }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "failure_pictures.h"
 
-#include <mrpt/core/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
@@ -36,20 +36,19 @@ std::vector<std::string> titleOf(const FailedQuery& failure)
   std::string second = failure.fate;
   if (record.error.distance >= 0)
   {
-    second =
-        mrpt::format("off by %.2f m, %.1f deg; ", record.error.distance, record.error.angle_deg) +
-        second;
+    second = fmt::format("off by {:.2f} m, {:.1f} deg; {}", record.error.distance,
+                         record.error.angle_deg, second);
   }
-  std::string first = mrpt::format("%s, query %s: %s", failure.method.c_str(),
-                                   failure.query.name.c_str(), toString(record.verdict));
-  if (!std::isnan(record.probability)) first += mrpt::format(" (%.3f)", record.probability);
+  std::string first =
+      fmt::format("{}, query {}: {}", failure.method, failure.query.name, toString(record.verdict));
+  if (!std::isnan(record.probability)) first += fmt::format(" ({:.3f})", record.probability);
   return {first, second};
 }
 
 std::string scoreText(const Candidate& candidate)
 {
   return std::isnan(candidate.score) ? std::string()
-                                     : mrpt::format(", score %.3f", candidate.score);
+                                     : fmt::format(", score {:.3f}", candidate.score);
 }
 
 std::vector<PictureMaker::CloseUp> closeUpsOf(const FailedQuery& failure)

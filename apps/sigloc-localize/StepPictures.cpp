@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "StepPictures.h"
 
+#include <fmt/core.h>
 #include <mrpt/core/bits_math.h>
-#include <mrpt/core/format.h>
 
 #include <filesystem>
 
@@ -20,16 +20,16 @@ std::vector<std::string> titleOf(const StepRecord& step)
   std::string second = "truth unknown";
   if (step.error)
   {
-    second = mrpt::format("off by %.2f m, %.1f deg", step.error->distance,
-                          mrpt::RAD2DEG(step.error->angle));
+    second = fmt::format("off by {:.2f} m, {:.1f} deg", step.error->distance,
+                         mrpt::RAD2DEG(step.error->angle));
   }
   else if (step.truth)
   {
     second = "no pose";
   }
-  return {mrpt::format("step %zu, %.1f m: %s (%.3f), %s", step.number, step.travelled,
-                       toString(belief.verdict), belief.probability,
-                       counted(belief.hypotheses.size(), "hypothesis", "hypotheses").c_str()),
+  return {fmt::format("step {}, {:.1f} m: {} ({:.3f}), {}", step.number, step.travelled,
+                      toString(belief.verdict), belief.probability,
+                      counted(belief.hypotheses.size(), "hypothesis", "hypotheses")),
           second};
 }
 }  // namespace

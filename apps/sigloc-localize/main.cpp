@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // sigloc-localize: finds and follows a lost robot in a known map, from a recorded log.
-#include <mrpt/core/format.h>
 
+#include <fmt/core.h>
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <optional>
@@ -65,8 +65,8 @@ int localize(const sigloc::LocalizationSetup& setup, bool quiet,
   sigloc::warn(kProgram, setup.rawlog_file, sigloc::leftOutLine(run.summary().left_out));
   if (!run.summary().truncated) return 0;
   sigloc::warn(kProgram, setup.rawlog_file,
-               mrpt::format("truncated or damaged after %zu steps; the results cover those",
-                            run.steps().size()));
+               fmt::format("truncated or damaged after {} steps; the results cover those",
+                           run.steps().size()));
   return kTruncatedInput;
 }
 
@@ -74,8 +74,8 @@ int localize(const sigloc::LocalizationSetup& setup, bool quiet,
 fs::path runFolder(const sigloc::LocalizationSetup& setup, bool several, std::uint32_t repetition)
 {
   if (setup.output_folder.empty() || !several) return setup.output_folder;
-  std::string name = setup.output_folder.string() + mrpt::format("_%03u", repetition);
-  if (setup.use_particles) name += mrpt::format("_%07u", setup.particles.particles);
+  std::string name = fmt::format("{}_{:03}", setup.output_folder.string(), repetition);
+  if (setup.use_particles) name += fmt::format("_{:07}", setup.particles.particles);
   return name;
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // sigloc-map: builds, describes and draws the maps that sigloc localizes in.
+#include <fmt/core.h>
 #include <array>
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -123,9 +124,9 @@ void draw(const std::filesystem::path& path, const std::filesystem::path& output
   const sigloc::FeatureMap map = sigloc::loadSigmap(path);
   sigloc::refuseToReplaceInputs(output, filesBehind(path, map));
   sigloc::PictureMaker pictures(map);
-  const std::string title = path.filename().string() + ": " +
-                            sigloc::counted(map.features().size(), "feature") + ", " +
-                            std::to_string(std::lround(map.area())) + " m2";
+  const std::string title =
+      fmt::format("{}: {}, {} m2", path.filename().string(),
+                  sigloc::counted(map.features().size(), "feature"), std::lround(map.area()));
   sigloc::savePicture(pictures.mapPicture({title}), output);
 }
 }  // namespace

@@ -2,18 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "config/fixed_number.h"
 
-#include <cmath>
-#include <iomanip>
+#include <fmt/core.h>
 
-#include "config/TextStream.h"
+#include <cmath>
 
 namespace sigloc
 {
 std::string fixedNumber(double value, int decimals)
 {
-  if (std::isnan(value)) return "";
-  TextStream text;
-  text << std::fixed << std::setprecision(decimals) << value;
-  return text.str();
+  return std::isnan(value) ? "" : fmt::format("{:.{}f}", value, decimals);
 }
 }  // namespace sigloc

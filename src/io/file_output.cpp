@@ -3,6 +3,7 @@
 #include "sigloc/io/file_output.h"
 
 #include <fcntl.h>
+#include <fmt/core.h>
 #include <mrpt/io/CStream.h>
 #include <mrpt/serialization/CArchive.h>
 #include <unistd.h>
@@ -44,8 +45,8 @@ class TemporaryFile
     target_ = is_link ? fs::canonical(path) : path;
     // A name as long as names may be leaves no room for the ending.
     constexpr std::size_t kLongestStem = 200;
-    temporary_ = target_.parent_path() / (target_.filename().string().substr(0, kLongestStem) +
-                                          kTemporaryEnding + std::to_string(getpid()));
+    const std::string stem = target_.filename().string().substr(0, kLongestStem);
+    temporary_ = target_.parent_path() / fmt::format("{}{}{}", stem, kTemporaryEnding, getpid());
   }
   ~TemporaryFile()
   {
@@ -94,7 +95,7 @@ class GzipOutput final : public mrpt::io::CStream
   GzipOutput(const fs::path& path, int compression)
   {
     errno = 0;
-    file_ = gzopen(path.c_str(), ("wb" + std::to_string(compression)).c_str());
+    file_ = gzopen(path.c_str(), fmt::format("wb{}", compression).c_str());
     if (file_ == nullptr) error_ = lastError();
     if (file_ != nullptr) gzbuffer(file_, kBufferBytes);
   }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/text_rows.h"
 
+#include <fmt/core.h>
+
 #include <charconv>
 #include <cmath>
 #include <stdexcept>
@@ -71,6 +73,6 @@ std::optional<double> toNumber(std::string_view word)
 
 void failAtLine(const std::filesystem::path& path, std::size_t index, const std::string& reason)
 {
-  throw std::runtime_error(path.string() + ": line " + std::to_string(index + 1) + ": " + reason);
+  throw std::runtime_error(fmt::format("{}: line {}: {}", path.string(), index + 1, reason));
 }
 }  // namespace sigloc::detail

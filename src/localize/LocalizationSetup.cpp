@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sigloc/localize/LocalizationSetup.h"
 
+#include <fmt/core.h>
 #include <mrpt/config/CConfigFileMemory.h>
 #include <mrpt/core/bits_math.h>
 #include <mrpt/math/wrap2pi.h>
@@ -67,16 +68,17 @@ void readSections(const CConfigFileMemory& ini, LocalizationSetup& setup)
   setup.report = loadOptions<ReportOptions>(ini, kReport);
 }
 
+[[noreturn]] void failInExperiment(const std::string& reason)
+{
+  throw std::runtime_error(fmt::format("[{}]: {}", kExperiment, reason));
+}
+
 double readNumber(const CConfigFileMemory& ini, const char* key, double fallback)
 {
   const std::string text = ini.read_string_first_word(kExperiment, key, "");
   if (text.empty()) return fallback;
   const std::optional<double> value = detail::toNumber(text);
-  if (!value)
-  {
-    throw std::runtime_error(std::string("[") + kExperiment + "]: bad value '" + text + "' for '" +
-                             key + "'");
-  }
+  if (!value) failInExperiment(fmt::format("bad value '{}' for '{}'", text, key));
   return *value;
 }
 
@@ -85,8 +87,7 @@ std::uint32_t readCount(const CConfigFileMemory& ini, const char* key, std::uint
   const double value = readNumber(ini, key, fallback);
   if (value < 0 || value > 1e9 || value != std::floor(value))
   {
-    throw std::runtime_error(std::string("[") + kExperiment + "]: '" + key +
-                             "' is not a count of at least 0");
+    failInExperiment(fmt::format("'{}' is not a count of at least 0", key));
   }
   return static_cast<std::uint32_t>(value);
 }
@@ -101,8 +102,7 @@ std::optional<PoseRegion> readPrior(const CConfigFileMemory& ini)
                     readNumber(ini, "init_PDF_min_y", 0), readNumber(ini, "init_PDF_max_y", 0)};
   if (region.x_min > region.x_max || region.y_min > region.y_max)
   {
-    throw std::runtime_error(std::string("[") + kExperiment +
-                             "]: the box init_PDF_* ends before it begins");
+    failInExperiment("the box init_PDF_* ends before it begins");
   }
   const bool has_box = region.x_min < region.x_max || region.y_min < region.y_max ||
                        ini.keyExists(kExperiment, "init_PDF_min_x");
@@ -132,8 +132,7 @@ std::uint32_t readRepetitions(const CConfigFileMemory& ini)
   const std::uint32_t count = readCount(ini, "experimentRepetitions", 1);
   if (count > kMost)
   {
-    throw std::runtime_error(std::string("[") + kExperiment +
-                             "]: 'experimentRepetitions' is more than " + std::to_string(kMost));
+    failInExperiment(fmt::format("'experimentRepetitions' is more than {}", kMost));
   }
   return std::max(1U, count);
 }
@@ -148,9 +147,8 @@ std::vector<std::uint32_t> readParticleCounts(const CConfigFileMemory& ini)
     const auto count = detail::parseValue<std::uint32_t>(word);
     if (!count || *count == 0 || *count > ParticleOptions::kMostParticles)
     {
-      throw std::runtime_error(std::string("[") + kExperiment + "]: bad value '" + word +
-                               "' for 'particles_count': from 1 to " +
-                               std::to_string(ParticleOptions::kMostParticles));
+      failInExperiment(fmt::format("bad value '{}' for 'particles_count': from 1 to {}", word,
+                                   ParticleOptions::kMostParticles));
     }
     counts.push_back(*count);
   }
@@ -168,8 +166,7 @@ void readJudgement(const CConfigFileMemory& ini, LocalizationSetup& setup)
   setup.confidence_share = readNumber(ini, "STATS_CONF_INTERVAL", setup.confidence_share);
   if (setup.confidence_share <= 0 || setup.confidence_share >= 1)
   {
-    throw std::runtime_error(std::string("[") + kExperiment +
-                             "]: 'STATS_CONF_INTERVAL' is not between 0 and 1");
+    failInExperiment("'STATS_CONF_INTERVAL' is not between 0 and 1");
   }
   setup.initial_odometry = {readNumber(ini, "initial_odo_x", 0),
                             readNumber(ini, "initial_odo_y", 0),
@@ -182,8 +179,7 @@ bool readTracker(const CConfigFileMemory& ini)
   const std::string name = ini.read_string_first_word(kExperiment, "tracker", "gaussians");
   if (name != "gaussians" && name != "particles")
   {
-    throw std::runtime_error(std::string("[") + kExperiment + "]: 'tracker' is '" + name +
-                             "', neither gaussians nor particles");
+    failInExperiment(fmt::format("'tracker' is '{}', neither gaussians nor particles", name));
   }
   return name == "particles";
 }
@@ -198,12 +194,11 @@ bool mayExist(const fs::path& path)
 /// Finds a file that an ini names: beside the ini, then from the current folder.
 fs::path findFile(const fs::path& named, const fs::path& ini, const char* key)
 {
-  if (named.empty()) throw std::runtime_error(std::string("'") + key + "' is missing");
+  if (named.empty()) throw std::runtime_error(fmt::format("'{}' is missing", key));
   const fs::path beside = ini.parent_path() / named;  // `named` itself where it is absolute
   if (mayExist(beside)) return beside.lexically_normal();
   if (mayExist(named)) return named;
-  throw std::runtime_error(std::string("'") + key + "' names " + named.string() +
-                           ", which does not exist");
+  throw std::runtime_error(fmt::format("'{}' names {}, which does not exist", key, named.string()));
 }
 
 void readExperiment(const CConfigFileMemory& ini, const fs::path& path, const fs::path& rawlog,
@@ -211,7 +206,7 @@ void readExperiment(const CConfigFileMemory& ini, const fs::path& path, const fs
 {
   if (!ini.sectionExists(kExperiment))
   {
-    throw std::runtime_error(std::string("no section [") + kExperiment + "]");
+    throw std::runtime_error(fmt::format("no section [{}]", kExperiment));
   }
   const std::string unread = detail::warningOfUnreadKeys(ini, kExperiment);
   if (!unread.empty()) setup.warnings.push_back(unread);

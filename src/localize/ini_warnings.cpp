@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "localize/ini_warnings.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <map>
 #include <set>
@@ -109,8 +111,8 @@ std::vector<std::string> warningsOfRepeatedKeys(const std::string& text,
   for (const auto& [key, count] : counts)
   {
     if (count == 1 || std::count(sections.begin(), sections.end(), key.first) == 0) continue;
-    warnings.push_back("[" + key.first + "]: '" + key.second + "' is there " +
-                       std::to_string(count) + " times, the last counts");
+    warnings.push_back(
+        fmt::format("[{}]: '{}' is there {} times, the last counts", key.first, key.second, count));
   }
   return warnings;
 }

@@ -4,7 +4,7 @@
 
 #include "sigloc/localize/RunWriter.h"
 
-#include <mrpt/core/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,6 @@
 #include <limits>
 #include <stdexcept>
 
-#include "config/TextStream.h"
 #include "sigloc/io/file_output.h"
 #include "sigloc/plugin/pose_pdf.h"
 
@@ -52,9 +51,7 @@ double secondsOf(const StepRecord& step)
 
 std::string odometryRow(const StepRecord& step)
 {
-  TextStream row;
-  row << std::fixed << step.odometry.x << ' ' << step.odometry.y << ' ' << step.odometry.phi;
-  return row.str();
+  return fmt::format("{:f} {:f} {:f}", step.odometry.x, step.odometry.y, step.odometry.phi);
 }
 
 std::string statisticsRow(const StepRecord& step)
@@ -71,17 +68,13 @@ std::string statisticsRow(const StepRecord& step)
   const double mean_square = sum > 0 ? squares / (sum * sum) : 0;  // of weights that sum to one
   const double effective = sum > 0 ? 1 / mean_square : 0;
   const double variance = sum > 0 ? (mean_square - 1 / count) / count : 0;
-  TextStream row;
-  row << hypotheses.size() << std::scientific << ' ' << effective << ' ' << std::max(0.0, variance)
-      << std::fixed << ' ' << step.belief.reliability << ' ' << volumeOf(step.belief);
-  return row.str();
+  return fmt::format("{} {:e} {:e} {:f} {:f}", hypotheses.size(), effective,
+                     std::max(0.0, variance), step.belief.reliability, volumeOf(step.belief));
 }
 
 std::string numberRow(double value)
 {
-  TextStream row;
-  row << std::scientific << value;
-  return row.str();
+  return fmt::format("{:e}", value);
 }
 
 struct StepFile
@@ -103,14 +96,13 @@ constexpr StepFile kStepFiles[] = {
 /// Rows `x y yaw log_weight` under MRPT's line of heads.
 std::string particleRows(const mrpt::poses::CPosePDFParticles& samples)
 {
-  TextStream rows;
-  rows << "% x  y  yaw[rad] log_weight\n";
+  std::string rows = "% x  y  yaw[rad] log_weight\n";
   for (const auto& sample : samples.m_particles)
   {
-    rows << std::fixed << sample.d.x << ' ' << sample.d.y << ' ' << sample.d.phi << ' '
-         << std::scientific << sample.log_w << '\n';
+    rows +=
+        fmt::format("{:f} {:f} {:f} {:e}\n", sample.d.x, sample.d.y, sample.d.phi, sample.log_w);
   }
-  return rows.str();
+  return rows;
 }
 
 void writeParticles(const LocalizationRun& run, const std::filesystem::path& folder)
@@ -122,7 +114,7 @@ void writeParticles(const LocalizationRun& run, const std::filesystem::path& fol
   for (const StepRecord& step : run.steps())
   {
     if ((step.number - 1) % every != 0 || step.belief.hypotheses.empty()) continue;
-    const auto path = folder / mrpt::format("particles_%05zu.txt", step.number);
+    const auto path = folder / fmt::format("particles_{:05}.txt", step.number);
     const auto samples = toParticles(step.belief, kSamples, run.setup().matcher.seed + step.number);
     writeFile(path, particleRows(samples));
   }
@@ -192,15 +184,14 @@ std::string experimentSummary(const std::vector<ExperimentOutcome>& repetitions,
     return errors[static_cast<std::size_t>(std::lround(share * last))];
   };
   const double low = std::min(confidence_share, 1 - confidence_share);
-  TextStream text;
-  text << "% Ratio_covergence_success  #particles  average_time_per_execution  "
-          "convergence_mean_error convergence_error_conf_int_inf convergence_error_conf_int_sup\n"
-       << std::fixed << (tested > 0 ? converged / tested : kUnknown) << ' '
-       << (repetitions.empty() ? 0 : repetitions.front().particles) << ' '
-       << seconds / static_cast<double>(std::max<std::size_t>(1, repetitions.size())) << ' '
-       << (errors.empty() ? kUnknown : mean) << ' ' << quantile(low) << ' ' << quantile(1 - low)
-       << '\n';
-  return text.str();
+  return fmt::format(
+      "% Ratio_covergence_success  #particles  average_time_per_execution  "
+      "convergence_mean_error convergence_error_conf_int_inf convergence_error_conf_int_sup\n"
+      "{:f} {} {:f} {:f} {:f} {:f}\n",
+      tested > 0 ? converged / tested : kUnknown,
+      repetitions.empty() ? 0 : repetitions.front().particles,
+      seconds / static_cast<double>(std::max<std::size_t>(1, repetitions.size())),
+      errors.empty() ? kUnknown : mean, quantile(low), quantile(1 - low));
 }
 
 std::filesystem::path experimentSummaryFile(const std::filesystem::path& folder)

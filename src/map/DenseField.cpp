@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sigloc/map/DenseField.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
-#include "config/TextStream.h"
 #include "map/raster_limits.h"
 
 namespace sigloc
@@ -190,9 +191,7 @@ std::optional<std::string> unusableCells(double resolution)
   constexpr double kFinest = 0.005;  // [m]
   constexpr double kCoarsest = 1.0;
   if (resolution >= kFinest && resolution <= kCoarsest) return std::nullopt;
-  TextStream reason;
-  reason << "cells of " << resolution << " m, not of " << kFinest << " to " << kCoarsest << " m";
-  return reason.str();
+  return fmt::format("cells of {:g} m, not of {:g} to {:g} m", resolution, kFinest, kCoarsest);
 }
 
 double truncationDistance(double resolution)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sigloc/map/FeatureMap.h"
 
+#include <fmt/core.h>
 #include <mrpt/math/wrap2pi.h>
 
 #include <algorithm>
@@ -36,15 +37,15 @@ void checkFeature(const Feature& feature, std::size_t k)
                       std::isfinite(p(0, 1)) && std::isfinite(p(1, 0)) && std::isfinite(p(1, 1));
   if (!finite)
   {
-    throw std::invalid_argument("FeatureMap: feature " + std::to_string(k) + " is not finite");
+    throw std::invalid_argument(fmt::format("FeatureMap: feature {} is not finite", k));
   }
   const double determinant = p(0, 0) * p(1, 1) - p(0, 1) * p(1, 0);
   const double tolerance = 1e-9 * (1e-12 + p(0, 0) * p(1, 1));
   if (p(0, 0) < 0 || p(1, 1) < 0 || determinant < -tolerance || feature.direction_variance < 0 ||
       feature.size_variance < 0)
   {
-    throw std::invalid_argument("FeatureMap: covariance of feature " + std::to_string(k) +
-                                " is not positive semi-definite");
+    throw std::invalid_argument(
+        fmt::format("FeatureMap: covariance of feature {} is not positive semi-definite", k));
   }
 }
 

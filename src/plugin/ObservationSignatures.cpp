@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sigloc/plugin/ObservationSignatures.h"
 
+#include <fmt/core.h>
 #include <mrpt/core/bits_math.h>
 #include <mrpt/core/initializer.h>
 #include <mrpt/opengl/CSetOfObjects.h>
@@ -10,10 +11,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <ostream>
 
-#include "config/TextStream.h"
 #include "io/maps/feature_archive.h"
 #include "io/scan_conversion.h"
 #include "sigloc/plugin/map_drawing.h"
@@ -35,39 +34,36 @@ using mrpt::serialization::CArchive;
 
 namespace
 {
-void describe(const Feature& feature, std::ostream& out)
+std::string textOf(const Feature& feature)
 {
   const FeatureTraits& traits = traitsOf(feature.type);
   std::string name = traits.name;
   std::replace(name.begin(), name.end(), '_', ' ');
   const auto& p = feature.position_covariance;
-  out << name << " at (" << feature.position.x << ", " << feature.position.y << ") m +- "
-      << std::sqrt(p(0, 0) + p(1, 1)) << " m";
+  std::string text = fmt::format("{} at ({:.3f}, {:.3f}) m +- {:.3f} m", name, feature.position.x,
+                                 feature.position.y, std::sqrt(p(0, 0) + p(1, 1)));
   if (hasDirection(feature.type))
   {
-    out << ", direction " << mrpt::RAD2DEG(feature.direction) << " deg";
+    text += fmt::format(", direction {:.3f} deg", mrpt::RAD2DEG(feature.direction));
   }
   if (hasSize(feature.type))
   {
     const bool is_angle = traits.size == FeatureSize::opening;
-    out << ", " << traits.size_name << ' '
-        << (is_angle ? mrpt::RAD2DEG(feature.size) : feature.size) << (is_angle ? " deg" : " m");
+    text +=
+        fmt::format(", {} {:.3f} {}", traits.size_name,
+                    is_angle ? mrpt::RAD2DEG(feature.size) : feature.size, is_angle ? "deg" : "m");
   }
-  if (feature.label >= 0) out << ", label " << feature.label;
+  if (feature.label >= 0) text += fmt::format(", label {}", feature.label);
+  return text;
 }
 
-void describe(const Relation& relation, std::ostream& out)
+std::string textOf(const Relation& relation)
 {
-  const double sigma = std::sqrt(relation.key.variance);
-  out << "  " << relation.other << ": ";
-  if (relation.key.is_angle)
-  {
-    out << mrpt::RAD2DEG(relation.key.value) << " +- " << mrpt::RAD2DEG(sigma) << " deg";
-  }
-  else
-  {
-    out << relation.key.value << " +- " << sigma << " m";
-  }
+  const auto& key = relation.key;
+  const double sigma = std::sqrt(key.variance);
+  return fmt::format("  {}: {:.3f} +- {:.3f} {}", relation.other,
+                     key.is_angle ? mrpt::RAD2DEG(key.value) : key.value,
+                     key.is_angle ? mrpt::RAD2DEG(sigma) : sigma, key.is_angle ? "deg" : "m");
 }
 }  // namespace
 
@@ -97,24 +93,19 @@ void ObservationSignatures::setSensorPose(const CPose3D& pose)
 void ObservationSignatures::getDescriptionAsText(std::ostream& out) const
 {
   CObservation::getDescriptionAsText(out);
-  TextStream text;
-  text << std::fixed << std::setprecision(3);
-  text << "Features of the scan '" << source_label << "': " << features.size()
-       << " (robot frame)\n";
+  out << fmt::format("Features of the scan '{}': {} (robot frame)\n", source_label,
+                     features.size());
   for (std::size_t i = 0; i < features.size(); ++i)
   {
-    text << "  " << i << ": ";
-    describe(features[i], text);
-    text << '\n';
+    out << fmt::format("  {}: {}\n", i, textOf(features[i]));
   }
-  text << "Signatures: for each feature, how the others stand to it\n";
+  out << "Signatures: for each feature, how the others stand to it\n";
   for (const Signature& signature : signatures())
   {
-    text << "  " << signature.feature << " |";
-    for (const Relation& relation : signature.relations) describe(relation, text);
-    text << '\n';
+    out << fmt::format("  {} |", signature.feature);
+    for (const Relation& relation : signature.relations) out << textOf(relation);
+    out << '\n';
   }
-  out << text.str();
 }
 
 std::string ObservationSignatures::exportTxtHeader() const
@@ -130,14 +121,13 @@ std::string ObservationSignatures::exportTxtHeader() const
 
 std::string ObservationSignatures::exportTxtDataRow() const
 {
-  TextStream row;
-  row << std::fixed << std::setprecision(6) << features.size();
+  std::string row = fmt::format("{}", features.size());
   for (const Feature& feature : features)
   {
-    row << ' ' << static_cast<int>(feature.type) << ' ' << feature.position.x << ' '
-        << feature.position.y << ' ' << feature.direction << ' ' << feature.size;
+    row += fmt::format(" {} {:f} {:f} {:f} {:f}", static_cast<int>(feature.type),
+                       feature.position.x, feature.position.y, feature.direction, feature.size);
   }
-  return row.str();
+  return row;
 }
 
 void ObservationSignatures::getVisualizationInto(mrpt::opengl::CSetOfObjects& scene) const

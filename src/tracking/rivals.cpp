@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tracking/rivals.h"
 
+#include <fmt/core.h>
+
 #include <cmath>
-#include <cstdio>
 
 #include "matching/dense/distinguishing_place.h"
 
@@ -17,16 +18,14 @@ std::string describeRivals(const std::vector<TrackedHypothesis>& hypotheses,
   if (hypotheses.size() < 2) return "one hypothesis remains, beside somewhere else";
   const TPose2D& first = hypotheses[0].pose.mean;
   const TPose2D& second = hypotheses[1].pose.mean;
-  char text[160];
-  std::snprintf(
-      text, sizeof text, "%zu hypotheses remain; the next, of weight %.2g, is %.1f m away",
-      hypotheses.size(), hypotheses[1].weight, std::hypot(second.x - first.x, second.y - first.y));
-  std::string line = text;
+  const std::string line = fmt::format(
+      "{} hypotheses remain; the next, of weight {:.2g}, is {:.1f} m away", hypotheses.size(),
+      hypotheses[1].weight, std::hypot(second.x - first.x, second.y - first.y));
   if (field == nullptr) return line;
   const auto place = distinguishingPlace(*field, first, second);
   if (!place) return line + " and the map shows no difference within 8 m";
-  std::snprintf(text, sizeof text, " and the map differs %.1f m from the robot at %.0f deg",
-                std::hypot(place->x, place->y), std::atan2(place->y, place->x) * 180.0 / M_PI);
-  return line + text;
+  return line + fmt::format(" and the map differs {:.1f} m from the robot at {:.0f} deg",
+                            std::hypot(place->x, place->y),
+                            std::atan2(place->y, place->x) * 180.0 / M_PI);
 }
 }  // namespace sigloc

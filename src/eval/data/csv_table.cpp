@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "eval/data/csv_table.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
@@ -59,8 +61,8 @@ CsvTable::CsvTable(std::filesystem::path path) : path_(std::move(path))
   {
     rows_.push_back(readRow(file));
     if (rows_.back().size() == columns_.size()) continue;
-    fail(rows_.size() - 1, std::to_string(rows_.back().size()) + " cells instead of " +
-                               std::to_string(columns_.size()));
+    fail(rows_.size() - 1,
+         fmt::format("{} cells instead of {}", rows_.back().size(), columns_.size()));
   }
   if (rows_.empty()) throw std::runtime_error(path_.string() + ": holds no rows");
 }
@@ -104,6 +106,6 @@ std::size_t CsvTable::count(std::size_t row, const std::string& column) const
 
 void CsvTable::fail(std::size_t row, const std::string& reason) const
 {
-  throw std::runtime_error(path_.string() + ": line " + std::to_string(row + 2) + ": " + reason);
+  throw std::runtime_error(fmt::format("{}: line {}: {}", path_.string(), row + 2, reason));
 }
 }  // namespace sigloc::detail

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "eval/data/landmark_data.h"
 
+#include <fmt/core.h>
 #include <mrpt/math/wrap2pi.h>
 
 #include <algorithm>
@@ -36,8 +37,7 @@ Row numbersOf(const std::vector<std::string_view>& cells, std::size_t least,
   }
   if (row.size() < least)
   {
-    detail::failAtLine(path, line,
-                       std::to_string(row.size()) + " of " + std::to_string(least) + " columns");
+    detail::failAtLine(path, line, fmt::format("{} of {} columns", row.size(), least));
   }
   return row;
 }
@@ -224,9 +224,9 @@ LandmarkData readVictoriaPark(const std::filesystem::path& folder)
   const std::vector<Row> covariance = readCsv(data.files[1], 2 * data.map.size());
   if (covariance.size() < 2 * data.map.size())
   {
-    throw std::runtime_error(data.files[1].string() + ": " + std::to_string(covariance.size()) +
-                             " rows, not two for each of the " + std::to_string(data.map.size()) +
-                             " trees");
+    throw std::runtime_error(fmt::format("{}: {} rows, not two for each of the {} trees",
+                                         data.files[1].string(), covariance.size(),
+                                         data.map.size()));
   }
   data.map_error = relativeError(data.map, covariance);
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "eval/data/reference_path.h"
 
+#include <fmt/core.h>
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/poses/CPosePDFGaussian.h>
 #include <mrpt/slam/CICP.h>
@@ -10,7 +11,6 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "config/fixed_number.h"
 #include "sigloc/io/file_output.h"
 #include "sigloc/io/map_files.h"
 #include "sigloc/io/RawlogReader.h"
@@ -104,9 +104,9 @@ ReferencePath referencePath(const std::filesystem::path& map, const std::filesys
     if (info.goodness < kLeastPaired)
     {
       throw std::runtime_error(
-          rawlog.string() + ": only " + fixedNumber(100 * double{info.goodness}, 0) +
-          " % of the scan of step " + std::to_string(i) +
-          " lie on the map: the last pose is wrong, or the way leaves the map");
+          fmt::format("{}: only {:.0f} % of the scan of step {} lie on the map: the last pose is "
+                      "wrong, or the way leaves the map",
+                      rawlog.string(), 100 * double{info.goodness}, i));
     }
     reference.worst_goodness = std::min(reference.worst_goodness, double{info.goodness});
     // pose(i) = pose(i - 1) + motion(i)
@@ -134,9 +134,8 @@ void writeReferencePath(const ReferencePath& reference, const std::filesystem::p
   std::string text = std::string(kHead) + "\n";
   for (const ReferencePose& pose : reference.poses)
   {
-    text += fixedNumber(pose.time, 6) + " " + fixedNumber(pose.map_from_robot.x, 4) + " " +
-            fixedNumber(pose.map_from_robot.y, 4) + " " + fixedNumber(pose.map_from_robot.phi, 5) +
-            "\n";
+    const TPose2D& p = pose.map_from_robot;
+    text += fmt::format("{:.6f} {:.4f} {:.4f} {:.5f}\n", pose.time, p.x, p.y, p.phi);
   }
   writeFile(path, text);
 }

@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "eval/protocols/GrowthMeter.h"
 
+#include <fmt/core.h>
+
 #include <malloc.h>
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
-#include "config/fixed_number.h"
 #include "eval/methods/feature_methods.h"
 #include "eval/process/cpu_time.h"
 #include "sigloc/config/plural.h"
@@ -31,8 +32,8 @@ void checkThinning(const std::vector<std::size_t>& counts, std::size_t most)
   {
     if (count == 0 || count > most)
     {
-      throw std::invalid_argument("--observed " + std::to_string(count) + ": not from 1 to the " +
-                                  std::to_string(most) + " features that are seen at a place");
+      throw std::invalid_argument(fmt::format(
+          "--observed {}: not from 1 to the {} features that are seen at a place", count, most));
     }
   }
 }
@@ -82,8 +83,8 @@ void GrowthMeter::ask(const FeatureHypothesisGenerator& generator, const GrowthS
 
 std::string progressLine(const ScaleRow& row)
 {
-  return row.method + ": " + counted(row.map_features, "feature") + ", " +
-         fixedNumber(row.observed, 1) + " observed, " + fixedNumber(row.time_ms.median, 3) + " ms";
+  return fmt::format("{}: {}, {:.1f} observed, {:.3f} ms", row.method,
+                     counted(row.map_features, "feature"), row.observed, row.time_ms.median);
 }
 
 ScaleRow GrowthMeter::row() const

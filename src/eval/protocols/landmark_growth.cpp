@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "eval/protocols/landmark_growth.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -87,8 +89,8 @@ std::vector<std::size_t> mapSizes(std::vector<std::size_t> wanted, std::size_t w
   for (const std::size_t size : wanted)
   {
     if (size > 0 && size <= whole) continue;
-    throw std::invalid_argument("--map-features " + std::to_string(size) + ": not from 1 to the " +
-                                std::to_string(whole) + " discs of the log's map");
+    throw std::invalid_argument(
+        fmt::format("--map-features {}: not from 1 to the {} discs of the log's map", size, whole));
   }
   if (!wanted.empty()) return wanted;
   for (const std::size_t size : {50U, 100U, 200U})
@@ -116,7 +118,7 @@ ScaleReport runLandmarkGrowth(const ScaleOptions& options)
     throw std::runtime_error(options.dlr.string() + ": no place is visited twice");
   }
   ScaleReport report;
-  report.where = " on DLR, local maps of " + std::to_string(options.local_map_steps) + " steps";
+  report.where = fmt::format(" on DLR, local maps of {} steps", options.local_map_steps);
   report.provenance = {options.command, options.seed, data.files};
   const auto add = [&](const std::string& method, std::size_t map_size, std::size_t wanted)
   {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "eval/protocols/sweep.h"
 
+#include <fmt/core.h>
 #include <mrpt/math/wrap2pi.h>
 
 #include <algorithm>
@@ -33,7 +34,7 @@ struct WorldName
   WorldKind kind;
   std::uint64_t seed;
 
-  std::string text() const { return std::string(toString(kind)) + "-" + std::to_string(seed); }
+  std::string text() const { return fmt::format("{}-{}", toString(kind), seed); }
 };
 
 LaserOptions mappingLaser()
@@ -255,8 +256,7 @@ void check(const SweepOptions& options)
   checkRelocationMethods(options.methods);
   if (options.worlds_per_kind == 0 || options.worlds_per_kind > kMaxWorlds)
   {
-    throw std::invalid_argument("sweep: worlds of a kind must be 1 to " +
-                                std::to_string(kMaxWorlds));
+    throw std::invalid_argument(fmt::format("sweep: worlds of a kind must be 1 to {}", kMaxWorlds));
   }
   if (options.queries_per_world == 0) throw std::invalid_argument("sweep: no queries to ask");
   checkSweptValues(sweptQuantity(options.over), options.values);

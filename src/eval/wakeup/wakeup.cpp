@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "eval/wakeup/wakeup.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <mutex>
 #include <stdexcept>
 
-#include "config/fixed_number.h"
 #include "eval/process/cpu_time.h"
 #include "eval/process/run_parallel.h"
 #include "eval/wakeup/wakeup_drive.h"
@@ -161,16 +162,16 @@ std::vector<std::size_t> startsOf(const WakeupDrive& drive, const WakeupOptions&
 {
   const std::vector<Place> places = placesOf(drive, options.travel);
   const auto& path = options.landmarks.empty() ? options.rawlog : options.landmark_folder;
-  const std::string after = fixedNumber(options.travel, 1) + " m of drive after it";
+  const std::string after = fmt::format("{:.1f} m of drive after it", options.travel);
   if (places.empty())
   {
-    throw std::runtime_error(path.string() + ": no step" + (options.foreign ? "" : " with truth") +
-                             " has " + after);
+    throw std::runtime_error(fmt::format("{}: no step{} has {}", path.string(),
+                                         options.foreign ? "" : " with truth", after));
   }
   if (options.starts > places.size())
   {
-    throw std::runtime_error("--starts " + std::to_string(options.starts) + ": " + path.string() +
-                             " has only " + counted(places.size(), "place") + " with " + after);
+    throw std::runtime_error(fmt::format("--starts {}: {} has only {} with {}", options.starts,
+                                         path.string(), counted(places.size(), "place"), after));
   }
   return spacedStarts(places, options.starts);
 }

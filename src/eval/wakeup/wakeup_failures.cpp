@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <mrpt/core/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <limits>
@@ -47,13 +47,13 @@ FailedQuery failureOf(const Wakeup& run, const std::vector<WakeupLeg>& legs,
   failure.method = method;
   failure.map = std::move(map);
   failure.query.name =
-      mrpt::format("%zu-step-%zu%s", run.start, step.step, kidnapped ? "-kidnapped" : "");
+      fmt::format("{}-step-{}{}", run.start, step.step, kidnapped ? "-kidnapped" : "");
   failure.query.scans = seen.step.scans;
   failure.landmarks = seen.step.landmarks;
   failure.record = recordOf(step);
   if (!drive.foreign) failure.query.truth = failure.record.truth = seen.truth;
-  failure.fate = mrpt::format("%.1f m after waking up%s", step.travelled,
-                              kidnapped ? ", kidnapped on the way" : "");
+  failure.fate = fmt::format("{:.1f} m after waking up{}", step.travelled,
+                             kidnapped ? ", kidnapped on the way" : "");
   if (drive.foreign) failure.fate += ", in a foreign map";
   if (step.claim.has_pose)
   {

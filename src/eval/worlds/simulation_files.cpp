@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "eval/worlds/simulation_files.h"
 
+#include <fmt/core.h>
 #include <mrpt/core/Clock.h>
 #include <mrpt/maps/COccupancyGridMap2D.h>
 #include <mrpt/maps/CSimpleMap.h>
@@ -20,7 +21,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "config/fixed_number.h"
 #include "eval/worlds/motion_model.h"
 #include "sigloc/io/file_output.h"
 
@@ -236,8 +236,7 @@ void writeTruth(const std::vector<DriveStep>& steps, const fs::path& path)
   for (const DriveStep& step : steps)
   {
     const auto& pose = step.world_from_robot;
-    text += fixedNumber(step.time, 3) + " " + fixedNumber(pose.x, 6) + " " +
-            fixedNumber(pose.y, 6) + " " + fixedNumber(pose.phi, 6) + "\n";
+    text += fmt::format("{:.3f} {:.6f} {:.6f} {:.6f}\n", step.time, pose.x, pose.y, pose.phi);
   }
   writeFile(path, text);
 }
@@ -247,9 +246,8 @@ void writeLandmarks(const std::vector<Feature>& landmarks, const fs::path& path)
   std::string text;
   for (const Feature& landmark : landmarks)
   {
-    text += fixedNumber(landmark.position.x, 4) + " " + fixedNumber(landmark.position.y, 4) + " " +
-            fixedNumber(landmark.size, 3) + " " +
-            fixedNumber(std::sqrt(landmark.position_covariance(0, 0)), 4) + "\n";
+    text += fmt::format("{:.4f} {:.4f} {:.3f} {:.4f}\n", landmark.position.x, landmark.position.y,
+                        landmark.size, std::sqrt(landmark.position_covariance(0, 0)));
   }
   writeFile(path, text);
 }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/maps/map_reach.h"
 
-#include <mrpt/core/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 #include <stdexcept>
@@ -52,9 +52,9 @@ class ReachCheck
 std::optional<std::string> beyondReach(double x, double y)
 {
   if (std::abs(x) <= kReach && std::abs(y) <= kReach) return std::nullopt;
-  return mrpt::format(
-      "reaches (%.10g, %.10g) m; beyond %.0f m from the origin places are kept no better than a "
-      "centimetre: shift the map's origin to where the robot is",
+  return fmt::format(
+      "reaches ({:.10g}, {:.10g}) m; beyond {:.0f} m from the origin places are kept no better "
+      "than a centimetre: shift the map's origin to where the robot is",
       x, y, kReach);
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sigloc/io/map_files.h"
 
+#include <fmt/core.h>
 #include <mrpt/system/md5.h>
 
 #include <algorithm>
@@ -15,7 +16,6 @@
 #include <tuple>
 #include <utility>
 
-#include "config/TextStream.h"
 #include "io/gzip_input.h"
 #include "io/maps/map_reach.h"
 #include "io/maps/map_source_readers.h"
@@ -96,20 +96,22 @@ MapSource read(const std::filesystem::path& path)
 }
 
 template <class Options>
-void appendOptions(const Options& options, std::ostream& out)
+std::string textOf(const Options& options)
 {
-  Options::visitFields([&](const auto& field)
-                       { out << field.key << '=' << options.*(field.member) << '\n'; });
+  std::string text;
+  Options::visitFields(
+      [&](const auto& field)
+      {
+        const auto value = static_cast<double>(options.*(field.member));
+        text += fmt::format("{}={:.17g}\n", field.key, value);
+      });
+  return text;
 }
 
 std::string digestOf(const MapBuildingOptions& building, const FeatureExtractorOptions& extraction)
 {
-  TextStream text;
-  text.precision(17);
-  text << "build " << kBuildVersion << '\n';
-  appendOptions(building, text);
-  appendOptions(extraction, text);
-  return mrpt::system::md5(text.str());
+  return mrpt::system::md5(
+      fmt::format("build {}\n{}{}", kBuildVersion, textOf(building), textOf(extraction)));
 }
 
 bool isFinite(const mrpt::poses::CPose2D& pose)

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sigloc/io/map_files.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cstring>
 #include <stdexcept>
@@ -107,9 +109,9 @@ FeatureMap readFeatureMap(CArchive& in)
   in >> version;
   if (version < kOldestBodyVersion || version > kBodyVersion)
   {
-    throw std::runtime_error("feature map of version " + std::to_string(version) +
-                             ", this sigloc reads versions " + std::to_string(kOldestBodyVersion) +
-                             " to " + std::to_string(kBodyVersion) + ": build it again");
+    throw std::runtime_error(fmt::format(
+        "feature map of version {}, this sigloc reads versions {} to {}: build it again", version,
+        kOldestBodyVersion, kBodyVersion));
   }
   MapProvenance provenance;
   in >> provenance.source_path >> provenance.source_checksum >> provenance.options_digest;

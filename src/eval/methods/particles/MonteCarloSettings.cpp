@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "eval/methods/particles/MonteCarloSettings.h"
 
+#include <fmt/core.h>
 #include <mrpt/config/CConfigFileMemory.h>
 #include <mrpt/io/CFileGZInputStream.h>
 #include <mrpt/maps/COccupancyGridMap2D.h>
@@ -14,7 +15,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "config/TextStream.h"
 #include "eval/data/method_names.h"
 #include "eval/data/occupancy_grid.h"
 
@@ -120,16 +120,15 @@ double freeAreaOf(const EvaluationMap& map)
 
 std::string toIni(const MonteCarloSettings& settings)
 {
-  TextStream ini;
-  ini << "[KLD_options]\nKLD_binSize_PHI_deg=10\nKLD_binSize_XY=" << settings.kld_bin
-      << "\nKLD_delta=0.01\nKLD_epsilon=0.01\nKLD_maxSampleSize=" << settings.kld_maximum
-      << "\nKLD_minSampleSize=" << settings.kld_minimum << "\nKLD_minSamplesPerBin=0\n";
-  ini << "\n[PF_options]\nPF_algorithm=0\nresamplingMethod=0\nadaptiveSampleSize="
-      << (settings.adaptive ? 1 : 0) << "\npfAuxFilterOptimal_MaximumSearchSamples=10\nBETA=0.5\n"
-      << "sampleSize=1\n";
-  ini << "\n[DummyOdometryParams]\nminStdXY=" << settings.dummy_odometry.sigma
-      << "\nminStdPHI=" << settings.dummy_odometry.angle_deg << "\n";
-  return ini.str() + kMapSections;
+  return fmt::format(
+             "[KLD_options]\nKLD_binSize_PHI_deg=10\nKLD_binSize_XY={:g}\nKLD_delta=0.01\n"
+             "KLD_epsilon=0.01\nKLD_maxSampleSize={}\nKLD_minSampleSize={}\n"
+             "KLD_minSamplesPerBin=0\n\n[PF_options]\nPF_algorithm=0\nresamplingMethod=0\n"
+             "adaptiveSampleSize={:d}\npfAuxFilterOptimal_MaximumSearchSamples=10\nBETA=0.5\n"
+             "sampleSize=1\n\n[DummyOdometryParams]\nminStdXY={:g}\nminStdPHI={:g}\n",
+             settings.kld_bin, settings.kld_maximum, settings.kld_minimum, settings.adaptive,
+             settings.dummy_odometry.sigma, settings.dummy_odometry.angle_deg) +
+         kMapSections;
 }
 
 PoseRegion startRegionOf(const MonteCarloSettings& settings)

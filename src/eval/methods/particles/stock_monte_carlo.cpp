@@ -1,16 +1,15 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/core.h>
 #include <mrpt/maps/COccupancyGridMap2D.h>
 #include <mrpt/poses/CPosePDFParticles.h>
 #include <mrpt/serialization/CArchive.h>
 
 #include <cstdlib>
 #include <fstream>
-#include <iomanip>
 #include <regex>
 #include <stdexcept>
 
-#include "config/TextStream.h"
 #include "eval/methods/particles/MonteCarloSettings.h"
 #include "eval/methods/TrackingMethod.h"
 #include "eval/process/child_process.h"
@@ -70,18 +69,17 @@ std::string configurationOf(const MonteCarloSettings& settings, const fs::path& 
 {
   const PoseRegion region = startRegionOf(settings);
   constexpr double kDegrees = 180 / M_PI;
-  TextStream ini;
-  ini << std::setprecision(12) << toIni(settings)
-      << "\n[LocalizationExperiment]\nmap_file=" << map.string()
-      << "\nrawlog_file=" << drive.string() << "\nlogOutput_dir=" << out.string()
-      << "\nparticles_count=" << settings.particles
-      << "\nexperimentRepetitions=1\n3DSceneFrequency=1\nSHOW_PROGRESS_3D_REAL_TIME=false\n"
-      << "init_PDF_mode=0\ninit_PDF_min_x=" << region.x_min << "\ninit_PDF_max_x=" << region.x_max
-      << "\ninit_PDF_min_y=" << region.y_min << "\ninit_PDF_max_y=" << region.y_max
-      << "\ninit_PDF_min_yaw_deg=" << kDegrees * (region.heading - region.heading_tolerance)
-      << "\ninit_PDF_max_yaw_deg=" << kDegrees * (region.heading + region.heading_tolerance)
-      << "\n";
-  return ini.str();
+  return toIni(settings) +
+         fmt::format(
+             "\n[LocalizationExperiment]\nmap_file={}\nrawlog_file={}\nlogOutput_dir={}\n"
+             "particles_count={}\nexperimentRepetitions=1\n3DSceneFrequency=1\n"
+             "SHOW_PROGRESS_3D_REAL_TIME=false\ninit_PDF_mode=0\ninit_PDF_min_x={:.12g}\n"
+             "init_PDF_max_x={:.12g}\ninit_PDF_min_y={:.12g}\ninit_PDF_max_y={:.12g}\n"
+             "init_PDF_min_yaw_deg={:.12g}\ninit_PDF_max_yaw_deg={:.12g}\n",
+             map.string(), drive.string(), out.string(), settings.particles, region.x_min,
+             region.x_max, region.y_min, region.y_max,
+             kDegrees * (region.heading - region.heading_tolerance),
+             kDegrees * (region.heading + region.heading_tolerance));
 }
 
 /// Runs the program, everything it prints into `log`. It has nothing to read: at errors it waits
@@ -91,13 +89,12 @@ void runStock(const fs::path& ini, const fs::path& log)
   const auto status = detail::runProgram(kProgram, ini.string(), log);
   if (!status)
   {
-    throw std::runtime_error(std::string(kProgram) + ": cannot be run (it is in the package " +
-                             kPackage + ")");
+    throw std::runtime_error(
+        fmt::format("{}: cannot be run (it is in the package {})", kProgram, kPackage));
   }
   if (*status != 0)
   {
-    throw std::runtime_error(std::string(kProgram) + ": failed with status " +
-                             std::to_string(*status));
+    throw std::runtime_error(fmt::format("{}: failed with status {}", kProgram, *status));
   }
 }
 
@@ -151,17 +148,14 @@ std::vector<TimedClaim> readClaims(const fs::path& folder, const fs::path& log, 
   const std::vector<double> times = toldTimes(folder, log);
   if (times.size() != steps)
   {
-    throw std::runtime_error(std::string(kProgram) + ": made " + std::to_string(times.size()) +
-                             " of " + std::to_string(steps) + " steps");
+    throw std::runtime_error(fmt::format("{}: made {} of {} steps", kProgram, times.size(), steps));
   }
   std::vector<TimedClaim> claims(steps);
   TightCloud cloud;
   for (std::size_t i = 0; i < steps; ++i)
   {
-    TextStream name;
-    name << "particles_" << std::setw(5) << std::setfill('0') << i << ".txt";
-    const auto [covariance, mean] =
-        readParticles(folder / "particles" / name.str()).getCovarianceAndMean();
+    const fs::path file = folder / "particles" / fmt::format("particles_{:05}.txt", i);
+    const auto [covariance, mean] = readParticles(file).getCovarianceAndMean();
     claims[i] = {cloud.claim(mean, covariance), times[i]};
   }
   return claims;
