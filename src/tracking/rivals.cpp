@@ -18,7 +18,7 @@ std::string describeRivals(const std::vector<TrackedHypothesis>& hypotheses,
   if (hypotheses.size() < 2) return "one hypothesis remains, beside somewhere else";
   const TPose2D& first = hypotheses[0].pose.mean;
   const TPose2D& second = hypotheses[1].pose.mean;
-  const std::string line = fmt::format(
+  std::string line = fmt::format(
       "{} hypotheses remain; the next, of weight {:.2g}, is {:.1f} m away", hypotheses.size(),
       hypotheses[1].weight, std::hypot(second.x - first.x, second.y - first.y));
   if (field == nullptr) return line;
