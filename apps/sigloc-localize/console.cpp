@@ -4,10 +4,8 @@
 
 #include <mrpt/core/bits_math.h>
 #include <mrpt/core/format.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <iomanip>
 #include <iostream>
 #include <sstream>
 
@@ -62,33 +60,27 @@ std::string errorLine(const RunSummary& summary)
 }
 }  // namespace
 
-Progress::Progress(bool quiet) : quiet_(quiet), terminal_(isatty(STDOUT_FILENO) != 0) {}
+Progress::Progress(bool quiet) : quiet_(quiet), line_(quiet) {}
 
 void Progress::show(const LocalizationRun& run)
 {
   if (quiet_) return;
   const StepRecord& step = run.steps().back();
   constexpr std::size_t kStepsBetweenLines = 50;
-  if (!terminal_ && step.number % kStepsBetweenLines != 1) return;
+  if (!line_.active() && step.number % kStepsBetweenLines != 1) return;
   const std::string line =
       mrpt::format("%3.0f %%  step %zu  %s  %s (%.3f)  %s", 100 * run.progress(), step.number,
                    distanceText(step.travel_known, step.travelled).c_str(),
                    toString(step.belief.verdict), step.belief.probability,
                    counted(step.belief.hypotheses.size(), "hypothesis", "hypotheses").c_str());
-  if (terminal_)
+  if (line_.active())
   {
-    constexpr int kLineWidth = 78;
-    std::cout << '\r' << std::left << std::setw(kLineWidth) << line << std::flush;
+    line_.show(line);
   }
   else
   {
     std::cout << line << '\n';
   }
-}
-
-void Progress::finish()
-{
-  if (!quiet_ && terminal_) std::cout << '\n';
 }
 
 std::string leftOutLine(const LeftOutOfLog& left_out)

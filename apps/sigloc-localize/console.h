@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "progress_line.h"
 #include "sigloc/localize/LocalizationRun.h"
 
 namespace sigloc
@@ -14,13 +15,15 @@ class Progress
 {
  public:
   explicit Progress(bool quiet);
+  /// The share of the map that is built.
+  void showMap(double share) { line_.showBar("building the map", share); }
   void show(const LocalizationRun& run);
   /// Ends the rewritten line.
-  void finish();
+  void finish() { line_.finish(); }
 
  private:
   bool quiet_;
-  bool terminal_;
+  ProgressLine line_;
 };
 
 /// Returns a line on what of a log was left out, empty for nothing.

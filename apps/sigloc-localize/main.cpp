@@ -44,12 +44,14 @@ int localize(const sigloc::LocalizationSetup& setup, bool quiet,
 {
   std::optional<sigloc::RunWriter> writer;
   if (!setup.output_folder.empty()) writer.emplace(setup.output_folder, setup.inputFiles());
-  sigloc::LocalizationRun run(setup, writer ? writer->mapCache(setup.map_file) : fs::path());
+  sigloc::Progress progress(quiet);
+  sigloc::LocalizationRun run(setup, writer ? writer->mapCache(setup.map_file) : fs::path(),
+                              [&](double share) { progress.showMap(share); });
+  progress.finish();
   if (!run.summary().map_reused)
     sigloc::warn(kProgram, setup.map_file, sigloc::warningOfMapSource(setup.map_file));
   std::optional<sigloc::StepPictures> pictures;
   if (writer) pictures.emplace(run);
-  sigloc::Progress progress(quiet);
   while (const sigloc::StepRecord* step = run.next())
   {
     progress.show(run);

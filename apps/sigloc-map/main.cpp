@@ -11,6 +11,7 @@
 
 #include "picture_file.h"
 #include "pictures.h"
+#include "progress_line.h"
 #include "run_app.h"
 #include "sigloc/config/plural.h"
 #include "sigloc/io/file_output.h"
@@ -75,7 +76,11 @@ void build(const std::filesystem::path& input, const std::filesystem::path& outp
   checkBuildOutput(input, output, config);
   sigloc::LocalizationSetup setup;
   if (!config.empty()) setup = sigloc::readOptionSections(config);
-  const sigloc::FeatureMap map = sigloc::buildMapFromFile(input, setup.map, setup.features);
+  sigloc::ProgressLine progress;
+  const sigloc::FeatureMap map =
+      sigloc::buildMapFromFile(input, setup.map, setup.features,
+                               [&](double share) { progress.showBar("building the map", share); });
+  progress.finish();
   if (map.empty()) throw std::runtime_error(input.string() + ": no feature found in it");
   sigloc::saveSigmap(map, output);
   for (const std::string& warning : setup.warnings) sigloc::warn(kProgram, config, warning);
@@ -141,9 +146,7 @@ int main(int argc, char** argv)
   bool as_json = false;
 
   CLI::App* build_command = app.add_subcommand(
-      "build",
-      "Builds a .sigmap from a .simplemap[.gz], .gridmap[.gz], ROS .yaml, CARMEN log or "
-      "landmark file");
+      "build", "Builds a .sigmap from one of: " + sigloc::mapFormatNames() + ". .gz may follow.");
   build_command->add_option("-i,--input", input, "map source")->required();
   build_command->add_option("-o,--output", output, ".sigmap to write")->required();
   build_command->add_option("--config", config, "ini with [sigloc.map] and [sigloc.features]");

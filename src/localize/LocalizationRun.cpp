@@ -70,19 +70,20 @@ RawlogStep firstStep(RawlogReader& reader, const LocalizationSetup& setup)
   }
 }
 
-CachedMap makeMap(const LocalizationSetup& setup, const fs::path& cache)
+CachedMap makeMap(const LocalizationSetup& setup, const fs::path& cache,
+                  const MapProgress& progress)
 {
   CachedMap made;
   const bool ready = setup.map_file.extension() == ".sigmap";
   if (cache.empty() || ready)
   {
     const Stopwatch watch;
-    made.map = buildMapFromFile(setup.map_file, setup.map, setup.features);
+    made.map = buildMapFromFile(setup.map_file, setup.map, setup.features, progress);
     made.build_seconds = watch.milliseconds() / 1000;
   }
   else
   {
-    made = mapWithCache(setup.map_file, cache, setup.map, setup.features);
+    made = mapWithCache(setup.map_file, cache, setup.map, setup.features, progress);
   }
   if (made.map.empty())
   {
@@ -135,10 +136,11 @@ struct LocalizationRun::State
   double map_seconds = 0;
 };
 
-LocalizationRun::LocalizationRun(const LocalizationSetup& setup, const fs::path& map_cache)
+LocalizationRun::LocalizationRun(const LocalizationSetup& setup, const fs::path& map_cache,
+                                 const MapProgress& progress)
     : setup_(setup), state_(std::make_unique<State>(setup_))
 {
-  CachedMap made = makeMap(setup_, map_cache);
+  CachedMap made = makeMap(setup_, map_cache, progress);
   map_ = std::make_shared<const FeatureMap>(std::move(made.map));
   state_->map_reused = made.reused;
   state_->map_seconds = made.build_seconds;

@@ -99,7 +99,7 @@ constexpr const FeatureTraits& traitsOf(FeatureType type)
 template <auto trait, auto value>
 constexpr bool hasTrait(FeatureType type)
 {
-  constexpr std::uint32_t types = []
+  constexpr std::uint32_t kTypes = []
   {
     std::uint32_t bits = 0;
     for (std::size_t k = 0; k < kFeatureTypes; ++k)
@@ -108,7 +108,7 @@ constexpr bool hasTrait(FeatureType type)
     }
     return bits;
   }();
-  return (types >> typeIndex(type) & 1U) != 0;
+  return (kTypes >> typeIndex(type) & 1U) != 0;
 }
 
 constexpr bool isSegment(FeatureType type)

@@ -25,6 +25,9 @@ using MapSource = std::variant<std::vector<PosedScans>, OccupancyRaster, Feature
 /// foreign or unusable file, and for a map that reaches farther than 100 km from its origin.
 MapSource readMapSource(const std::filesystem::path& path);
 
+/// Returns the kinds of map that readMapSource() knows, for people: "simplemap (.simplemap), ...".
+std::string mapFormatNames();
+
 /// Returns a line on the key frames of a simplemap that are not used as they are, left out or taken
 /// for being on one floor; empty for none, and for other map sources. The same errors.
 std::string warningOfMapSource(const std::filesystem::path& path);
@@ -35,7 +38,8 @@ std::vector<std::filesystem::path> filesOfMapSource(const std::filesystem::path&
 
 /// Reads a map source and builds the feature map; a `.sigmap` is returned as it is.
 FeatureMap buildMapFromFile(const std::filesystem::path& path, const MapBuildingOptions& building,
-                            const FeatureExtractorOptions& extraction);
+                            const FeatureExtractorOptions& extraction,
+                            const MapProgress& progress = {});
 
 /// Returns the map of `source`, reusing `cache` (a `.sigmap`) when its provenance shows that
 /// neither the source's bytes nor the options have changed; otherwise builds it and rewrites
@@ -48,7 +52,7 @@ struct CachedMap
 };
 CachedMap mapWithCache(const std::filesystem::path& source, const std::filesystem::path& cache,
                        const MapBuildingOptions& building,
-                       const FeatureExtractorOptions& extraction);
+                       const FeatureExtractorOptions& extraction, const MapProgress& progress = {});
 
 std::vector<PosedScans> posedScansOf(const mrpt::maps::CSimpleMap& simplemap);
 OccupancyRaster rasterOf(const mrpt::maps::COccupancyGridMap2D& grid);

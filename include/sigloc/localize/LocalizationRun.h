@@ -79,10 +79,11 @@ class LocalizationRun
 {
  public:
   /// Opens the log, builds or reuses the map. `map_cache` is the `.sigmap` to reuse and rewrite;
-  /// empty: none. Throws std::runtime_error naming the file and the reason for anything unusable,
-  /// before anything is written.
+  /// empty: none. `progress` is called while the map is built. Throws std::runtime_error naming the
+  /// file and the reason for anything unusable, before anything is written.
   explicit LocalizationRun(const LocalizationSetup& setup,
-                           const std::filesystem::path& map_cache = {});
+                           const std::filesystem::path& map_cache = {},
+                           const MapProgress& progress = {});
   ~LocalizationRun();
 
   /// Advances one step; null at the end of the log. The pointer holds until the next call.

@@ -6,6 +6,7 @@
 #include "sigloc/features/observe_scans.h"
 #include "sigloc/map/FeatureMap.h"
 
+#include <functional>
 #include <vector>
 
 namespace sigloc
@@ -60,19 +61,24 @@ struct MapBuildingOptions
   }
 };
 
+/// Called while a map is built, now and then, with the share of the work that is done, in [0, 1].
+using MapProgress = std::function<void(double share)>;
+
 /// Returns the map of posed scans: raster from hit counts, dense field, merged features.
 /// Throws std::invalid_argument when no scan has a valid return.
 FeatureMap buildMapFromScans(const std::vector<PosedScans>& scans,
                              const MapBuildingOptions& options = {},
                              const FeatureExtractorOptions& extraction = {},
-                             const MapProvenance& provenance = {});
+                             const MapProvenance& provenance = {},
+                             const MapProgress& progress = {});
 
 /// Returns the map of an occupancy raster: scans are cast from its free cells, so that the features
 /// are those a laser sees. Throws std::invalid_argument for an inconsistent raster or one without
 /// any wall.
 FeatureMap buildMapFromRaster(const OccupancyRaster& raster, const MapBuildingOptions& options = {},
                               const FeatureExtractorOptions& extraction = {},
-                              const MapProvenance& provenance = {});
+                              const MapProvenance& provenance = {},
+                              const MapProgress& progress = {});
 
 /// Returns the raster of posed scans: a cell is wall when at least min_hits scans end in it, free
 /// when beams pass and it is not wall. \cite algorithm eq. (6.1), (6.2)

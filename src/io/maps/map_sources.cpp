@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sigloc/io/map_files.h"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 #include <mrpt/system/md5.h>
 
 #include <algorithm>
@@ -29,36 +29,63 @@ namespace
 /// Raised whenever the same source and options give another map than before.
 constexpr int kBuildVersion = 8;
 
-enum class Format
+template <auto reader>
+MapSource sourceBy(const std::filesystem::path& path)
 {
-  simplemap,
-  gridmap,
-  ros_map,
-  carmen_log,
-  landmarks,
-  sigmap
+  return reader(path);
+}
+
+/// A kind of file that maps come in.
+struct MapFormat
+{
+  const char* name;  // for people
+  std::vector<std::string> extensions;  // lower case; `.gz` may follow them
+  MapSource (*read)(const std::filesystem::path& path);
 };
 
-Format formatOf(const std::filesystem::path& path)
+/// Every kind of map: a new one is a row here and its reader.
+const std::vector<MapFormat>& mapFormats()
+{
+  static const std::vector<MapFormat> kFormats = {
+      {"simplemap", {".simplemap"}, sourceBy<detail::readSimplemap>},
+      {"grid map", {".gridmap"}, sourceBy<detail::readGridmap>},
+      {"ROS map", {".yaml", ".yml"}, sourceBy<detail::readRosMap>},
+      {"CARMEN log", {".log", ".clf", ".carmen"}, sourceBy<detail::readCarmenLog>},
+      {"landmark file", {".csv", ".txt"}, sourceBy<detail::readLandmarks>},
+      {"sigmap", {".sigmap"}, sourceBy<loadSigmap>},
+  };
+  return kFormats;
+}
+
+std::string extensionOf(const std::filesystem::path& path)
 {
   std::filesystem::path name = path.filename();
   if (name.extension() == ".gz") name = name.stem();
   std::string extension = name.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (extension == ".simplemap") return Format::simplemap;
-  if (extension == ".gridmap") return Format::gridmap;
-  if (extension == ".yaml" || extension == ".yml") return Format::ros_map;
-  if (extension == ".log" || extension == ".clf" || extension == ".carmen")
+  return extension;
+}
+
+const MapFormat& formatOf(const std::filesystem::path& path)
+{
+  const std::string extension = extensionOf(path);
+  std::string known;
+  for (const MapFormat& format : mapFormats())
   {
-    return Format::carmen_log;
+    for (const std::string& own : format.extensions)
+    {
+      if (own == extension) return format;
+      known += (known.empty() ? "" : ", ") + own;
+    }
   }
-  if (extension == ".csv" || extension == ".txt") return Format::landmarks;
-  if (extension == ".sigmap") return Format::sigmap;
   throw std::runtime_error(
-      path.string() +
-      ": unknown kind of map (known: .simplemap, .gridmap, .yaml, .log, .clf, .carmen, .csv, .txt, "
-      ".sigmap)");
+      fmt::format("{}: unknown kind of map (known: {})", path.string(), known));
+}
+
+bool isReadBy(MapSource (*reader)(const std::filesystem::path&), const std::filesystem::path& path)
+{
+  return formatOf(path).read == reader;
 }
 
 void appendBytes(const std::filesystem::path& path, std::string& bytes)
@@ -73,26 +100,6 @@ std::string checksumOf(const std::filesystem::path& path)
   std::string bytes;
   for (const std::filesystem::path& file : filesOfMapSource(path)) appendBytes(file, bytes);
   return mrpt::system::md5(bytes);
-}
-
-MapSource read(const std::filesystem::path& path)
-{
-  switch (formatOf(path))
-  {
-    case Format::simplemap:
-      return detail::readSimplemap(path);
-    case Format::gridmap:
-      return detail::readGridmap(path);
-    case Format::ros_map:
-      return detail::readRosMap(path);
-    case Format::carmen_log:
-      return detail::readCarmenLog(path);
-    case Format::landmarks:
-      return detail::readLandmarks(path);
-    case Format::sigmap:
-      break;
-  }
-  return loadSigmap(path);
 }
 
 template <class Options>
@@ -126,18 +133,19 @@ MapProvenance provenanceOf(const std::filesystem::path& path, const MapBuildingO
 }
 
 FeatureMap build(const std::filesystem::path& path, const MapBuildingOptions& building,
-                 const FeatureExtractorOptions& extraction, const MapProvenance& provenance)
+                 const FeatureExtractorOptions& extraction, const MapProvenance& provenance,
+                 const MapProgress& progress)
 {
   MapSource source = readMapSource(path);
   try
   {
     if (const auto* scans = std::get_if<std::vector<PosedScans>>(&source))
     {
-      return buildMapFromScans(*scans, building, extraction, provenance);
+      return buildMapFromScans(*scans, building, extraction, provenance, progress);
     }
     if (const auto* raster = std::get_if<OccupancyRaster>(&source))
     {
-      return buildMapFromRaster(*raster, building, extraction, provenance);
+      return buildMapFromRaster(*raster, building, extraction, provenance, progress);
     }
     const auto& landmarks = std::get<FeatureMap>(source);
     return FeatureMap(landmarks.features(), landmarks.field(), landmarks.error(), provenance);
@@ -168,7 +176,7 @@ std::vector<PosedScans> posedScansOf(const mrpt::maps::CSimpleMap& simplemap)
 std::string warningOfMapSource(const std::filesystem::path& path)
 {
   constexpr double kOneFloor = 0.5;  // [m]
-  if (formatOf(path) != Format::simplemap) return {};
+  if (!isReadBy(sourceBy<detail::readSimplemap>, path)) return {};
   mrpt::maps::CSimpleMap simplemap;
   detail::readObjectFile(path, simplemap);
   std::size_t nowhere = 0;
@@ -209,37 +217,48 @@ std::vector<PosedScans> readSimplemap(const std::filesystem::path& path)
 MapSource readMapSource(const std::filesystem::path& path)
 {
   detail::requireFile(path);
-  MapSource source = read(path);
+  MapSource source = formatOf(path).read(path);
   detail::requireWithinReach(source, path);
   return source;
+}
+
+std::string mapFormatNames()
+{
+  std::string names;
+  for (const MapFormat& format : mapFormats())
+  {
+    names += fmt::format("{}{} ({})", names.empty() ? "" : ", ", format.name,
+                         fmt::join(format.extensions, " "));
+  }
+  return names;
 }
 
 std::vector<std::filesystem::path> filesOfMapSource(const std::filesystem::path& path)
 {
   std::vector<std::filesystem::path> files = {path};
-  if (formatOf(path) == Format::ros_map) files.push_back(detail::imageOfRosMap(path));
+  if (isReadBy(sourceBy<detail::readRosMap>, path)) files.push_back(detail::imageOfRosMap(path));
   return files;
 }
 
 FeatureMap buildMapFromFile(const std::filesystem::path& path, const MapBuildingOptions& building,
-                            const FeatureExtractorOptions& extraction)
+                            const FeatureExtractorOptions& extraction, const MapProgress& progress)
 {
   detail::requireFile(path);
   FeatureMap map =
-      formatOf(path) == Format::sigmap
+      isReadBy(sourceBy<loadSigmap>, path)
           ? loadSigmap(path)
-          : build(path, building, extraction, provenanceOf(path, building, extraction));
+          : build(path, building, extraction, provenanceOf(path, building, extraction), progress);
   if (map.empty()) throw std::runtime_error(path.string() + ": no feature found in it");
   return map;
 }
 
 CachedMap mapWithCache(const std::filesystem::path& source, const std::filesystem::path& cache,
                        const MapBuildingOptions& building,
-                       const FeatureExtractorOptions& extraction)
+                       const FeatureExtractorOptions& extraction, const MapProgress& progress)
 {
   const auto start = std::chrono::steady_clock::now();
   detail::requireFile(source);
-  if (formatOf(source) == Format::sigmap)
+  if (isReadBy(sourceBy<loadSigmap>, source))
   {
     return {buildMapFromFile(source, building, extraction), true, 0.0};
   }
@@ -259,7 +278,7 @@ CachedMap mapWithCache(const std::filesystem::path& source, const std::filesyste
     // Missing or unreadable: built and written anew below.
   }
   CachedMap fresh;
-  fresh.map = buildMapFromFile(source, building, extraction);
+  fresh.map = buildMapFromFile(source, building, extraction, progress);
   saveSigmap(fresh.map, cache);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   fresh.build_seconds = elapsed.count();

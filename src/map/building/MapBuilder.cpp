@@ -69,10 +69,14 @@ void MapBuilder::restore(FeatureMerger merger, BeamCounts counts)
 FeatureMap buildMapFromScans(const std::vector<PosedScans>& scans,
                              const MapBuildingOptions& options,
                              const FeatureExtractorOptions& extraction,
-                             const MapProvenance& provenance)
+                             const MapProvenance& provenance, const MapProgress& progress)
 {
   MapBuilder builder(options);
-  for (const PosedScans& look : scans) builder.add(look, extraction);
+  for (std::size_t i = 0; i < scans.size(); ++i)
+  {
+    builder.add(scans[i], extraction);
+    if (progress) progress(static_cast<double>(i + 1) / static_cast<double>(scans.size()));
+  }
   if (builder.empty())
   {
     throw std::invalid_argument("buildMapFromScans: no scan has a valid return");

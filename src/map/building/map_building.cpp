@@ -73,7 +73,7 @@ LaserScan castScan(const RayCaster& caster, const TPoint2D& place, double range)
 
 FeatureMap buildMapFromRaster(const OccupancyRaster& raster, const MapBuildingOptions& options,
                               const FeatureExtractorOptions& extraction,
-                              const MapProvenance& provenance)
+                              const MapProvenance& provenance, const MapProgress& progress)
 {
   DenseField field = buildDenseField(raster);
   if (field.wall_cells == 0)
@@ -101,6 +101,7 @@ FeatureMap buildMapFromRaster(const OccupancyRaster& raster, const MapBuildingOp
       const LaserScan scan = castScan(caster, *place, options.cast_range);
       merger.add(inMap(observeScene({scan}, cast_extraction), {place->x, place->y, 0}));
     }
+    if (progress) progress(std::min(1.0, static_cast<double>(y + block) / raster.frame.height));
   }
   std::vector<Feature> features = merger.features();
   setWallEndLengths(features);
