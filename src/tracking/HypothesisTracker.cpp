@@ -21,9 +21,9 @@ namespace sigloc
 {
 namespace
 {
-constexpr std::size_t kUpdateBeams = 180;  // a track is updated with
-constexpr double kHidden = 0.5;  // weight of a relocation that fails to find a track
-constexpr double kNotYetTracked = -6.5;  // log-odds of a pose before anything has come into view
+constexpr std::size_t kUpdateBeams = 180;  // returns that update a track
+constexpr double kMissWeight = 0.5;  // factor of the evidence against a track, eq. (8.7)
+constexpr double kInitialTrackedLogOdds = -6.5;  // of a new track from the way driven, eq. (8.21)
 
 const DenseField* fieldOf(const FeatureMap& map)
 {
@@ -56,23 +56,23 @@ struct HypothesisTracker::State
   void confirm(const RelocationResult& result, const DenseScan& scan, double fresh_share);
   void weighElsewhere(const RelocationResult& result, double fresh_share);
   Track startAt(const RelocationResult& result, std::size_t k, const DenseScan& scan);
-  void judgeFirst(const DenseScan& scan);
+  void rateFirst(const DenseScan& scan);
   void publish(const ObservedScene& scene);
 
   std::shared_ptr<const SignatureMatcher> matcher;
   TrackerOptions options;
   std::optional<PoseRegion> region;
   TrackSet set;
-  ScanHistory past;  // of the way since it started
-  std::unique_ptr<LandmarkTracker> landmark_tracker;  // where no dense field backs the map
+  ScanHistory past;
+  std::unique_ptr<LandmarkTracker> landmark_tracker;  // null where the map has a dense field
   std::uint64_t next_id = 1;
   double travel_since_relocation = 0;  // [m]
   double travelled = 0;  // [m] in all
-  bool waking_up = true;  // no relocation has answered yet
+  bool waking_up = true;  // no relocation has given an answer yet
   bool relocated = false;  // in this step
-  double reliability = 0;  // of the first hypothesis when enough was last seen
-  std::uint64_t seen_id = 0;  // of the track that was heaviest when the robot last moved
-  mrpt::math::TPose2D seen_pose;  // where it was then
+  double reliability = 0;  // of the first hypothesis at the last scan with enough returns
+  std::uint64_t seen_id = 0;  // id of the track that was heaviest when the robot last moved
+  mrpt::math::TPose2D seen_pose;  // pose of that track then
   Belief belief;
 };
 
@@ -152,7 +152,7 @@ void HypothesisTracker::State::trackDensely(const std::optional<MotionIncrement>
   set.weigh(scan, *matcher->verifier(), travelled, travel);
   if (wantsRelocation()) relocate(scene, scan);
   set.mergeAndPrune();
-  judgeFirst(scan);
+  rateFirst(scan);
 }
 
 void HypothesisTracker::State::trackByFeatures(const std::optional<MotionIncrement>& motion,
@@ -187,17 +187,18 @@ void HypothesisTracker::State::haveRelocated()
   travel_since_relocation = 0;
 }
 
-/// How much of a relocation is news.
+/// How much a relocation counts as new evidence, in [0, 1]: phi of section 8.
 double HypothesisTracker::State::freshShare() const
 {
   return waking_up ? 1.0 : std::min(1.0, travel_since_relocation / options.evidence_distance);
 }
 
-/// Without odometry only the scans tell whether the robot moves. While the heaviest track stays put
-/// and explains what is seen, another scan is no news; when it fails, `assumed` travel counts.
+/// Returns the travel [m] of a step without odometry, where only the scans show whether the robot
+/// moves. While the heaviest track stays where it is and explains the scans, another scan is no new
+/// evidence. Where it explains them no more, the `assumed` travel counts. Eq. (8.2)
 double HypothesisTracker::State::travelSeen(double assumed)
 {
-  constexpr double kMoved = 0.15;  // [m], more than the jitter of a standing robot's poses
+  constexpr double kMoved = 0.15;  // [m], more than the jitter of the poses of a robot at rest
   if (set.tracks.empty() || suspicious()) return assumed;
   const Track& first = set.heaviest();
   if (first.score < (landmark_tracker ? 0 : options.lost_score)) return assumed;
@@ -210,7 +211,8 @@ double HypothesisTracker::State::travelSeen(double assumed)
   return same ? moved : 0;
 }
 
-/// The heaviest track suddenly explains much less than it used to: kidnapped, or a slip.
+/// True where the heaviest track suddenly explains much less than before: the robot was kidnapped
+/// or the odometry slipped.
 bool HypothesisTracker::State::suspicious() const
 {
   if (set.tracks.empty()) return false;
@@ -219,8 +221,8 @@ bool HypothesisTracker::State::suspicious() const
   return first.hasFallenTo(first.score, options.score_drop);
 }
 
-/// Suspicion is allayed where a relocation finds no better place in the whole map, or where less is
-/// explained only because something stands in the way.
+/// True where suspicion stops a claim. It does not where a relocation finds no better pose in the
+/// whole map, nor where less is explained only because something hides the walls.
 bool HypothesisTracker::State::doubtful() const
 {
   const Track& first = set.tracks.front();
@@ -229,20 +231,20 @@ bool HypothesisTracker::State::doubtful() const
   return landmark_tracker || first.hasFallenTo(scoreOfUnhidden(first.evidence), options.score_drop);
 }
 
-/// At the start, after a sudden fall of the score, at a steady rate while several poses or none
-/// hold, and at a low one to confirm what is held.
+/// True at the start and after a sudden fall of the score. Else relocations come at a steady rate,
+/// and at a lower one while the heaviest track has nearly all the weight and is retained.
 bool HypothesisTracker::State::wantsRelocation() const
 {
   if (waking_up || suspicious()) return true;
-  const bool held = !set.tracks.empty() &&
-                    set.heaviest().hypothesis.weight >= options.localized_probability &&
-                    set.heaviest().retained();
+  const bool retained = !set.tracks.empty() &&
+                        set.heaviest().hypothesis.weight >= options.localized_probability &&
+                        set.heaviest().retained();
   return travel_since_relocation >=
-         (held ? options.confirmation_distance : options.relocation_distance);
+         (retained ? options.confirmation_distance : options.relocation_distance);
 }
 
-/// A relocation knows nothing of the tracks, which makes it evidence: for a track, for "somewhere
-/// else", and for places that no track holds. Eq. (8.7) to (8.9)
+/// A relocation does not depend on the tracks. So it is evidence for a track, for "somewhere else",
+/// and for poses without a track. Eq. (8.7) to (8.9)
 void HypothesisTracker::State::relocate(const ObservedScene& scene, const DenseScan& scan)
 {
   const RelocationResult result = matcher->localize(scene, waking_up ? region : std::nullopt);
@@ -258,18 +260,19 @@ void HypothesisTracker::State::relocate(const ObservedScene& scene, const DenseS
   past.weighNewcomers(set, scan, *matcher->verifier(), travelled);
 }
 
-/// Evidence for a track counts as far as it rests on structure that is new to the track: another
-/// addScan at one room repeats the likeness of the first. Which of several addScan-alikes it is,
-/// the weights tell; this is about standing in the map at all. Eq. (8.7)
+/// Adds to the in-map log-odds of the tracks. Evidence for a track counts by the share of structure
+/// that is new to the track, because a second scan of a room repeats the likeness of the first.
+/// The weights decide between look-alikes; this decides whether the robot is in the map at all.
+/// Eq. (8.7)
 void HypothesisTracker::State::confirm(const RelocationResult& result, const DenseScan& scan,
                                        double fresh_share)
 {
   for (Track& track : set.tracks)
   {
-    double evidence = 0;  // where nothing was found anywhere, the track's own score tells
+    double evidence = 0;  // stays 0 where the relocation found nothing
     if (!result.candidates.empty())
     {
-      // For a track that the relocation did not find: what its best answer would be there.
+      // A track that was not found has the fit of the best candidate and its own score.
       const Candidate& first = result.candidates.front();
       evidence = std::min(0.0, fitLogOdds(first) + leadLogOdds(track.score, first.score));
     }
@@ -281,16 +284,16 @@ void HypothesisTracker::State::confirm(const RelocationResult& result, const Den
       }
     }
     const double novelty = track.seen.add(scan, track.hypothesis.pose.mean, travelled);
-    const double gain =
-        evidence > 0
-            ? novelty * std::min(evidence, kMaxConfirmed)
-            : fresh_share * kHidden * std::clamp(evidence + kPriorHereLogOdds, -kMaxAgainst, 0.0);
+    const double gain = evidence > 0
+                            ? novelty * std::min(evidence, kMaxConfirmed)
+                            : fresh_share * kMissWeight *
+                                  std::clamp(evidence + kPriorHereLogOdds, -kMaxAgainst, 0.0);
     track.confirmed = std::clamp(track.confirmed + gain, kMinConfirmed, kMaxConfirmed);
   }
 }
 
-/// Where a relocation finds poses that no track holds, as good as theirs, "somewhere else" gains.
-/// Eq. (8.8)
+/// "Somewhere else" gains where a relocation finds poses without a track that score as well as the
+/// tracks. Eq. (8.8)
 void HypothesisTracker::State::weighElsewhere(const RelocationResult& result, double fresh_share)
 {
   if (set.tracks.empty()) return;
@@ -311,30 +314,30 @@ void HypothesisTracker::State::weighElsewhere(const RelocationResult& result, do
   set.weighElsewhere(result, fit + leadLogOdds(best_tracked, best_untracked), beaten, fresh_share);
 }
 
-/// A track at a candidate that no track holds.
+/// Returns a new track at candidate `k`.
 Track HypothesisTracker::State::startAt(const RelocationResult& result, std::size_t k,
                                         const DenseScan& scan)
 {
   const Candidate& candidate = result.candidates[k];
   Track fresh;
-  // Within the tracks the map's common error would make every scan addScan like news about it: it
-  // belongs in what is told, once.
+  // The map's common error is the same for every scan. The filter would treat it as fresh noise, so
+  // it is added only to the poses that are published.
   fresh.hypothesis.pose = withoutCommonError(candidate.pose, matcher->map().error());
   fresh.hypothesis.id = next_id++;
   fresh.score = fresh.mean_score = candidate.score;
-  const double view = fresh.seen.add(scan, candidate.pose.mean, travelled);
+  const double novelty = fresh.seen.add(scan, candidate.pose.mean, travelled);
   fresh.seen_while_tracked = fresh.seen;
   const double evidence = inMapLogOdds(result, k);
-  fresh.confirmed = std::clamp(kPriorHereLogOdds + std::min(evidence, view * evidence),
+  fresh.confirmed = std::clamp(kPriorHereLogOdds + std::min(evidence, novelty * evidence),
                                kMinConfirmed, kMaxConfirmed);
   fresh.evidence = matcher->verifier()->evaluate(scan, candidate.pose.mean);
-  fresh.addTrackedLogOdds(kNotYetTracked + view * trackedLogOdds(fresh.evidence));
+  fresh.addTrackedLogOdds(kInitialTrackedLogOdds + novelty * trackedLogOdds(fresh.evidence));
   fresh.addFit(0);
   set.showTo(fresh, scan, *matcher->verifier(), travelled);
   return fresh;
 }
 
-void HypothesisTracker::State::judgeFirst(const DenseScan& scan)
+void HypothesisTracker::State::rateFirst(const DenseScan& scan)
 {
   reliability = 0;
   if (set.tracks.empty()) return;
@@ -342,7 +345,7 @@ void HypothesisTracker::State::judgeFirst(const DenseScan& scan)
   reliability = reliabilityOf(matcher->verifier()->evaluate(scan, first));
 }
 
-/// Too little to say that the robot is not here.
+/// True where the scan has too little in it for the verdict *not here*.
 bool HypothesisTracker::State::seesTooLittle(const ObservedScene& scene) const
 {
   return landmark_tracker ? !landmark_tracker->seesEnoughToTell()

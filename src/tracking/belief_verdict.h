@@ -7,16 +7,17 @@
 
 namespace sigloc
 {
-/// What a verdict rests on besides the weights.
+/// What decides a verdict besides the weights.
 struct BeliefGrounds
 {
-  bool confirmed = false;  ///< enough is known that only this map explains
-  bool doubtful = false;  ///< the first hypothesis has stopped explaining what is seen
-  bool sees_too_little = false;  ///< to say that the robot is not here
+  bool confirmed = false;  ///< the claim log-odds of the first hypothesis reach the bound
+  bool doubtful = false;  ///< the first hypothesis has stopped explaining the scans
+  bool sees_too_little = false;  ///< the scan has too few returns for the verdict *not here*
 };
 
-/// Sets the verdict of a belief, its probability and its reason, by decideVerdict() on its
-/// hypotheses (heaviest first) and "somewhere else"; a claim takes the weight `sure`. Without a
-/// field (null) the reason does not say where rivals differ.
+/// Sets the verdict of a belief, its probability and its reason by decideVerdict(), from its
+/// hypotheses (heaviest first) and the weight of "somewhere else". A claim requires the weight
+/// `sure`. Without a field (null) the reason does not say where rivals differ.
+/// \cite algorithm section 8, "Publish"
 void setVerdict(Belief& belief, const BeliefGrounds& more, double sure, const DenseField* field);
 }  // namespace sigloc

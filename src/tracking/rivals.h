@@ -10,9 +10,9 @@
 
 namespace sigloc
 {
-/// Returns one line on what keeps the first of the hypotheses (heaviest first, at least one) from
-/// being the answer: how many remain, where the next one is, and where the two differ. Without a
-/// field it says nothing of the last.
+/// Returns one line that says why the first hypothesis is not the answer yet: how many remain,
+/// where the next one is, and where the map differs for the two. The hypotheses are given heaviest
+/// first, at least one. Without a field (null) the line leaves out where the map differs.
 std::string describeRivals(const std::vector<TrackedHypothesis>& hypotheses,
                            const DenseField* field);
 }  // namespace sigloc

@@ -7,9 +7,9 @@
 
 namespace sigloc
 {
-/// Throws std::invalid_argument for a figure that is not finite or a negative variance.
+/// Throws std::invalid_argument for a value that is not finite or a negative variance.
 void checkMotion(const MotionIncrement& motion);
 
-/// Throws std::invalid_argument for a return or a feature at a place that is not finite.
+/// Throws std::invalid_argument for a return or a feature at a position that is not finite.
 void checkScene(const ObservedScene& scene);
 }  // namespace sigloc

@@ -11,24 +11,25 @@
 
 namespace sigloc
 {
-/// One pose hypothesis that is being followed.
+/// One pose hypothesis that is being tracked.
 struct TrackedHypothesis
 {
   GaussianPose pose;  ///< map_from_robot
-  double weight = 0;  ///< probability
-  std::uint64_t id = 0;  ///< stays with the track while it lives; merged tracks keep the older id
+  double weight = 0;  ///< probability, in [0, 1]
+  std::uint64_t id = 0;  ///< the same from step to step; merged tracks keep the older id
   std::uint32_t age = 0;  ///< steps since it was proposed
 };
 
-/// What is known of the robot's place after a step: weighted Gaussians, heaviest first, and the
-/// weight of "somewhere else"; all weights sum to one.
+/// Where the robot may be after a step: weighted Gaussian poses, heaviest first, and the weight of
+/// "somewhere else". All weights sum to one.
 struct Belief
 {
   std::vector<TrackedHypothesis> hypotheses;
-  double elsewhere = 1;
+  double elsewhere = 1;  ///< probability that the robot is at none of the hypotheses, in [0, 1]
   Verdict verdict = Verdict::too_little_seen;
-  double probability = 0;  ///< of the verdict's claim
-  /// In [0, 1]: how well the first hypothesis explains the latest look at enough to tell.
+  double probability = 0;  ///< of the verdict's claim, in [0, 1]
+  /// How well the first hypothesis explains the latest scan with enough returns, in [0, 1].
+  /// \cite algorithm eq. (8.11)
   double reliability = 0;
   std::string reason;  ///< one line for people: why lost, which rivals remain
 };

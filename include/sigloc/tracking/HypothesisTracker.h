@@ -11,15 +11,17 @@
 
 namespace sigloc
 {
-/// Follows every pose hypothesis until one is left: predict with the odometry, update by the
-/// matcher's verification at each pose, prune, merge, respawn. \cite algorithm section 8
+/// Tracks every pose hypothesis until one is left. Each step predicts by odometry, updates poses
+/// and weights by the scan, relocates where there is reason to, merges and prunes.
+/// \cite algorithm section 8
 ///
 ///     HypothesisTracker tracker(matcher);
 ///     while (auto step = log.next())
 ///       if (tracker.step(step->motion, observe(*step)).verdict == Verdict::localized)
 ///       ...
 ///
-/// Deterministic; not thread-safe (one tracker a robot); all budgets are operation counts.
+/// Deterministic. Not thread-safe: use one tracker for each robot. All budgets are operation
+/// counts.
 class HypothesisTracker
 {
  public:
@@ -30,17 +32,18 @@ class HypothesisTracker
   HypothesisTracker(HypothesisTracker&&) noexcept;
   HypothesisTracker& operator=(HypothesisTracker&&) noexcept;
 
-  /// Advances by one step and returns the belief after it. Without a motion a wide prior is used;
-  /// the first step's does not matter. Throws std::invalid_argument, and forgets nothing, for a
-  /// motion with a figure that is not finite or a negative variance, and for returns or features at
-  /// places that are not finite.
+  /// Advances by one step and returns the belief after it. Without a motion a wide prior is used.
+  /// The motion of the first step does not matter.
+  /// Throws std::invalid_argument for a motion with a value that is not finite or a negative
+  /// variance, and for returns or features at positions that are not finite. The belief then stays
+  /// as it was.
   const Belief& step(const std::optional<MotionIncrement>& motion, const ObservedScene& scene);
 
   const Belief& belief() const;
   /// True when the last step ran a relocation.
   bool relocated() const;
 
-  /// Forgets everything: lost anywhere, or inside a region.
+  /// Forgets everything. The robot may then be anywhere or, with a region, inside it.
   void reset(const std::optional<PoseRegion>& region = std::nullopt);
 
  private:

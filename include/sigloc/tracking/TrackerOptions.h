@@ -9,7 +9,8 @@
 
 namespace sigloc
 {
-/// How HypothesisTracker follows hypotheses and when it claims one. \cite algorithm section 8
+/// How HypothesisTracker tracks hypotheses and when it claims one. Units, ranges and meanings are
+/// in `visitFields`. \cite algorithm section 8
 struct TrackerOptions
 {
   std::uint32_t max_hypotheses = 20;

@@ -9,13 +9,13 @@ namespace sigloc
 {
 namespace
 {
-constexpr float kFullView = 3;  // returns that show what a cell holds
-constexpr double kMemory = 10.0;  // [m] of travel
+constexpr float kFullReturns = 3;  // returns from which on a cell counts in full, eq. (8.26)
+constexpr double kMemory = 10.0;  // [m] of travel after which a cell is forgotten
 }  // namespace
 
 double CellEvidence::Cell::seen() const
 {
-  return static_cast<double>(std::min(1.0F, returns / kFullView));
+  return static_cast<double>(std::min(1.0F, returns / kFullReturns));
 }
 
 double CellEvidence::Cell::unexplained() const
@@ -27,22 +27,22 @@ double CellEvidence::addScan(const ObservedCells& view, const std::vector<float>
                              double travelled)
 {
   forget(travelled);
-  std::vector<Cell> looks(view.cells.size());
+  std::vector<Cell> observed(view.cells.size());
   for (std::size_t i = 0; i < explained.size(); ++i)
   {
     if (view.cell_of[i] == ObservedCells::kNowhere) continue;
-    Cell& addScan = looks[view.cell_of[i]];
-    addScan.explained += explained[i];
-    addScan.returns += 1;
+    Cell& cell = observed[view.cell_of[i]];
+    cell.explained += explained[i];
+    cell.returns += 1;
   }
   const double unexplained_before = unexplained_;
-  for (std::size_t k = 0; k < looks.size(); ++k)
+  for (std::size_t k = 0; k < observed.size(); ++k)
   {
     Cell& cell = cells_[view.cells[k]];
     if (travelled - cell.last_seen > kMemory) cell = {};
     const Cell before = cell;
-    cell.explained += looks[k].explained;
-    cell.returns += looks[k].returns;
+    cell.explained += observed[k].explained;
+    cell.returns += observed[k].returns;
     cell.last_seen = travelled;
     unexplained_ += cell.unexplained() - before.unexplained();
     seen_ += cell.seen() - before.seen();
@@ -50,7 +50,8 @@ double CellEvidence::addScan(const ObservedCells& view, const std::vector<float>
   return unexplained_ - unexplained_before;
 }
 
-/// Now and then; a cell that is seen again is forgotten in time anyway.
+/// Frees the memory of old cells now and then. addScan() resets an old cell that is seen again, so
+/// the time of this call changes no result.
 void CellEvidence::forget(double travelled)
 {
   if (travelled - tidied_ <= kMemory) return;

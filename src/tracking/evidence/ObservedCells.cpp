@@ -17,7 +17,7 @@ std::uint64_t cellAt(double x, double y)
 {
   const auto at = [](double along)
   {
-    constexpr double kFarthest = 1e9;  // [cells]; nobody drives so far, but an int must hold it
+    constexpr double kFarthest = 1e9;  // [cells], keeps the index within 32 bits
     return static_cast<std::int32_t>(std::clamp(std::floor(along / kCell), -kFarthest, kFarthest));
   };
   return cellKey(at(x), at(y));

@@ -12,18 +12,20 @@
 
 namespace sigloc
 {
-/// Where a scan's returns end, as cells of 0.5 m of the frame that the robot's pose is given in.
+/// The cells of 0.5 m in which a scan's returns end, in the frame that the robot's pose is given
+/// in.
 struct ObservedCells
 {
   static constexpr std::uint32_t kNowhere = 0xFFFFFFFF;
 
   std::vector<std::uint64_t> cells;  ///< every cell once, ascending
-  std::vector<std::uint32_t> cell_of;  ///< a return's, index into cells; kNowhere if isolated
+  std::vector<std::uint32_t> cell_of;  ///< of each return: index into cells, kNowhere if isolated
 };
 
-/// Cells from which on a view is whole: 7 m of walls. Fewer are a part of one. \cite algorithm
-/// eq. (8.7), (8.29)
+/// Number of cells from which on a scan counts in full: 7 m of walls. \cite algorithm eq. (8.7),
+/// (8.29)
 constexpr std::size_t kCellsOfView = 14;
 
+/// Returns the cells of a scan seen from `frame_from_robot`.
 ObservedCells observedCells(const DenseScan& scan, const mrpt::math::TPose2D& frame_from_robot);
 }  // namespace sigloc

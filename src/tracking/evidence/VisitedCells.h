@@ -11,15 +11,15 @@
 
 namespace sigloc
 {
-/// What a track has looked at so far, as coarse cells of the map. A second addScan at the same
-/// walls repeats the errors, and the likeness, of the first: only what is new to it is evidence.
+/// The cells of the map, 0.5 m wide, that a track has seen so far. A second scan of the same walls
+/// repeats the errors and the likeness of the first, so only new cells are evidence.
 class VisitedCells
 {
  public:
-  /// Returns the share of the cells that the returns end in, seen from `map_from_robot`, that were
-  /// not seen within the last 10 m of travel, in [0, 1], and remembers them all. A view of few
-  /// cells counts as part of a view, isolated returns as nothing. `travelled` [m] counts from any
-  /// start and never falls.
+  /// Adds the cells in which the returns end, seen from `map_from_robot`. Returns the share of them
+  /// that was not seen within the last 10 m of travel, in [0, 1]. Fewer than kCellsOfView cells
+  /// count as that many; isolated returns do not count. `travelled` [m] counts from any start and
+  /// never falls. \cite algorithm eq. (8.7)
   double add(const DenseScan& scan, const mrpt::math::TPose2D& map_from_robot, double travelled);
 
  private:

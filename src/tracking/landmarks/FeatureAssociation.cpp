@@ -17,22 +17,22 @@ namespace sigloc
 namespace
 {
 constexpr std::size_t kAnchors = 3;  // observed features that bases start from
-constexpr std::size_t kMostPartners = 6;  // mapped features tried for one
-constexpr std::size_t kMostAlternatives = 4;
-constexpr double kLeastShare = 0.05;  // of the best's, worth following
-constexpr double kTellApart = 11.34;  // chi-square, 3 degrees of freedom, 99 %
+constexpr std::size_t kMostPartners = 6;  // mapped features tried for one observed feature
+constexpr std::size_t kMostAlternatives = 4;  // ways of pairing that are kept
+constexpr double kLeastShare = 0.05;  // of the best one's share, below which a way is dropped
+constexpr double kDistinctGate = 11.34;  // chi-square, 3 degrees of freedom, 99 %
 
-/// Two poses that tracks may hold side by side: farther apart than tracks are merged, and than
-/// their uncertainty explains.
-bool toldApart(const FeatureAssociation& a, const FeatureAssociation& b)
+/// True for poses that two tracks may have side by side: farther apart than merging reaches, and
+/// farther than their uncertainty explains.
+bool distinct(const FeatureAssociation& a, const FeatureAssociation& b)
 {
   const GaussianPose p = toGaussian(a.pose);
   const GaussianPose q = toGaussian(b.pose);
-  return !wouldMerge(p.mean, q.mean) && squaredMahalanobisDistance(p, q) > kTellApart;
+  return !wouldMerge(p.mean, q.mean) && squaredMahalanobisDistance(p, q) > kDistinctGate;
 }
 
-/// ln of the Gaussian density of an innovation; a residual that repeats the map's error counts with
-/// its mean.
+/// Returns ln of the Gaussian density of an innovation. A residual that is not `fresh` repeats the
+/// map's error, so its squared distance is replaced by the mean, the degrees of freedom. Eq. (8.14)
 double logDensity(double squared_distance, const Symmetric2& s, int degrees, bool fresh)
 {
   const double volume = degrees == 2 ? determinant(s) : s.xx;
@@ -41,7 +41,7 @@ double logDensity(double squared_distance, const Symmetric2& s, int degrees, boo
 }
 }  // namespace
 
-/// An association in the making.
+/// An association that is being built.
 struct FeatureAssociator::Growing
 {
   FeatureAssociation result;
@@ -51,7 +51,7 @@ struct FeatureAssociator::Growing
   std::size_t fresh = 0;
 };
 
-/// What an observed feature may be at the predicted pose.
+/// The mapped features that an observed feature may be at the predicted pose.
 struct FeatureAssociator::Option
 {
   std::uint32_t observed;
@@ -84,7 +84,7 @@ double FeatureAssociator::relativeSigma(std::uint32_t q) const
   return verifier_.map().map().error().relativeSigma(scene_.views[q].position().norm());
 }
 
-/// Takes a pairing in if it is jointly compatible with those before. Eq. (5.6), (8.13), (8.14)
+/// Adds a pairing if it is jointly compatible with those before. Eq. (5.6), (8.13), (8.14)
 bool FeatureAssociator::tryPairing(const FeaturePairing& pairing, Growing& growing) const
 {
   FeatureAssociation& result = growing.result;
@@ -129,7 +129,7 @@ bool FeatureAssociator::tryPairing(const FeaturePairing& pairing, Growing& growi
   return true;
 }
 
-/// The other features, nearest to the robot first, each with its nearest compatible partner.
+/// Pairs the other features, nearest to the robot first, each with its nearest compatible partner.
 void FeatureAssociator::grow(Growing& growing) const
 {
   FeatureAssociation& result = growing.result;
@@ -152,7 +152,8 @@ void FeatureAssociator::grow(Growing& growing) const
   }
 }
 
-/// Adds what was seen and is not mapped, and what is mapped and was not seen. Eq. (8.14)
+/// Adds the log-odds of the features that were seen but not paired, and of the mapped ones that
+/// were missed. Eq. (8.14)
 FeatureAssociation FeatureAssociator::finished(const Growing& growing) const
 {
   FeatureAssociation result = growing.result;
@@ -192,9 +193,9 @@ std::vector<FeatureAssociator::Option> FeatureAssociator::optionsAt(
   return options;
 }
 
-/// Where features may be several mapped ones, their nearest partners may be wrong together. Two of
-/// them, far apart, fix a pose that sorts out the rest: all pairs of partners are tried, of a few
-/// observed features, the least ambiguous first.
+/// Where features have several partners, the nearest ones may be wrong together. Two observed
+/// features, far apart, fix a pose that decides the rest. All pairs of partners are tried, for the
+/// three observed features with the fewest partners.
 std::vector<FeatureAssociation> FeatureAssociator::grownFromBases(
     const Growing& start, const std::vector<Option>& options) const
 {
@@ -244,7 +245,7 @@ std::vector<FeatureAssociation> FeatureAssociator::associate(
   start.result.correlation = correlation;
   start.paired.assign(scene_.size(), false);
 
-  // 1. Every feature with its nearest partner; where one may be several, from other starts too.
+  // 1. Pair every feature with its nearest partner; where one is ambiguous, try other starts too.
   Growing nearest = start;
   grow(nearest);
   std::vector<FeatureAssociation> all{finished(nearest)};
@@ -269,7 +270,7 @@ std::vector<FeatureAssociation> FeatureAssociator::associate(
     if (association.share < kLeastShare || kept.size() == kMostAlternatives) break;
     const bool apart =
         std::all_of(kept.begin(), kept.end(),
-                    [&](const FeatureAssociation& other) { return toldApart(other, association); });
+                    [&](const FeatureAssociation& other) { return distinct(other, association); });
     if (!apart) continue;
     sum += association.share;
     kept.push_back(association);

@@ -11,33 +11,34 @@
 
 namespace sigloc
 {
-/// What the log-odds of features count for tracks: looks at the same features share their errors.
+/// Factor tau of the log-odds of features, because scans of the same features share their errors.
+/// \cite algorithm eq. (8.15) to (8.18)
 constexpr double kFeatureTempering = 0.25;
 
-/// One jointly compatible way of pairing what is seen with the map, and the pose that follows.
+/// One jointly compatible way of pairing the observed features with the map, and its pose.
 struct FeatureAssociation
 {
   PoseEstimate pose;
   SchmidtKalmanFilter correlation;
   std::vector<FeaturePairing> pairings;
   double log_odds = 0;  // against "all clutter", eq. (8.14)
-  double fresh_share = 0;  // of the pairings, those with features not seen on the last stretch
+  double fresh_share = 0;  // share of the pairings with features not paired within the last 10 m
   double share = 1;  // of the parent's weight; all alternatives sum to one
 };
 
-/// Pairs the features of one step with the map at one predicted pose after another: nearest
-/// compatible first, an EKF update after each, joint compatibility in one addition a pairing.
-/// \cite algorithm section 8, "By features alone"
+/// Pairs the features of one step with the map, at one predicted pose after another. Each feature
+/// takes its nearest compatible partner, and an EKF update follows each pairing. Joint
+/// compatibility costs one addition a pairing. \cite algorithm section 8, "Without a dense field"
 class FeatureAssociator
 {
  public:
-  /// Refers to the verifier and the features, which must outlive it. `travelled` [m] counts from
-  /// any start and never falls.
+  /// Keeps references to the verifier and the features, which must outlive it. `travelled` [m]
+  /// counts from any start and never falls.
   FeatureAssociator(const FeatureVerifier& verifier, const std::vector<Feature>& observed,
                     double travelled);
 
-  /// Returns the ways of pairing that hold a share worth following, at poses that can be told
-  /// apart, best first; one where nothing is ambiguous. Never empty. Eq. (8.15)
+  /// Returns the ways of pairing that have at least a twentieth of the best one's share, at
+  /// distinct poses, best first. Never empty; one way where nothing is ambiguous. Eq. (8.15)
   std::vector<FeatureAssociation> associate(const GaussianPose& predicted,
                                             const SchmidtKalmanFilter& correlation) const;
 

@@ -13,15 +13,16 @@ namespace sigloc
 {
 namespace
 {
-constexpr double kDoubt = -3.0;  // log of Wald's lower bound, as in (5.7)
-constexpr double kContradicted = -1.0;  // nothing is claimed
-constexpr double kMemory = 10.0;  // [m] of travel after which a feature is seen afresh
-constexpr double kSharedErrors = 4.0;  // on the covariance of a candidate: see startAt
-constexpr std::size_t kRecentSteps = 20;
-constexpr double kStepTravel = 0.1;  // [m] between two steps that are gathered
-constexpr std::size_t kTelling = 4;  // features
+constexpr double kSuspicious =
+    -3.0;  // log-odds lost, below which a track is suspicious, eq. (8.20)
+constexpr double kContradicted = -1.0;  // log-odds lost, below which it is not claimed, eq. (8.20)
+constexpr double kMemory = 10.0;  // [m] of travel after which a feature is forgotten
+constexpr double kSharedErrors = 4.0;  // factor of the covariance of a candidate, see startAt
+constexpr std::size_t kRecentSteps = 20;  // that a local map holds
+constexpr double kStepTravel = 0.1;  // [m] of travel between two steps of a local map
+constexpr std::size_t kMinFeatures = 4;  // fewer are too little seen
 
-/// The features of the kinds that are mapped; those made of others keep their parents.
+/// Returns the features of the mapped types. Derived features keep their parents.
 std::vector<Feature> ofTypes(const std::vector<Feature>& features, const std::vector<bool>& types)
 {
   std::vector<Feature> kept;
@@ -67,7 +68,8 @@ bool LandmarkTracker::addScan(TrackSet& set, const std::optional<MotionIncrement
   {
     track.features.correlation.predict(track.hypothesis.pose.mean, moved.mean);
   }
-  if (!motion) recent_.clear();  // nothing tells how the steps lie to each other
+  if (!motion)
+    recent_.clear();  // without odometry the poses of the steps to each other are unknown
   const GaussianPose since =
       composeWithMotion({since_recent_.mean, since_recent_.covariance}, moved);
   since_recent_ = {since.mean, since.covariance};
@@ -96,7 +98,7 @@ void LandmarkTracker::update(TrackSet& set, double travelled, std::uint64_t& nex
       child.hypothesis.pose = toGaussian(way.pose);
       child.hypothesis.weight *= way.share;
       if (&way != &ways.front()) child.hypothesis.id = next_id++;
-      // Their shares have told the ways apart already.
+      // All ways count with the best one's log-odds, because their shares separate them already.
       child.score = ways.front().log_odds;
       child.features.correlation = way.correlation;
       child.features.correlation.forgetBefore(travelled - kMemory);
@@ -108,13 +110,13 @@ void LandmarkTracker::update(TrackSet& set, double travelled, std::uint64_t& nex
   }
   set.tracks = std::move(updated);
   const bool doubted = !set.tracks.empty() && doubts(set.heaviest());
-  // Carried elsewhere, perhaps: what was seen before does not lie to what is seen now as it seems.
+  // The robot may have been kidnapped. Then the earlier steps do not belong to the present one.
   if (doubted && !doubted_) recent_.clear();
   doubted_ = doubted;
 }
 
-/// Rivals by what each pairs, the best of them against "somewhere else"; standing in the map at all
-/// by what is new.
+/// Weighs tracks against each other by what each pairs, and the best one against "somewhere else".
+/// The in-map log-odds grow by new features only. Eq. (8.16) to (8.18)
 void LandmarkTracker::weigh(TrackSet& set, double travel) const
 {
   if (set.tracks.empty()) return;
@@ -142,7 +144,7 @@ std::vector<Feature> LandmarkTracker::gathered() const
   return local.features();
 }
 
-/// To confirm what is held one addScan is enough.
+/// Once the belief is settled, the present step is enough to confirm it.
 RelocationResult LandmarkTracker::localize(const std::optional<PoseRegion>& region,
                                            bool settled) const
 {
@@ -159,18 +161,19 @@ bool LandmarkTracker::relocate(TrackSet& set, const std::optional<PoseRegion>& r
   weighElsewhere(set, result, fresh_share);
   for (const Candidate& candidate : result.candidates)
   {
-    // A track that has slipped off its place pairs nothing there any more.
-    Track* const held = set.trackAt(candidate.pose.mean);
-    if (held == nullptr || held->score > 0 || candidate.score <= 0) continue;
-    const Track there = startAt(candidate, held->hypothesis.id);
-    held->hypothesis.pose = there.hypothesis.pose;
-    held->features = there.features;
+    // A track that has slipped off pairs hardly anything any more, so it moves to the candidate.
+    Track* const slipped = set.trackAt(candidate.pose.mean);
+    if (slipped == nullptr || slipped->score > 0 || candidate.score <= 0) continue;
+    const Track there = startAt(candidate, slipped->hypothesis.id);
+    slipped->hypothesis.pose = there.hypothesis.pose;
+    slipped->features = there.features;
   }
   set.dealOut(result, [&](std::size_t k) { return startAt(result.candidates[k], next_id++); });
   return true;
 }
 
-/// Where a relocation finds poses that no track holds, as good as theirs, "somewhere else" gains.
+/// "Somewhere else" gains where a relocation finds poses without a track that are as good as those
+/// of the tracks. Eq. (8.19)
 void LandmarkTracker::weighElsewhere(TrackSet& set, const RelocationResult& result,
                                      double fresh_share) const
 {
@@ -186,8 +189,9 @@ void LandmarkTracker::weighElsewhere(TrackSet& set, const RelocationResult& resu
   set.weighElsewhere(result, lead, lead < -kFarBetter, fresh_share);
 }
 
-/// The features of a candidate share the error of the odometry that gathered them, and its pose the
-/// errors of the mapped ones: its covariance is widened, so that the next steps decide.
+/// Returns a new track at a candidate. The features share the errors of the odometry that gathered
+/// them, and the pose shares those of the mapped features. So the covariance is widened and the
+/// next steps decide.
 Track LandmarkTracker::startAt(const Candidate& candidate, std::uint64_t id) const
 {
   Track track;
@@ -202,7 +206,7 @@ Track LandmarkTracker::startAt(const Candidate& candidate, std::uint64_t id) con
 
 bool LandmarkTracker::doubts(const Track& track)
 {
-  return track.features.doubt < kDoubt;
+  return track.features.doubt < kSuspicious;
 }
 
 bool LandmarkTracker::contradicts(const Track& track)
@@ -212,7 +216,7 @@ bool LandmarkTracker::contradicts(const Track& track)
 
 bool LandmarkTracker::seesEnoughToTell() const
 {
-  return seen_.size() >= kTelling;
+  return seen_.size() >= kMinFeatures;
 }
 
 double LandmarkTracker::reliabilityOf(const Track& track) const

@@ -13,45 +13,48 @@
 
 namespace sigloc
 {
-/// How tracks are updated, weighed and proposed in a map that no dense field backs: by the features
-/// alone. Works on the tracks of a `HypothesisTracker`, which decides when.
-/// \cite algorithm section 8, "By features alone"
+/// Updates, weighs and proposes tracks by features alone, in a map without a dense field. Works on
+/// the tracks of a `HypothesisTracker`, which calls it.
+/// \cite algorithm section 8, "Without a dense field"
 class LandmarkTracker
 {
  public:
-  /// The matcher has a feature verifier.
+  /// The matcher must have a feature verifier.
   LandmarkTracker(std::shared_ptr<const SignatureMatcher> matcher, const TrackerOptions& options);
 
-  /// Takes in a step, before the tracks are moved on. False when nothing seen is of a kind that the
-  /// map holds: the step can only predict.
+  /// Adds the scan of a step, before the tracks are predicted. Returns false when no feature is of
+  /// a type that the map has; such a step can only predict. Eq. (8.12)
   bool addScan(TrackSet& set, const std::optional<MotionIncrement>& motion,
                const ObservedScene& scene);
 
-  /// Pairs what was seen with the map at each track; ambiguous tracks split. Eq. (8.12) to (8.15)
+  /// Pairs the features with the map at each track, after `travelled` [m] in all. Ambiguous tracks
+  /// split, and the new ones take their ids from `next_id`. Eq. (8.13) to (8.15)
   void update(TrackSet& set, double travelled, std::uint64_t& next_id);
 
-  /// Weighs tracks by their log-odds and confirms them by what is new to them. Eq. (8.16) to (8.18)
+  /// Weighs tracks by their log-odds, `travel` [m] after the step before, and confirms them by
+  /// features that are new to them. Eq. (8.16) to (8.18)
   void weigh(TrackSet& set, double travel) const;
 
-  /// Looks for places that no track holds, in a local map of the last steps or, once the belief is
-  /// settled, in the present one. Returns false where too little is seen for an answer.
-  /// Eq. (8.9), (8.19)
+  /// Relocates with a local map of the last steps or, once the belief is `settled`, with the
+  /// present step alone. `fresh_share` in [0, 1] is how far it counts as new evidence. Returns
+  /// false where too little is seen for an answer. Eq. (8.9), (8.19)
   bool relocate(TrackSet& set, const std::optional<PoseRegion>& region, double fresh_share,
                 bool settled, std::uint64_t& next_id);
 
-  /// Keeps the present step for local maps to come.
+  /// Stores the present step for later local maps.
   void remember();
 
-  /// True when clutter has explained what was lately seen better than the track does. Eq. (8.20)
+  /// True when clutter has lately explained the features much better than the track. Eq. (8.20)
   static bool doubts(const Track& track);
 
-  /// True when what is seen now speaks against the track, if not enough to doubt it.
+  /// True when clutter has lately explained them better, which is enough to stop a claim. Eq.
+  /// (8.20)
   static bool contradicts(const Track& track);
 
-  /// False while what was seen lately is too little to tell that the robot is not here.
+  /// True when the present step has enough features for the verdict *not here*.
   bool seesEnoughToTell() const;
 
-  /// Share of what was seen that the track pairs, in [0, 1].
+  /// Share of the features seen that the track pairs, in [0, 1].
   double reliabilityOf(const Track& track) const;
 
  private:
@@ -68,10 +71,10 @@ class LandmarkTracker
   std::shared_ptr<const SignatureMatcher> matcher_;
   TrackerOptions options_;
   std::vector<bool> mapped_types_;
-  bool gathers_ = true;  // the map holds places, which a local map can gather
-  std::vector<Feature> seen_;  // in the present step, of the kinds that the map holds
+  bool gathers_ = true;  // the map has no walls, so local maps of several steps are used
+  std::vector<Feature> seen_;  // in the present step, of the types that the map has
   std::deque<Step> recent_;
   MotionIncrement since_recent_;  // since the last of `recent_`
-  bool doubted_ = false;  // in the step before
+  bool doubted_ = false;  // the heaviest track was suspicious in the step before
 };
 }  // namespace sigloc

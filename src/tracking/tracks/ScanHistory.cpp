@@ -19,15 +19,15 @@ using mrpt::math::wrapToPi;
 
 namespace
 {
-constexpr std::size_t kMostLooks = 60;
-constexpr double kSpacing = 0.5;  // [m] of travel between them
-constexpr int kSteps = 3;  // of refinement
-constexpr double kWaySigma = 0.1;  // [m] that a addScan may be off the way that odometry tells
-constexpr double kWayTurnSigma = 0.05;  // [rad]
-constexpr double kBranches = 0.5;  // log-odds for a slip: less may be chance
+constexpr std::size_t kMaxScans = 60;  // that are stored
+constexpr double kSpacing = 0.5;  // [m] of travel between stored scans
+constexpr int kSteps = 3;  // of refinement at each stored scan
+constexpr double kWaySigma = 0.1;  // [m] deviation of a scan's pose from the odometry, eq. (8.24)
+constexpr double kWayTurnSigma = 0.05;  // [rad] the same for the heading, eq. (8.24)
+constexpr double kBranches = 0.5;  // log-odds above which the older track has slipped, eq. (8.24)
 }  // namespace
 
-/// A robot that goes back the way it came, and at each addScan stands where that fits best.
+/// Replays the stored scans backwards along the odometry. At each scan the pose is refined.
 class ScanHistory::Replay
 {
  public:
@@ -36,17 +36,17 @@ class ScanHistory::Replay
   {
   }
 
-  Visit visit(const Look& addScan)
+  Visit visit(const StoredScan& stored)
   {
-    const TPose2D told = pose_ + (addScan.odometry - odometry_);
-    pose_ = verifier_.refine(addScan.scan, told, kSteps, addScan.scan.size());
-    odometry_ = addScan.odometry;
-    const double off = std::hypot(pose_.x - told.x, pose_.y - told.y) / kWaySigma;
-    const double turned = wrapToPi(pose_.phi - told.phi) / kWayTurnSigma;
+    const TPose2D predicted = pose_ + (stored.odometry - odometry_);
+    pose_ = verifier_.refine(stored.scan, predicted, kSteps, stored.scan.size());
+    odometry_ = stored.odometry;
+    const double off = std::hypot(pose_.x - predicted.x, pose_.y - predicted.y) / kWaySigma;
+    const double turned = wrapToPi(pose_.phi - predicted.phi) / kWayTurnSigma;
     const double detour = std::min(kMaxRelative, 0.5 * (off * off + turned * turned));
-    auto explained = verifier_.explainedReturns(addScan.scan, pose_);
-    const double unexplained = explained_.addScan(addScan.view, explained, -addScan.travelled);
-    return {pose_, logLikelihoodOfScore(verifier_.evaluate(addScan.scan, pose_).score), unexplained,
+    auto explained = verifier_.explainedReturns(stored.scan, pose_);
+    const double unexplained = explained_.addScan(stored.view, explained, -stored.travelled);
+    return {pose_, logLikelihoodOfScore(verifier_.evaluate(stored.scan, pose_).score), unexplained,
             detour, std::move(explained)};
   }
 
@@ -65,40 +65,39 @@ void ScanHistory::move(const std::optional<MotionIncrement>& motion)
     odometry_ = odometry_ + motion->mean;
     return;
   }
-  looks_.clear();
+  scans_.clear();
   known_since_ = step_;
 }
 
 void ScanHistory::remember(const DenseScan& scan, double travelled)
 {
   if (step_ < known_since_) return;
-  if (!looks_.empty() && travelled < looks_.back().travelled + kSpacing) return;
-  looks_.push_back({scan, observedCells(scan, odometry_), odometry_, travelled, step_});
-  if (looks_.size() <= kMostLooks) return;
-  looks_.pop_front();
-  known_since_ = looks_.front().step;
+  if (!scans_.empty() && travelled < scans_.back().travelled + kSpacing) return;
+  scans_.push_back({scan, observedCells(scan, odometry_), odometry_, travelled, step_});
+  if (scans_.size() <= kMaxScans) return;
+  scans_.pop_front();
+  known_since_ = scans_.front().step;
 }
 
-/// The looks since a step, the latest first.
-std::vector<ScanHistory::Visit> ScanHistory::wayTo(const TPose2D& pose, std::uint64_t since,
-                                                   const DenseVerifier& verifier) const
+/// Returns what a track at `pose` would have seen at the scans since a step, the latest first.
+std::vector<ScanHistory::Visit> ScanHistory::replayFrom(const TPose2D& pose, std::uint64_t since,
+                                                        const DenseVerifier& verifier) const
 {
   Replay way(pose, odometry_, verifier);
   std::vector<Visit> visits;
-  for (auto addScan = looks_.rbegin(); addScan != looks_.rend() && addScan->step >= since;
-       ++addScan)
+  for (auto stored = scans_.rbegin(); stored != scans_.rend() && stored->step >= since; ++stored)
   {
-    visits.push_back(way.visit(*addScan));
+    visits.push_back(way.visit(*stored));
   }
   return visits;
 }
 
-/// As (8.5) would have, as far back as the two ways differ; nothing where nothing speaks for the
-/// newcomer.
-std::optional<ScanHistory::WaySays> ScanHistory::compareWith(const std::vector<Visit>& rival,
-                                                             const TPose2D& pose,
-                                                             double cost_of_unexplained,
-                                                             const DenseVerifier& verifier) const
+/// Sums up the two measures of (8.5) backwards as far as the two ways differ. Returns nothing where
+/// they do not favour the new track. Eq. (8.24)
+std::optional<ScanHistory::Comparison> ScanHistory::compareWith(const std::vector<Visit>& rival,
+                                                                const TPose2D& pose,
+                                                                double cost_of_unexplained,
+                                                                const DenseVerifier& verifier) const
 {
   const double least = std::log(options_.prune_weight);
   Replay way(pose, odometry_, verifier);
@@ -106,35 +105,35 @@ std::optional<ScanHistory::WaySays> ScanHistory::compareWith(const std::vector<V
   LogLikelihoodDeficit sum;
   for (std::size_t k = 0; k < rival.size(); ++k)
   {
-    const Look& addScan = lookBack(k);
-    const Visit& own = visits.emplace_back(way.visit(addScan));
+    const StoredScan& stored = storedScan(k);
+    const Visit& own = visits.emplace_back(way.visit(stored));
     if (samePlace(own.pose, rival[k].pose))
     {
       if (sum.smaller() <= kBranches) return {};
-      return WaySays{{}, true, {}};
+      return Comparison{{}, true, {}};
     }
-    // The first addScan counts in full, as the first relocation does.
+    // The first scan counts in full, as the first relocation does.
     const bool is_first = k + 1 == rival.size();
     const double travel =
-        is_first ? options_.evidence_distance : addScan.travelled - lookBack(k + 1).travelled;
+        is_first ? options_.evidence_distance : stored.travelled - storedScan(k + 1).travelled;
     const auto bounded = [](double lead) { return std::clamp(lead, -kMaxRelative, kMaxRelative); };
     const double detour = own.detour - rival[k].detour;
-    sum.by_score += shareBetweenRivals(addScan.scan, travel, options_) *
+    sum.by_score += shareBetweenRivals(stored.scan, travel, options_) *
                     bounded(own.log_likelihood - rival[k].log_likelihood - detour);
     sum.by_cells += bounded(cost_of_unexplained * (rival[k].unexplained - own.unexplained)) -
                     std::min(1.0, travel / options_.evidence_distance) * detour;
     if (sum.smaller() < least) return {};
   }
-  return WaySays{sum, false, rememberedOf(visits)};
+  return Comparison{sum, false, rememberedOf(visits)};
 }
 
-/// What a track that had come this way would remember; the sums count from now on.
+/// Returns the cell evidence of a track that had come this way, with its sums set back to 0.
 CellEvidence ScanHistory::rememberedOf(const std::vector<Visit>& way) const
 {
   CellEvidence explained;
   for (std::size_t k = way.size(); k-- > 0;)
   {
-    explained.addScan(lookBack(k).view, way[k].explained, lookBack(k).travelled);
+    explained.addScan(storedScan(k).view, way[k].explained, storedScan(k).travelled);
   }
   explained.countAnew();
   return explained;
@@ -153,7 +152,7 @@ void ScanHistory::weighNewcomers(TrackSet& set, const DenseScan& scan,
   const TrackedHypothesis& heaviest = parent.hypothesis;
   const std::uint64_t born = step_ - heaviest.age;
   if (parent.isNew() || born < known_since_) return;
-  const std::vector<Visit> rival = wayTo(heaviest.pose.mean, born, verifier);
+  const std::vector<Visit> rival = replayFrom(heaviest.pose.mean, born, verifier);
   if (rival.empty()) return;
   for (Track& track : set.tracks)
   {

@@ -16,66 +16,68 @@
 
 namespace sigloc
 {
-/// What was seen on the way, to ask of a place that is found late how it would have explained it.
-/// A relocation lists few places: where many addScan alike, the right one may be missing at first.
+/// Stores scans of the way, to see later how a pose that was found late would have explained them.
+/// A relocation lists few poses. Where many look alike, the right one may be missing at first.
+/// \cite algorithm eq. (8.24)
 class ScanHistory
 {
  public:
   explicit ScanHistory(const TrackerOptions& options) : options_(options) {}
 
-  /// Goes on by one step; without odometry the way before it is lost, and everything is forgotten.
+  /// Goes on by one step. Without odometry the stored scans cannot be linked to it any more, so all
+  /// are forgotten.
   void move(const std::optional<MotionIncrement>& motion);
 
-  /// Remembers a scan, taken after `travelled` [m] in all, unless the last one was taken near by;
-  /// of too many the oldest is forgotten.
+  /// Stores a scan, taken after `travelled` [m] in all, if the last one was taken 0.5 m of travel
+  /// before. Of more than 60 the oldest is forgotten.
   void remember(const DenseScan& scan, double travelled);
 
-  /// Gives the tracks that started with this step the weight they would have if they had been
-  /// tracked_log_odds as long as the heaviest of the others, at most its own. One that shares its
-  /// way up to a slip takes over what is known of it. `scan` is the last one, after `travelled` [m]
-  /// in all. \cite algorithm eq. (8.24)
+  /// Gives the tracks that started with this step the weight that they would have if they had been
+  /// tracked as long as the heaviest older track, at most its own. A new track that shares the way
+  /// of that one up to a slip takes over its evidence. `scan` is the last one, after `travelled`
+  /// [m] in all. \cite algorithm eq. (8.24)
   void weighNewcomers(TrackSet& set, const DenseScan& scan, const DenseVerifier& verifier,
                       double travelled) const;
 
  private:
-  struct Look
+  struct StoredScan
   {
     DenseScan scan;
     ObservedCells view;
-    mrpt::math::TPose2D odometry;  // where the robot stood, by odometry alone
-    double travelled;  // [m]
+    mrpt::math::TPose2D odometry;  // pose of the robot by odometry alone
+    double travelled;  // [m] in all
     std::uint64_t step;
   };
-  /// How a robot that came by would have explained a addScan.
+  /// How a replayed track explains one stored scan.
   struct Visit
   {
     mrpt::math::TPose2D pose;
-    double log_likelihood;  // of its score
-    double unexplained;  // cells of the ground more than at the addScan that came later
-    double detour;  // log-odds against the step from there
-    std::vector<float> explained;  // each return's share
+    double log_likelihood;  // of its score, eq. (7.1)
+    double unexplained;  // growth of the unexplained cells by this scan
+    double detour;  // penalty p of eq. (8.24) for the deviation from the odometry
+    std::vector<float> explained;  // share in [0, 1] of each return
   };
   class Replay;
-  /// What the way says of a newcomer.
-  struct WaySays
+  /// How a new track compares with the heaviest older one on the way.
+  struct Comparison
   {
-    LogLikelihoodDeficit sum;  // against the heaviest track
-    bool branched = false;  // the two ways are one before a slip
-    CellEvidence explained;  // what it would remember, but of the last scan; not if branched
+    LogLikelihoodDeficit sum;  // of the new track against the older one
+    bool branched = false;  // the two ways are one before a slip of the older track
+    CellEvidence explained;  // of the new track, without the last scan; empty if branched
   };
 
-  std::vector<Visit> wayTo(const mrpt::math::TPose2D& pose, std::uint64_t since,
-                           const DenseVerifier& verifier) const;
-  std::optional<WaySays> compareWith(const std::vector<Visit>& rival,
-                                     const mrpt::math::TPose2D& pose, double cost_of_unexplained,
-                                     const DenseVerifier& verifier) const;
+  std::vector<Visit> replayFrom(const mrpt::math::TPose2D& pose, std::uint64_t since,
+                                const DenseVerifier& verifier) const;
+  std::optional<Comparison> compareWith(const std::vector<Visit>& rival,
+                                        const mrpt::math::TPose2D& pose, double cost_of_unexplained,
+                                        const DenseVerifier& verifier) const;
   CellEvidence rememberedOf(const std::vector<Visit>& way) const;
-  const Look& lookBack(std::size_t k) const { return looks_[looks_.size() - 1 - k]; }
+  const StoredScan& storedScan(std::size_t k) const { return scans_[scans_.size() - 1 - k]; }
 
   TrackerOptions options_;
-  std::deque<Look> looks_;
+  std::deque<StoredScan> scans_;
   mrpt::math::TPose2D odometry_;
   std::uint64_t step_ = 0;
-  std::uint64_t known_since_ = 0;  // step since when nothing is forgotten
+  std::uint64_t known_since_ = 0;  // first step from which on no scan is forgotten
 };
 }  // namespace sigloc

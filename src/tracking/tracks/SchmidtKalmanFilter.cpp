@@ -95,7 +95,7 @@ Symmetric2 SchmidtKalmanFilter::innovation(const PoseEstimate& estimate, const P
   return innovation(estimate, m, find(feature), map_noise);
 }
 
-/// x <- x + K r, P <- P - K S K', C_j <- C_j - K J C_j for all remembered features.
+/// x <- x + K r, P <- P - K S K', C_j <- C_j - K J C_j for all remembered features, eq. (8.13).
 void SchmidtKalmanFilter::apply(PoseEstimate& estimate, const PlanarMeasurement& m,
                                 const Cross& gain, const Symmetric2& innovation)
 {
@@ -137,7 +137,7 @@ void SchmidtKalmanFilter::update(PoseEstimate& estimate, const PlanarMeasurement
   const auto at = static_cast<std::size_t>(find(feature) - known_.data());
   known_[at].last_seen = travelled;
   const Symmetric2 s = innovation(estimate, m, &known_[at], map_noise);
-  // The residual is J dx - dm - v: the feature's own error takes its share back.
+  // The residual is J dx - dm - v. Its covariance with the pose lacks the feature's own error dm.
   Cross b = timesJacobian(estimate.covariance, m);
   for (std::size_t i = 0; i < 3; ++i)
   {

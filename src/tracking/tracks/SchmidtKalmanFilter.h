@@ -12,38 +12,40 @@
 
 namespace sigloc
 {
-/// Keeps a pose filter honest in a map whose features have errors of their own.
+/// The Kalman filter of Schmidt (1966), the "consider" filter, for a map whose features have errors
+/// of their own.
 ///
-/// A mapped feature is wrong by the same error at every addScan. A filter that took it for fresh
-/// noise would believe to know the pose ever better from ever the same features. This is the Kalman
-/// filter of Schmidt ("consider" filter): it carries, beside the pose, how the pose's error hangs
-/// together with the error of each feature it was lately updated with, and leaves the map itself
-/// alone. \cite algorithm eq. (8.12), (8.13)
+/// A mapped feature is wrong by the same error in every scan. A filter that took it for fresh noise
+/// would become too sure of the pose. This one also carries the covariance between the pose's error
+/// and the error of each feature that has lately updated it. It leaves the map itself alone.
+/// \cite algorithm eq. (8.12), (8.13)
 ///
-/// An update costs O(features remembered), which are those seen on the last stretch.
+/// An update costs O(features remembered): those seen within the last 10 m of travel.
 class SchmidtKalmanFilter
 {
  public:
-  /// Follows the pose from `map_from_previous` by an odometry increment.
+  /// Moves the covariances with the pose, from `map_from_previous` by an odometry increment.
+  /// Eq. (8.12)
   void predict(const mrpt::math::TPose2D& map_from_previous, const mrpt::math::TPose2D& increment);
 
-  /// Returns the covariance of the measurement's residual at the estimate. `map_noise` is the share
-  /// of the measurement's noise that is mapped feature `feature`'s own, see `mapNoise`.
+  /// Returns the covariance of the measurement's residual at the estimate: S of eq. (8.13).
+  /// `map_noise` is the part of the measurement's noise that mapped feature `feature` has itself,
+  /// see `mapNoise`.
   Symmetric2 innovation(const PoseEstimate& estimate, const PlanarMeasurement& m,
                         std::uint32_t feature, const Symmetric2& map_noise) const;
 
-  /// Updates the estimate by a measurement of a mapped feature; `travelled` [m] is remembered as
-  /// when it was last seen.
+  /// Updates the estimate by a measurement of a mapped feature, which was last seen after
+  /// `travelled` [m]. Eq. (8.13)
   void update(PoseEstimate& estimate, const PlanarMeasurement& m, std::uint32_t feature,
               const Symmetric2& map_noise, double travelled);
 
-  /// Updates the estimate by a measurement whose noise is all drawn anew at each addScan.
+  /// Updates the estimate by a measurement whose noise is independent in each scan.
   void updateFreely(PoseEstimate& estimate, const PlanarMeasurement& m);
 
-  /// True when the pose was updated with the feature and has not forgotten it since.
+  /// True when the feature has updated the pose and has not been forgotten since.
   bool knows(std::uint32_t feature) const { return find(feature) != nullptr; }
 
-  /// Forgets what was last seen before `travelled` [m].
+  /// Forgets the features last seen before `travelled` [m].
   void forgetBefore(double travelled);
 
   std::size_t size() const { return known_.size(); }
@@ -53,7 +55,7 @@ class SchmidtKalmanFilter
   struct Known
   {
     std::uint32_t feature;
-    Symmetric2 noise;  // of the feature, as it was at the first sight
+    Symmetric2 noise;  // of the feature, as at its first measurement
     Cross cross{};  // E[pose error, feature error']
     double last_seen;
   };

@@ -10,34 +10,42 @@ namespace sigloc
 {
 namespace
 {
-constexpr double kMisfitMemory = 3.0;  // [m] of travel
+// The lasting fit, eq. (8.22).
+constexpr double kMisfitMemory = 3.0;  // [m] of travel over which the mean misfit fades
 constexpr double kMisfitFloor = 0.03;  // share that even the right pose leaves unexplained
-constexpr double kUsualMisfit = 0.068;  // with its floor, of a pose that may be right or foreign
-constexpr double kFitSlope = 1.04;
-constexpr double kSurvival = 0.65;  // log-odds of a metre that a track has survived ...
-constexpr double kUsualLife = 10.0;  // [m] ... beyond what a wrong one often lasts, too,
-constexpr double kLongLife = 20.0;  // [m] up to here,
-constexpr double kMuchUnexplained = 0.2;  // none where as much of the ground was unexplained,
-constexpr double kLittleUnexplained = 0.15;  // all from here on
-constexpr double kOfRival = 0.6;  // of the log-odds of a rival ...
-constexpr double kNoRival = 1e-4;  // ... against one of this weight
-constexpr double kOfLoss = 0.2;  // of what was lost to rivals ...
-constexpr double kUsualLoss = 4.0;  // ... beyond what the right one loses, too
-constexpr double kOfMissed = 2.0;  // log-odds where relocations find other places instead,
-constexpr std::size_t kFewRelocations = 4;
-constexpr double kOftenFound = 0.5;  // share of them from which on nothing,
-constexpr double kSeldomFound = 0.3;  // up to which all is taken
-constexpr double kOfUnexplained = 16.0;  // log-odds of a metre of unexplained share times range ...
-constexpr double kUsualUnexplained =
-    0.25;  // [m] ... beyond this, which the right one seldom exceeds,
-constexpr double kMostAgainst = 4.0;
-constexpr double kMostFor = 1.5;
-constexpr double kShownWay = 15.0;  // [m] driven, from which on they speak for it in full
-constexpr double kFarthest = 8.0;  // [m]
-constexpr double kLittleInScans = 0.15;  // share of whole scans left unexplained up to which all
-constexpr double kMuchInScans = 0.25;  // of it, and from which on nothing is told
-constexpr double kLittleOfCells = 0.25;  // the same for the share of the ground
-constexpr double kMuchOfCells = 0.35;
+constexpr double kNeutralMisfit = 0.068;  // misfit with its floor at which the term is 0
+constexpr double kFitSlope = 1.04;  // log-odds per unit of the logarithm of the misfit
+
+// Survival, eq. (8.25).
+constexpr double kSurvivalSlope = 0.65;  // [1/m] log-odds per metre survived
+constexpr double kSurvivalStart = 10.0;  // [m] driven before the term begins to grow
+constexpr double kSurvivalEnd = 20.0;  // [m] driven after which it grows no more
+constexpr double kSurvivalMostMisfit = 0.2;  // unexplained share of cells from which it is 0
+constexpr double kSurvivalFullMisfit = 0.15;  // unexplained share of cells up to which it is full
+
+// Contested by other poses, eq. (8.28).
+constexpr double kRivalSlope = 0.6;  // log-odds lost per unit of ln of the next track's weight
+constexpr double kNegligibleWeight = 1e-4;  // weight of the next track that costs nothing
+constexpr double kDeficitSlope = 0.2;  // log-odds lost per unit of log-likelihood deficit
+constexpr double kUsualDeficit = 4.0;  // deficit that costs nothing: the right pose has it too
+constexpr double kMissedPenalty = 2.0;  // log-odds lost where relocations find other poses best
+constexpr std::size_t kMinRelocations = 4;  // with fewer relocations nothing is lost
+constexpr double kOftenFound = 0.5;  // share that found this track best, from which nothing is lost
+constexpr double kSeldomFound = 0.3;  // share that found this track best, up to which all is lost
+
+// Number of things, eq. (8.29).
+constexpr double kUnexplainedSlope = 16.0;  // [1/m] log-odds per metre of unexplained share * range
+constexpr double kNeutralUnexplained = 0.25;  // [m] unexplained share * range where the term is 0
+constexpr double kMostAgainst = 4.0;  // largest log-odds that the term takes away
+constexpr double kMostFor = 1.5;  // largest log-odds that the term adds
+constexpr double kFullWay = 15.0;  // [m] driven after which it may add kMostFor
+constexpr double kFarthest = 8.0;  // [m] bound of the range
+constexpr double kLittleInScans = 0.15;  // unexplained share of scans up to which the term is full
+constexpr double kMuchInScans = 0.25;  // unexplained share of scans from which it is 0
+constexpr double kLittleOfCells = 0.25;  // unexplained share of cells up to which the term is full
+constexpr double kMuchOfCells = 0.35;  // unexplained share of cells from which it is 0
+
+// The way driven, eq. (8.21): bounds of its log-odds.
 constexpr double kMinTracked = -8.0;
 constexpr double kMaxTracked = 12.0;
 }  // namespace
@@ -66,13 +74,13 @@ void Track::inherit(const Track& parent)
 
 double Track::inMapLogOdds() const
 {
-  const double fit = misfit ? kFitSlope * std::log(kUsualMisfit / (*misfit + kMisfitFloor)) : 0.0;
+  const double fit = misfit ? kFitSlope * std::log(kNeutralMisfit / (*misfit + kMisfitFloor)) : 0.0;
   return confirmed + tracked_log_odds + fit;
 }
 
 double Track::missed() const
 {
-  if (relocations < kFewRelocations) return 0;
+  if (relocations < kMinRelocations) return 0;
   const double found_share = static_cast<double>(times_found) / static_cast<double>(relocations);
   return std::clamp((kOftenFound - found_share) / (kOftenFound - kSeldomFound), 0.0, 1.0);
 }
@@ -80,28 +88,30 @@ double Track::missed() const
 double Track::explainedCellsLogOdds(const ClaimContext& now) const
 {
   const double share = explained.unexplainedShare();
-  const double telling =
+  const double reliable =
       std::clamp((kMuchInScans - now.unexplained) / (kMuchInScans - kLittleInScans), 0.0, 1.0) *
       std::clamp((kMuchOfCells - share) / (kMuchOfCells - kLittleOfCells), 0.0, 1.0) *
       std::min(1.0, explained.seen() / static_cast<double>(kCellsOfView));
-  // What was chosen for explaining the first addScan shows by and by that it explains the rest.
-  const double most_for = kMostFor * std::min(1.0, tracked_distance / kShownWay);
-  const double things = share * std::min(now.range, kFarthest);
-  return telling *
-         std::clamp(kOfUnexplained * (kUsualUnexplained - things), -kMostAgainst, most_for);
+  // The pose was chosen because it explains the first scan. That it explains the rest shows only
+  // as the robot drives on.
+  const double most_for = kMostFor * std::min(1.0, tracked_distance / kFullWay);
+  const double unexplained = share * std::min(now.range, kFarthest);
+  return reliable * std::clamp(kUnexplainedSlope * (kNeutralUnexplained - unexplained),
+                               -kMostAgainst, most_for);
 }
 
 double Track::claimLogOdds(const ClaimContext& now) const
 {
   if (!misfit) return inMapLogOdds();
-  const double told = std::clamp(
-      (kMuchUnexplained - explained.unexplainedShare()) / (kMuchUnexplained - kLittleUnexplained),
-      0.0, 1.0);
+  const double reliable = std::clamp((kSurvivalMostMisfit - explained.unexplainedShare()) /
+                                         (kSurvivalMostMisfit - kSurvivalFullMisfit),
+                                     0.0, 1.0);
   const double survived =
-      kSurvival * told * (std::clamp(tracked_distance, kUsualLife, kLongLife) - kUsualLife);
-  const double contested = kOfRival * std::log(std::max(1.0, now.next / kNoRival)) +
-                           kOfLoss * std::max(0.0, -deficit.smaller() - kUsualLoss) +
-                           kOfMissed * missed();
+      kSurvivalSlope * reliable *
+      (std::clamp(tracked_distance, kSurvivalStart, kSurvivalEnd) - kSurvivalStart);
+  const double contested = kRivalSlope * std::log(std::max(1.0, now.next / kNegligibleWeight)) +
+                           kDeficitSlope * std::max(0.0, -deficit.smaller() - kUsualDeficit) +
+                           kMissedPenalty * missed();
   return inMapLogOdds() + survived - contested + explainedCellsLogOdds(now);
 }
 }  // namespace sigloc

@@ -14,29 +14,29 @@
 
 namespace sigloc
 {
-// Bounds of what one relocation or one unit of travel can tell, in log-odds; with a dense field and
-// without. Section 8 of docs/algorithm.md gives them where they are used.
-constexpr double kMaxRelative = 3.0;  // between rivals
-constexpr double kMaxLost = 3.0;  // for "somewhere else"
-constexpr double kMaxConfirmed = 12.0;  // what was confirmed long ago can still be lost
-constexpr double kMinConfirmed = -1.0;  // what addScan-alikes hid for long can still be confirmed
-constexpr double kMaxAgainst = 2.0;  // against a track, a metre
-constexpr double kRetained = 4.0;  // from which on a track is not given up for a addScan-alike
-constexpr double kFarBetter = 4.0;  // by which a place must beat what is held
+// Bounds in log-odds, with a dense field and without. The equations are those of section 8 of
+// docs/algorithm.md.
+constexpr double kMaxRelative = 3.0;  // largest loss to the best rival in a step, (8.5), (8.16)
+constexpr double kMaxLost = 3.0;  // largest change of "somewhere else" in a step, (8.6), (8.8)
+constexpr double kMaxConfirmed = 12.0;  // of kappa, so that a confirmed track can be lost, (8.7)
+constexpr double kMinConfirmed = -1.0;  // of kappa, so that a doubtful one can be confirmed, (8.7)
+constexpr double kMaxAgainst = 2.0;  // largest loss of kappa per metre of travel, (8.7), (8.18)
+constexpr double kRetained = 4.0;  // in-map log-odds from which on a track is retained
+constexpr double kFarBetter = 4.0;  // lead of a pose that overrules a retained track, (8.8)
 
-/// What a track remembers of the mapped features it was paired with.
+/// What a track remembers of the mapped features that it has paired.
 struct FeatureMemory
 {
   SchmidtKalmanFilter correlation;
-  std::size_t paired = 0;  // in the last step
-  double fresh_share = 0;  // of them, those that were not seen on the last stretch
+  std::size_t paired = 0;  // pairings of the last step
+  double fresh_share = 0;  // share of them with features not paired within the last 10 m
   double doubt = 0;  // log-odds lately lost against clutter, at most 0, eq. (8.20)
 };
 
-/// Log-odds that a track has lost to the best of each addScan, the first included, as two judges
-/// see it that err in different ways: `by_score` hears every scan again after a while, and a chair
-/// that was moved as long as it is in view; `by_cells` hears each piece of the ground once. The
-/// smaller loss is what the track has paid. Eq. (8.5)
+/// Log-likelihood that a track has lost to the best track of each scan, by two measures whose
+/// errors differ. `by_score` counts whole scans by distance, so a moved chair
+/// counts as long as it is in view. `by_cells` counts each observed cell once. The smaller loss
+/// decides the weight. \cite algorithm eq. (8.5)
 struct LogLikelihoodDeficit
 {
   double by_score = 0;
@@ -49,12 +49,13 @@ struct LogLikelihoodDeficit
   }
 };
 
-/// What a claim of a track stands on besides what the track itself remembers.
+/// What a claim depends on besides the track itself.
 struct ClaimContext
 {
   double next = 0;  // weight of the next track
-  double range = 0;  // [m] median of a scan, lately
-  double unexplained = 0;  // share of the scans that the best track leaves unexplained, lately
+  double range = 0;  // [m] fading mean of the median range of a scan
+  double unexplained =
+      0;  // fading mean of the share of a scan that the best track does not explain
 };
 
 /// A hypothesis with what the tracker remembers of it.
@@ -63,23 +64,22 @@ struct Track
   TrackedHypothesis hypothesis;
   double score = 0;  // of the last scan
   DenseEvidence evidence;  // of the last scan
-  mrpt::math::TPose2D evaluated_at;  // where the ground of that is judged, near the hypothesis
+  mrpt::math::TPose2D evaluated_at;  // pose at which the observed cells are evaluated
   double mean_score = 0;  // running mean
-  bool found = false;  // best of the whole map by this step's relocation
+  bool found = false;  // this step's relocation found it best of the whole map
   std::size_t relocations = 0;  // since the track began; not counted without a field
-  std::size_t times_found = 0;  // best of the whole map by so many of them
-  double confirmed = 0;  // log-odds that relocations, each blind to the track, have given it
-  VisitedCells seen;  // what that evidence rests on
-  double tracked_log_odds =
-      0;  // log-odds from how the map explained what came into view on the way
-  VisitedCells seen_while_tracked;  // what has come into view
-  std::optional<double> misfit;  // of what is seen, known or new, lately; none without a field
+  std::size_t times_found = 0;  // how many of them found it best of the whole map
+  double confirmed = 0;  // log-odds from relocations: kappa of eq. (8.7)
+  VisitedCells seen;  // cells seen at relocations
+  double tracked_log_odds = 0;  // log-odds from the way driven: gamma of eq. (8.21)
+  VisitedCells seen_while_tracked;  // cells seen on the way
+  std::optional<double> misfit;  // fading mean of eq. (8.22); none without a field
   double tracked_distance = 0;  // [m] driven since the track began
-  CellEvidence explained;  // how it explains what is seen, each thing once
-  LogLikelihoodDeficit deficit;  // its rivals
-  FeatureMemory features;  // in a map without a dense field
+  CellEvidence explained;  // how it explains the observed cells, each once
+  LogLikelihoodDeficit deficit;  // against its rivals
+  FeatureMemory features;  // used in a map without a dense field
 
-  /// True of a track that this step's relocation has started.
+  /// True for a track that this step's relocation has started.
   bool isNew() const { return hypothesis.age == 0; }
 
   /// Notes a relocation: whether it found the track best of the whole map.
@@ -90,33 +90,33 @@ struct Track
     if (found_best) ++times_found;
   }
 
-  /// Adds to `tracked_log_odds`, within its bounds.
+  /// Adds to `tracked_log_odds`, within its bounds. Eq. (8.21)
   void addTrackedLogOdds(double log_odds);
 
-  /// Takes what the map leaves unexplained of the last scan into its mean over some travel [m].
+  /// Adds what the last scan leaves unexplained to the mean misfit, after `travel` [m]. Eq. (8.22)
   void addFit(double travel);
 
-  /// Takes over what is known of the track that it branched off.
+  /// Takes over the evidence of the track that it branched off.
   void inherit(const Track& parent);
 
-  /// Log-odds of standing in the map at all, eq. (8.22)
+  /// Log-odds that the robot is in the map at all: the left side of eq. (8.22).
   double inMapLogOdds() const;
 
-  /// The same for a claim, which with a field also asks how long the track has been
-  /// tracked_log_odds, eq. (8.25), how far other places contest it, eq. (8.28), and how many things
-  /// it fails to explain, eq. (8.29).
+  /// Claim log-odds: inMapLogOdds() and, with a field, the terms for survival, eq. (8.25), for
+  /// rival poses, eq. (8.28), and for the number of unexplained things, eq. (8.29).
   double claimLogOdds(const ClaimContext& now) const;
 
-  /// How far relocations have found other places instead, in [0, 1]; few tell nothing.
+  /// How far relocations have found other poses best, in [0, 1]; 0 after fewer than four of them.
+  /// Eq. (8.28)
   double missed() const;
 
-  /// Log-odds by how many of the things in view the track has explained, eq. (8.29)
+  /// Log-odds from the number of things that the track leaves unexplained, eq. (8.29).
   double explainedCellsLogOdds(const ClaimContext& now) const;
 
-  /// Whether a relocation or the way has told enough not to give the track up for a addScan-alike.
+  /// True when the log-odds are so high that the track is not given up because of look-alikes.
   bool retained() const { return std::max(confirmed, inMapLogOdds()) >= kRetained; }
 
-  /// Whether the score `now` of the last scan is less by `drop` than the track's scores used to be.
+  /// True when the score `now` of the last scan is lower than the running mean by more than `drop`.
   bool hasFallenTo(double now, double drop) const
   {
     return hypothesis.age > 1 && now < mean_score - drop;

@@ -23,17 +23,17 @@ using mrpt::math::wrapToPi;
 
 namespace
 {
-constexpr double kMergeDistance = 0.3;  // [m]
-constexpr double kMergeAngle = 10.0 * M_PI / 180.0;
-constexpr double kScanMemory = 10.0;  // [m] of travel
-constexpr double kLeastChange = 0.02;  // share of what is mapped that even a map of today has wrong
-constexpr double kMostChange = 0.3;
-constexpr double kTellsOfCell = 0.7;  // a cell's own share: those beside it tell much the same
-constexpr double kSure = 0.9;  // a relocation that overrules all tracks
-constexpr double kMostNews = 4.0;  // views that a metre can bring
+constexpr double kMergeDistance = 0.3;  // [m] within which tracks are merged, eq. (8.10)
+constexpr double kMergeAngle = 10.0 * M_PI / 180.0;  // [rad] within which tracks are merged
+constexpr double kScanMemory = 10.0;  // [m] of travel over which means of scans fade
+constexpr double kLeastChange = 0.02;  // share that has changed even in a new map, eq. (8.26)
+constexpr double kMostChange = 0.3;  // largest share that is taken to have changed, eq. (8.26)
+constexpr double kCellIndependence = 0.7;  // neighbouring cells share their evidence, eq. (8.26)
+constexpr double kSure = 0.9;  // probability of a candidate that overrules all tracks, section 8
+constexpr double kMaxNoveltyPerMetre = 4.0;  // [1/m] bound of the share that is new, eq. (8.21)
 constexpr double kScoreMemory = 0.9;  // of the running mean of the score, per step
-constexpr double kMinSigma = 0.005;  // [m], floor of a step's motion
-constexpr double kMinTurnSigma = 0.002;  // [rad]
+constexpr double kMinSigma = 0.005;  // [m] added to the motion of a step, eq. (8.1)
+constexpr double kMinTurnSigma = 0.002;  // [rad] added to the turn of a step, eq. (8.1)
 
 double medianRange(const DenseScan& scan)
 {
@@ -55,11 +55,11 @@ bool heavier(const Track& a, const Track& b)
 
 double shareBetweenRivals(const DenseScan& scan, double travel, const TrackerOptions& options)
 {
-  constexpr double kTelling = 60;  // returns
-  constexpr double kBold = 0.7;  // of the distance: another judge must agree
+  constexpr double kFullReturns = 60;  // returns from which on a scan counts in full
+  constexpr double kRivalDistance = 0.7;  // share of evidence_distance
   const auto seen = std::count(scan.isolated.begin(), scan.isolated.end(), 0);
-  return std::min(1.0, static_cast<double>(seen) / kTelling) *
-         std::min(1.0, travel / (kBold * options.evidence_distance));
+  return std::min(1.0, static_cast<double>(seen) / kFullReturns) *
+         std::min(1.0, travel / (kRivalDistance * options.evidence_distance));
 }
 
 bool wouldMerge(const TPose2D& a, const TPose2D& b)
@@ -108,8 +108,8 @@ void TrackSet::update(const DenseScan& scan, const DenseVerifier& verifier)
 
 void TrackSet::follow(const DenseScan& scan, double travelled, double travel, double driven)
 {
-  // A robot that stands still sees new cells by noise alone.
-  const double most = kMostNews * travel;
+  // A robot at rest sees new cells through noise alone.
+  const double most = kMaxNoveltyPerMetre * travel;
   for (Track& track : tracks)
   {
     const double novelty =
@@ -120,8 +120,8 @@ void TrackSet::follow(const DenseScan& scan, double travelled, double travel, do
   }
 }
 
-/// Against "somewhere else" the best track is weighed by its score alone, and at once; one that is
-/// held is not given up for what ends before mapped walls, because something may hide them.
+/// "Somewhere else" is weighed against the best track by its score alone. For a retained track,
+/// returns that end before mapped walls do not count, because something may hide the walls.
 void TrackSet::weigh(const DenseScan& scan, const DenseVerifier& verifier, double travelled,
                      double travel)
 {
@@ -146,8 +146,8 @@ void TrackSet::weigh(const DenseScan& scan, const DenseVerifier& verifier, doubl
   normalise();
 }
 
-/// The errors of map and scan stay the same for a stretch, and so does what has changed since the
-/// place was mapped: scores count per distance, and each piece of the ground but once.
+/// The errors of map and scan stay the same for a stretch, and so do changes since the area was
+/// mapped. So scores count per distance, and each observed cell counts once. Eq. (8.5)
 void TrackSet::weighRivals(const DenseScan& scan, const DenseVerifier& verifier, double travelled,
                            double travel, double best_score)
 {
@@ -193,30 +193,30 @@ void TrackSet::weighFirstLook()
     best_score = std::max(best_score, track.score);
   }
   if (most <= 0) return;
-  // Waking up, or after all was lost: what has changed is not known from earlier looks.
+  // At the start, or after all tracks were lost, no earlier scan has shown what has changed.
   const bool all_new = std::all_of(tracks.begin(), tracks.end(), std::mem_fn(&Track::isNew));
   if (all_new) unexplained_ = std::max(0.0, 1.0 - best_score);
-  double told = 0;
+  double sum = 0;
   for (Track& track : tracks)
   {
     if (!track.isNew()) continue;
     track.deficit.by_score = std::log(track.hypothesis.weight / most);
     track.deficit.by_cells = -costOfUnexplained() * (track.explained.unexplained() - least);
     track.hypothesis.weight = std::exp(track.deficit.smaller());
-    told += track.hypothesis.weight;
+    sum += track.hypothesis.weight;
   }
   for (Track& track : tracks)
   {
-    if (track.isNew()) track.hypothesis.weight *= dealt / told;
+    if (track.isNew()) track.hypothesis.weight *= dealt / sum;
   }
 }
 
-/// Where the best of all has been leaving things unexplained, the place has changed since it was
-/// mapped, and the right pose must be expected to fail now and then.
+/// Where even the best track leaves much unexplained, the area has changed since it was mapped.
+/// Then the right pose fails now and then too, and an unexplained cell costs less. Eq. (8.26)
 double TrackSet::costOfUnexplained() const
 {
   const double changed = std::min(kMostChange, kLeastChange + unexplained_);
-  return kTellsOfCell * std::log((1.0 - changed) / changed);
+  return kCellIndependence * std::log((1.0 - changed) / changed);
 }
 
 void TrackSet::normalise()
@@ -255,8 +255,8 @@ void TrackSet::weighElsewhere(const RelocationResult& result, double here, bool 
 {
   const bool firm = !beaten && std::any_of(tracks.begin(), tracks.end(),
                                            [](const Track& track) { return track.retained(); });
-  const double told = std::clamp(here, firm ? 0.0 : -kMaxLost, kMaxLost);
-  elsewhere *= std::exp(-fresh_share * told);
+  const double log_odds = std::clamp(here, firm ? 0.0 : -kMaxLost, kMaxLost);
+  elsewhere *= std::exp(-fresh_share * log_odds);
   const bool overruled = !firm && !result.candidates.empty() &&
                          result.candidates.front().probability >= kSure &&
                          trackAt(result.candidates.front().pose.mean) == nullptr;
@@ -264,8 +264,8 @@ void TrackSet::weighElsewhere(const RelocationResult& result, double here, bool 
   normalise();
 }
 
-/// What is only the floor of "somewhere else" starts tracks but feeds none: else addScan-alikes
-/// would draw on it at every relocation.
+/// The floor of "somewhere else" starts new tracks but adds nothing to existing ones. Otherwise
+/// look-alikes would gain from it at every relocation. Eq. (8.9)
 void TrackSet::dealOut(const RelocationResult& result,
                        const std::function<Track(std::size_t k)>& start)
 {
@@ -323,7 +323,7 @@ void TrackSet::mergeAndPrune()
     here += track.hypothesis.weight;
     track.mean_score = kScoreMemory * track.mean_score + (1 - kScoreMemory) * track.score;
   }
-  // What was given up went elsewhere, and elsewhere keeps its floor.
+  // The weight of pruned tracks goes to "somewhere else", which keeps its floor.
   const double keep = std::min(here, 1.0 - options_.min_elsewhere);
   for (Track& track : tracks) track.hypothesis.weight *= here > 0 ? keep / here : 0;
   elsewhere = 1.0 - (here > 0 ? keep : 0);

@@ -16,20 +16,20 @@ using mrpt::math::wrapToPi;
 
 namespace
 {
-constexpr int kUpdateSteps = 6;
-constexpr double kUpdateGate = 16.27;  // chi-square, 3 degrees of freedom, 99.9 %
+constexpr int kUpdateSteps = 6;  // of a refinement
+constexpr double kUpdateGate = 16.27;  // chi-square, 3 degrees of freedom, 99.9 %, eq. (8.3)
 constexpr double kCorrelation = 4.0;  // scans of neighbouring steps share their errors
-constexpr double kLeastFit = 0.2;  // score below which a pose is measured no worse
+constexpr double kLeastFit = 0.2;  // score below which the covariance grows no more
 
-/// Without odometry the robot may have turned or driven farther than a refinement reaches: along a
-/// corridor, returns stick to the wall beside the door frame they should follow. Other poses within
-/// the prior are tried too, and taken where they explain the scan better.
+/// Returns the refined pose of a step without odometry. The robot may have turned or driven farther
+/// than a refinement reaches: along a corridor, returns may match the wall beside a door frame. So
+/// other starts within the prior are tried too. The pose that explains the scan best is taken.
 TPose2D searchedPose(const TPose2D& predicted, const DenseScan& scan, const DenseVerifier& verifier,
                      const TrackerOptions& options)
 {
-  constexpr double kTurn = 15.0 * M_PI / 180.0;  // between two tries, less than twice the reach
-  constexpr double kDrive = 0.2;  // [m]
-  constexpr double kBetter = 0.01;  // of the score
+  constexpr double kTurn = 15.0 * M_PI / 180.0;  // [rad] between starts, under twice the reach
+  constexpr double kDrive = 0.2;  // [m] between starts
+  constexpr double kBetter = 0.01;  // lead in score that another start needs
   TPose2D best = verifier.refine(scan, predicted, kUpdateSteps, scan.size());
   double best_score = verifier.evaluate(scan, best).score;
   const auto attempt = [&](double drive, double turn)
@@ -59,7 +59,7 @@ TPose2D searchedPose(const TPose2D& predicted, const DenseScan& scan, const Dens
 void updatePose(Track& track, const DenseScan& scan, const DenseVerifier& verifier,
                 bool has_odometry, const TrackerOptions& options)
 {
-  constexpr double kClearlyBetter = 0.3;  // of the score
+  constexpr double kClearlyBetter = 0.3;  // lead in score that replaces the prediction
   GaussianPose& pose = track.hypothesis.pose;
   const DenseEvidence predicted = verifier.evaluate(scan, pose.mean);
   GaussianPose measured;
@@ -67,8 +67,8 @@ void updatePose(Track& track, const DenseScan& scan, const DenseVerifier& verifi
                                : searchedPose(pose.mean, scan, verifier, options);
   const DenseEvidence found = verifier.evaluate(scan, measured.mean);
   measured.covariance = verifier.testedCovarianceAt(scan, measured.mean);
-  // What the map does not explain has moved, and draws the pose towards where it was; odometry, if
-  // there is any, knows better.
+  // What the map does not explain has moved since, and draws the pose towards its old position.
+  // Odometry is better there, where there is any.
   const double fit = has_odometry ? std::max(kLeastFit, found.score) : 1.0;
   measured.covariance *= kCorrelation / fit;
   const bool agrees = squaredMahalanobisDistance(pose, measured) < kUpdateGate;

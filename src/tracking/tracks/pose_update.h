@@ -8,10 +8,10 @@
 
 namespace sigloc
 {
-/// The returns' own estimate near the predicted pose, fused with the prediction. A refinement that
-/// the prediction excludes is taken only when it explains the scan clearly better: odometry slips.
-/// Without odometry the whole of the prior is searched. Sets the evidence, too. \cite algorithm eq.
-/// (8.3), (8.4)
+/// Refines the predicted pose of a track by the returns and fuses both. A refinement that does not
+/// agree with the prediction replaces it only when it explains the scan clearly better, because
+/// odometry slips. Without odometry the whole prior is searched. Also sets the track's evidence and
+/// score. \cite algorithm eq. (8.3), (8.4)
 void updatePose(Track& track, const DenseScan& scan, const DenseVerifier& verifier,
                 bool has_odometry, const TrackerOptions& options);
 }  // namespace sigloc

@@ -8,11 +8,11 @@
 
 namespace sigloc
 {
-/// Returns how far [m] a robot went with a motion, turns of any sign and size included.
-/// \cite algorithm eq. (8.2)
+/// Returns the travel [m] of a motion: its distance, and its turn of any sign and size as a
+/// distance. \cite algorithm eq. (8.2)
 double travelOf(const mrpt::math::TPose2D& motion, const TrackerOptions& options);
 
-/// Returns how far [m] a robot went that stands at `after` now, turning by less than half a turn.
+/// Returns the travel [m] between two poses, with a turn of less than half a circle.
 /// \cite algorithm eq. (8.2)
 double travelBetween(const mrpt::math::TPose2D& before, const mrpt::math::TPose2D& after,
                      const TrackerOptions& options);
