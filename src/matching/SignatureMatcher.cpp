@@ -24,15 +24,16 @@ using mrpt::math::TPose2D;
 
 namespace
 {
-constexpr double kPoorScore = 0.65;  // an answer below this calls for more proposals
-constexpr std::size_t kMinLandmarks = 2;  // without a laser
-constexpr std::size_t kMaxBeams = 400;  // used of a scene; more are thinned evenly
+constexpr double kPoorScore = 0.65;  // below this score further poses are proposed, section 4 (e)
+constexpr std::size_t kMinLandmarks = 2;  // features needed without a laser
+constexpr std::size_t kMaxBeams = 400;  // of a scene that are used; more are thinned evenly
 
-/// Probability that features alone missed the right place, seen from the place that is best after
-/// all: none where chance is refuted by the features that place explains. \cite algorithm eq. (7.6)
+/// Returns the probability that features alone missed the right pose, given the best pose. It is
+/// near 0 where the features that this pose explains are significant against the background.
+/// \cite algorithm eq. (7.6)
 double missedProbability(const std::vector<FeatureHypothesis>& hypotheses, const TPose2D& best)
 {
-  constexpr double kMissed = 0.2;  // share of queries, where nothing significant was found
+  constexpr double kMissed = 0.2;  // the probability where nothing significant was found
   double chance = 1;
   for (const FeatureHypothesis& hypothesis : hypotheses)
   {
@@ -103,22 +104,22 @@ RelocationResult SignatureMatcher::localize(const ObservedScene& scene,
     result.probability = 1;
     return result;
   }
-  // 1. Propose: small bases, or hypotheses that features alone support.
+  // 1. Propose: minimal sets, or hypotheses that features alone support.
   std::vector<FeatureHypothesis> hypotheses;
   if (generator_) hypotheses = generator_->generate(scene.features, result.counters);
 
-  // 2. Verify: by the dense field where the map has one and there are returns to look up.
+  // 2. Verify: by the dense field where the map has one and the scene has returns.
   if (verifier_ && !scene.beams.empty())
   {
     const DenseScan scan = makeDenseScan(scene, kMaxBeams);
-    const Judged judged = generator_
-                              ? judge(scan, proposalsOf(hypotheses), region, result.counters, {})
-                              : judgeMinimalSets(scene, scan, region, result.counters);
-    // 3. ... and weigh the rivals and "somewhere else"; decide.
-    concludeDensely(scene, scan, judged, hypotheses, result);
+    const VerifiedPoses verified =
+        generator_ ? verify(scan, proposalsOf(hypotheses), region, result.counters, {})
+                   : verifyMinimalSets(scene, scan, region, result.counters);
+    // 3. Weigh the candidates and "somewhere else", and decide the verdict.
+    concludeDensely(scene, scan, verified, hypotheses, result);
     return result;
   }
-  std::optional<double> chance_of_places;
+  std::optional<double> place_background;
   for (FeatureHypothesis& hypothesis : hypotheses)
   {
     if (result.candidates.size() == options_.max_candidates) break;
@@ -126,11 +127,11 @@ RelocationResult SignatureMatcher::localize(const ObservedScene& scene,
     Candidate candidate;
     candidate.pose = hypothesis.pose;
     candidate.score = hypothesis.log_odds;
-    if (result.candidates.empty() && !seesWalls(scene)) chance_of_places = hypothesis.chance;
+    if (result.candidates.empty() && !seesWalls(scene)) place_background = hypothesis.chance;
     candidate.pairings = std::move(hypothesis.pairings);
     result.candidates.push_back(std::move(candidate));
   }
-  weighByLogOdds(result, chance_of_places);
+  weighByLogOdds(result, place_background);
   return result;
 }
 
@@ -151,33 +152,33 @@ std::vector<TPose2D> SignatureMatcher::propose(const ObservedScene& scene) const
   return poses;
 }
 
-/// The first proposals explain most scenes; where they do so poorly, what they led to competes with
-/// further ones.
-SignatureMatcher::Judged SignatureMatcher::judgeMinimalSets(const ObservedScene& scene,
-                                                            const DenseScan& scan,
-                                                            const std::optional<PoseRegion>& region,
-                                                            MatchingCounters& counters) const
+/// The first proposals explain most scenes. Where they do so poorly, their results compete with
+/// those of further proposals.
+SignatureMatcher::VerifiedPoses SignatureMatcher::verifyMinimalSets(
+    const ObservedScene& scene, const DenseScan& scan, const std::optional<PoseRegion>& region,
+    MatchingCounters& counters) const
 {
   std::vector<PoseProposal> proposals = proposer_->propose(scene.features);
   counters.hypotheses += proposals.size();
-  Judged first = judge(scan, std::move(proposals), region, counters, {});
+  VerifiedPoses first = verify(scan, std::move(proposals), region, counters, {});
   if (!first.inside.empty() && first.inside.front().evidence.score >= kPoorScore) return first;
   proposals = proposer_->proposeFurther(scene.features);
   counters.hypotheses += proposals.size();
-  return judge(scan, std::move(proposals), region, counters, std::move(first));
+  return verify(scan, std::move(proposals), region, counters, std::move(first));
 }
 
-SignatureMatcher::Judged SignatureMatcher::judge(const DenseScan& scan,
-                                                 std::vector<PoseProposal> proposals,
-                                                 const std::optional<PoseRegion>& region,
-                                                 MatchingCounters& counters, Judged before) const
+SignatureMatcher::VerifiedPoses SignatureMatcher::verify(const DenseScan& scan,
+                                                         std::vector<PoseProposal> proposals,
+                                                         const std::optional<PoseRegion>& region,
+                                                         MatchingCounters& counters,
+                                                         VerifiedPoses before) const
 {
   const auto ranked = [&](const std::vector<PoseProposal>& poses, std::vector<RankedPose> rivals)
   {
     return verifier_->rank(scan, poses, options_.max_candidates, counters.poses_scored,
                            std::move(rivals));
   };
-  Judged out;
+  VerifiedPoses out;
   if (region)
   {
     const auto outside = std::stable_partition(proposals.begin(), proposals.end(),
@@ -192,11 +193,11 @@ SignatureMatcher::Judged SignatureMatcher::judge(const DenseScan& scan,
 }
 
 void SignatureMatcher::concludeDensely(const ObservedScene& scene, const DenseScan& scan,
-                                       const Judged& judged,
+                                       const VerifiedPoses& verified,
                                        const std::vector<FeatureHypothesis>& hypotheses,
                                        RelocationResult& result) const
 {
-  result.candidates = candidatesOf(judged.inside, *verifier_, scene);
+  result.candidates = candidatesOf(verified.inside, *verifier_, scene);
   for (Candidate& candidate : result.candidates)
   {
     candidate.pose.covariance = verifier_->covarianceAt(scan, candidate.pose.mean);
@@ -206,6 +207,6 @@ void SignatureMatcher::concludeDensely(const ObservedScene& scene, const DenseSc
                             ? 0
                             : missedProbability(hypotheses, result.candidates.front().pose.mean);
   result.view = angularCoverage(scene);
-  weighCandidates(result, candidatesOf(judged.outside, *verifier_, scene), missed);
+  weighCandidates(result, candidatesOf(verified.outside, *verifier_, scene), missed);
 }
 }  // namespace sigloc

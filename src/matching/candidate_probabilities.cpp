@@ -12,45 +12,46 @@ namespace sigloc
 namespace
 {
 // Fitted on aces, freiburg-101 and foreign pairs of the two, \cite algorithm section 7.
-constexpr double kScoreSlope = 15.0;  // of the log-likelihood per unit of score
-constexpr double kMisfitPower = 5.0;  // of the unexplained share
-constexpr double kMisfitFloor = 0.02;  // share that even the right pose leaves unexplained
-constexpr double kSharpening = 1.0;  // of rivals against each other
-// The log-odds of being in the map, fitted on simulated worlds too, section 7.
-constexpr double kExplainedSlope = 8.5;  // per share of what is no occlusion
+constexpr double kScoreSlope = 15.0;  // log-likelihood per unit of score, eq. (7.1)
+constexpr double kMisfitPower = 5.0;  // power of the unexplained share, eq. (7.1)
+constexpr double kMisfitFloor =
+    0.02;  // share that even the right pose leaves unexplained, eq. (7.1)
+constexpr double kSharpening = 1.0;  // of candidates against each other, eq. (7.3)
+// The log-odds of being in the map, fitted on simulated worlds too, eq. (7.2).
+constexpr double kExplainedSlope = 8.5;  // per share of explained or occluded returns
 constexpr double kThroughSlope = 20.0;  // per share of beams through walls
-constexpr double kConstraintSlope = 0.3;  // per explained fact
+constexpr double kConstraintSlope = 0.3;  // per explained constraint
 constexpr double kLeadSlope = 0.46;  // per unit of log-likelihood ahead of the best rival
-constexpr double kFitOffset = 11.2;
-// A narrow view fits elsewhere by chance: what was fitted on scans of 180 degrees and more trusts
-// it too much.
-constexpr double kFullView = M_PI / 2;  // [rad]
-constexpr double kNarrowSlope = 12.0;  // of the log-odds per share that is missing
-constexpr double kPriorOutside = 0.01;  // of a pose outside the region it is said to be in
-constexpr double kChanceScore = 0.4;  // what chance reaches where there is no runner-up
-constexpr double kUsualScore = 0.8;  // of the right place
-// Features of a scan share its errors, and buildings repeat their walls; places that were gathered
-// over a drive share less.
-constexpr double kWallTempering = 0.25;
-constexpr double kPlaceTempering = 0.5;
-constexpr double kPriorElsewhere =
-    0.002;  // of standing off the map, and of a generator that failed
+constexpr double kFitOffset = 11.2;  // constant of eq. (7.2) without the prior of 2.6
+// A scan with little angular coverage fits elsewhere by chance. The scans that were fitted on cover
+// 180 degrees and more, so a further term is needed.
+constexpr double kFullCoverage = M_PI / 2;  // [rad] angular coverage from which the term is 0
+constexpr double kNarrowSlope = 12.0;  // log-odds per share of this coverage that is missing
+constexpr double kPriorOutside = 0.01;  // prior of a pose outside the prior region, section 7
+constexpr double kBackgroundScore = 0.4;  // score of the background without a runner-up, eq. (7.2)
+constexpr double kUsualScore = 0.8;  // usual score of the right pose, eq. (7.6)
+// Factors of the log-odds of features, eq. (7.4). Walls of a scan share its errors, and buildings
+// repeat walls. Places gathered over a drive share less.
+constexpr double kWallTempering = 0.25;  // where the scan has walls
+constexpr double kPlaceTempering = 0.5;  // where it has none
+constexpr double kPriorElsewhere = 0.002;  // prior of being off the map or not proposed, eq. (7.4)
 
-/// The score of the best candidate but the k-th, or what chance reaches where there is none.
+/// Returns the score of the best candidate but the k-th, or that of the background without one.
 double rivalScore(const RelocationResult& result, std::size_t k)
 {
   const std::size_t rival = k == 0 ? 1 : 0;
-  return rival < result.candidates.size() ? result.candidates[rival].score : kChanceScore;
+  return rival < result.candidates.size() ? result.candidates[rival].score : kBackgroundScore;
 }
 
-/// What is left to judge by when returns in free space are taken for occlusions.
+/// Returns the share of the returns that remain when those in free space count as occlusions: the
+/// denominator of eq. (8.11) and (8.23).
 double unhiddenShare(const DenseEvidence& evidence)
 {
   constexpr double kLeastSeen = 0.25;
   return std::max(kLeastSeen, 1.0 - evidence.in_free);
 }
 
-/// The verdict that the weights allow.
+/// Sets the verdict by the probabilities.
 void decide(RelocationResult& result)
 {
   VerdictGrounds grounds;
@@ -97,19 +98,19 @@ double unexplainedShare(const DenseEvidence& evidence)
 
 double trackedLogOdds(const DenseEvidence& evidence)
 {
-  constexpr double kMisfitOfChance = 0.25;  // where the map explains no more than a foreign one
-  constexpr double kFloor = 0.03;
-  constexpr double kSlope = 1.17;
-  constexpr double kThrough = 5.0;
+  constexpr double kNeutralMisfit = 0.25;  // misfit with its floor, also usual in a foreign map
+  constexpr double kFloor = 0.03;  // share that even the right pose leaves unexplained
+  constexpr double kSlope = 1.17;  // log-odds per unit of the logarithm of the misfit
+  constexpr double kThrough = 5.0;  // log-odds lost per share of beams through walls
   const double misfit = unexplainedShare(evidence);
-  return (1.0 - evidence.unknown) * (kSlope * std::log(kMisfitOfChance / (misfit + kFloor)) -
-                                     kThrough * evidence.through_wall);
+  return (1.0 - evidence.unknown) *
+         (kSlope * std::log(kNeutralMisfit / (misfit + kFloor)) - kThrough * evidence.through_wall);
 }
 
 double fitLogOdds(const Candidate& candidate)
 {
-  // A return in free space may be an occlusion: it speaks against the pose's rank, not against
-  // being in the map. The score already holds half of both shares.
+  // A return in free space may be an occlusion. It lowers the rank of the pose, but is no evidence
+  // against being in the map. The score has lost half of both shares already.
   const double explained = candidate.score + 0.5 * candidate.through_wall + 1.5 * candidate.in_free;
   return kExplainedSlope * explained - kThroughSlope * candidate.through_wall +
          kConstraintSlope * candidate.explained_constraints - kFitOffset;
@@ -139,7 +140,7 @@ void weighCandidates(RelocationResult& result, const std::vector<Candidate>& out
   for (const Candidate& candidate : outside) sum_outside += kPriorOutside * weight_of(candidate);
   const double sum_missed = missed * std::exp(logLikelihoodOfScore(kUsualScore) - best);
 
-  const double narrow = kNarrowSlope * std::max(0.0, 1.0 - result.view / kFullView);
+  const double narrow = kNarrowSlope * std::max(0.0, 1.0 - result.view / kFullCoverage);
   const double here = 1.0 / (1.0 + std::exp(narrow - inMapLogOdds(result, 0) - kPriorHereLogOdds));
   const double all = sum + sum_outside + sum_missed;
   for (Candidate& candidate : candidates) candidate.probability *= here / all;
@@ -148,9 +149,9 @@ void weighCandidates(RelocationResult& result, const std::vector<Candidate>& out
   decide(result);
 }
 
-void weighByLogOdds(RelocationResult& result, std::optional<double> chance_of_places)
+void weighByLogOdds(RelocationResult& result, std::optional<double> place_background)
 {
-  const double tempering = chance_of_places ? kPlaceTempering : kWallTempering;
+  const double tempering = place_background ? kPlaceTempering : kWallTempering;
   std::vector<Candidate>& candidates = result.candidates;
   double largest = 0;  // the clutter hypothesis itself has log-odds 0
   for (const Candidate& candidate : candidates) largest = std::max(largest, candidate.score);
@@ -160,9 +161,9 @@ void weighByLogOdds(RelocationResult& result, std::optional<double> chance_of_pl
     candidate.probability = std::exp(tempering * (candidate.score - largest));
     sum += candidate.probability;
   }
-  const double accidental =
-      candidates.empty() ? 0 : chance_of_places.value_or(0) * candidates.front().probability;
-  const double all = std::exp(-tempering * largest) + accidental + sum;
+  const double background =
+      candidates.empty() ? 0 : place_background.value_or(0) * candidates.front().probability;
+  const double all = std::exp(-tempering * largest) + background + sum;
   for (Candidate& candidate : candidates)
   {
     candidate.probability *= (1.0 - kPriorElsewhere) / all;

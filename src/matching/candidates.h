@@ -9,13 +9,13 @@
 
 namespace sigloc
 {
-/// Returns ranked poses as candidates with all the evidence that weighing takes: scores and shares,
-/// and the explained facts of those that score within DenseVerifier::kContender of the first.
-/// Covariances and probabilities are left to the caller. \cite algorithm section 6
+/// Returns ranked poses as candidates with the evidence for their probabilities: scores, shares,
+/// and the explained constraints of those within DenseVerifier::kContender of the first. The caller
+/// sets covariances and probabilities. \cite algorithm sections 6 and 7
 std::vector<Candidate> candidatesOf(const std::vector<RankedPose>& ranked,
                                     const DenseVerifier& verifier, const ObservedScene& scene);
 
-/// Returns how much of the circle around its sensors a scene shows returns in, by sectors of
-/// 15 degrees [rad].
+/// Returns the angular coverage [rad] of a scene: the sectors of 15 degrees around its sensors in
+/// which it has returns. \cite algorithm section 7, "Here or elsewhere"
 double angularCoverage(const ObservedScene& scene);
 }  // namespace sigloc

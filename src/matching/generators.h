@@ -13,14 +13,14 @@ namespace sigloc
 {
 class FeatureMap;
 
-/// Returns the generator of a mode over a map, which must outlive it; `automatic` is patterns with
-/// their fall-backs. Throws std::invalid_argument for mode `bases`, which needs a dense field, and
-/// for options outside their ranges.
+/// Returns the generator of a mode for a map, which must outlive it. `automatic` stands for
+/// patterns with their fall-backs. Throws std::invalid_argument for mode `minimal_sets`, which
+/// needs a dense field, and for options outside their ranges.
 std::unique_ptr<FeatureHypothesisGenerator> makeGenerator(GenerationMode mode,
                                                           const FeatureMap& map,
                                                           const GeneratorOptions& options = {});
 
-/// The same with a verifier that others use too.
+/// The same with a verifier that is shared with others.
 std::unique_ptr<FeatureHypothesisGenerator> makeGenerator(
     GenerationMode mode, const std::shared_ptr<const FeatureVerifier>& verifier);
 }  // namespace sigloc

@@ -10,10 +10,10 @@ namespace sigloc
 {
 namespace
 {
-constexpr double kNotHere = 0.98;  // probability of standing elsewhere
-constexpr double kMaxOpenSigma = 0.5;  // [m], a wider pose is a line of poses
+constexpr double kNotHere = 0.98;  // least probability of being elsewhere
+constexpr double kMaxOpenSigma = 0.5;  // [m] position sigma from which a pose is a line of poses
 
-/// What keeps the first pose from being claimed, or nothing.
+/// Returns why the first pose cannot be claimed, or nothing.
 std::optional<VerdictReason> objectionTo(const VerdictGrounds& grounds, double sure)
 {
   if (largestPositionSigma(grounds.first_pose) >= kMaxOpenSigma)

@@ -8,34 +8,35 @@
 
 namespace sigloc
 {
-/// What is known when a verdict falls: of one scan, of tracked hypotheses or of particles.
+/// What a verdict is decided from: the poses of one scan, of tracked hypotheses or of particles.
 struct VerdictGrounds
 {
-  std::size_t poses = 0;  ///< hypotheses that are left
+  std::size_t poses = 0;  ///< number of poses that are left
   double first = 0;  ///< probability of the first of them
   GaussianPose first_pose;
-  double elsewhere = 1;  ///< probability of standing where none of them is
-  bool confirmed = true;  ///< enough is known that only this map explains
-  bool doubtful = false;  ///< the first has stopped explaining what is seen
-  bool sees_too_little = false;  ///< to say that the robot is not here
+  double elsewhere = 1;  ///< probability that the robot is at none of them
+  bool confirmed = true;  ///< the evidence that the robot is in the map is strong enough
+  bool doubtful = false;  ///< the first pose has stopped explaining the scans
+  bool sees_too_little = false;  ///< the scan has too few returns for the verdict *not here*
 };
 
-/// What decided.
+/// What decided the verdict.
 enum class VerdictReason
 {
   no_pose,  ///< nothing in the map explains the scan
   no_pose_seen_little,  ///< no pose is left, but the scan shows too little to rule the map out
-  one_pose,
-  elsewhere,
+  one_pose,  ///< one pose is claimed
+  elsewhere,  ///< the probability of being elsewhere is at least 0.98
   open_position,  ///< the pose is a line of poses
-  doubtful,
-  not_sure,  ///< the first lacks probability: it has rivals
-  unconfirmed,
+  doubtful,  ///< the first pose has stopped explaining the scans
+  not_sure,  ///< the probability of the first pose is too low, because it has rivals
+  unconfirmed,  ///< the evidence that the robot is in the map is too weak
 };
 
-/// One line for people.
+/// Returns one line for people.
 const char* toString(VerdictReason reason);
 
+/// A verdict with its probability and reason.
 struct VerdictDecision
 {
   Verdict verdict = Verdict::too_little_seen;
@@ -43,8 +44,9 @@ struct VerdictDecision
   VerdictReason reason = VerdictReason::no_pose_seen_little;
 };
 
-/// Returns the verdict that the grounds allow: the one place where it falls, for the matcher, the
-/// tracker and the particle filter. A claim takes the probability `sure` and a position known to
-/// 0.5 m; *not here* takes 0.98 elsewhere. \cite algorithm sections 7 and 8, "Verdict"
+/// Returns the verdict for the matcher, the tracker and the particle filter alike. A claim requires
+/// the probability `sure` and a largest position sigma below 0.5 m. *Not here* requires no pose, or
+/// a probability of 0.98 of being elsewhere.
+/// \cite algorithm section 7, "The verdict"; section 8, "Publish"
 VerdictDecision decideVerdict(const VerdictGrounds& grounds, double sure = kLocalizedProbability);
 }  // namespace sigloc

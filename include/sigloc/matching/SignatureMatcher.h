@@ -15,18 +15,18 @@
 
 namespace sigloc
 {
-/// How hypotheses are generated; the modes of \cite algorithm section 4.
+/// How hypotheses are generated: the modes of \cite algorithm section 4.
 enum class GenerationMode : std::uint8_t
 {
-  automatic = 0,  ///< bases where a dense field backs the map, else patterns falling back to pairs
-                  ///< and anchors
-  plain = 1,  ///< (a) every signature
+  automatic = 0,  ///< minimal sets where the map has a dense field, else patterns
+  plain = 1,  ///< (a) compares every signature with every mapped one
   anchors = 2,  ///< (b) sampled anchors and partners
   pairs = 3,  ///< (c) pair index
-  patterns = 4,  ///< (d) larger patterns
-  minimal_sets = 5,  ///< (e) small bases judged by the dense field
+  patterns = 4,  ///< (d) patterns of places, falling back to pairs and anchors
+  minimal_sets = 5,  ///< (e) minimal sets of features, scored by the dense field
 };
 
+/// How SignatureMatcher relocates. Units, ranges and meanings are in `visitFields`.
 struct MatcherOptions
 {
   std::uint32_t mode = 0;
@@ -59,30 +59,31 @@ struct FeatureHypothesis;
 struct PoseProposal;
 struct RankedPose;
 
-/// Relocation by matching signatures: says where in a known map the observed scene was seen.
+/// Relocation by matching signatures: finds the poses in a known map that explain a scene.
 ///
 ///     const SignatureMatcher matcher(map);
 ///     const RelocationResult result = matcher.localize(observeScene(scans));
 ///     if (result.verdict == Verdict::localized) drive(result.candidates.front().pose);
 ///
-/// Construction builds the indices; `localize` is const and thread-safe, and its result depends on
-/// the scene, the options and the seed only. \cite algorithm sections 4 to 7
+/// Construction builds the indices. `localize` is const and thread-safe. Its result depends only on
+/// the scene, the region, the options and the seed. \cite algorithm sections 4 to 7
 class SignatureMatcher
 {
  public:
-  /// Throws std::invalid_argument for a null map or options outside their ranges.
+  /// Throws std::invalid_argument for a null map, for options outside their ranges, and for mode
+  /// `minimal_sets` without a dense field.
   explicit SignatureMatcher(std::shared_ptr<const FeatureMap> map,
                             const MatcherOptions& options = {});
   ~SignatureMatcher();
   SignatureMatcher(const SignatureMatcher&) = delete;
   SignatureMatcher& operator=(const SignatureMatcher&) = delete;
 
-  /// Returns ranked candidates and a verdict. With a region the candidates are proposed inside it;
-  /// what fits outside counts, with a small prior, for standing elsewhere.
+  /// Returns ranked candidates and a verdict. With a region the candidates come from proposals
+  /// inside it. Poses outside that fit count as elsewhere, with a prior of 0.01 each.
   RelocationResult localize(const ObservedScene& scene,
                             const std::optional<PoseRegion>& region = std::nullopt) const;
 
-  /// Returns the poses that signatures propose for a scene, before any verification: for
+  /// Returns the poses that are proposed for a scene, before the dense field verifies any: for
   /// evaluation and drawing.
   std::vector<mrpt::math::TPose2D> propose(const ObservedScene& scene) const;
 
@@ -90,26 +91,28 @@ class SignatureMatcher
   const MatcherOptions& options() const { return options_; }
   /// The dense verifier, or null when the map has no dense field or it is switched off.
   const DenseVerifier* verifier() const { return verifier_.get(); }
-  /// What verifies hypotheses by features alone, or null where the dense verifier does.
+  /// The verifier by features alone, or null where the dense verifier is used.
   const FeatureVerifier* featureVerifier() const
   {
     return verifier_ ? nullptr : feature_verifier_.get();
   }
 
  private:
-  /// What the dense field left of proposals, best first.
-  struct Judged
+  /// The poses that passed verification in the dense field, best first.
+  struct VerifiedPoses
   {
     std::vector<RankedPose> inside, outside;  ///< of the region
   };
-  Judged judge(const DenseScan& scan, std::vector<PoseProposal> proposals,
-               const std::optional<PoseRegion>& region, MatchingCounters& counters,
-               Judged before) const;
-  Judged judgeMinimalSets(const ObservedScene& scene, const DenseScan& scan,
-                          const std::optional<PoseRegion>& region,
-                          MatchingCounters& counters) const;
-  /// `hypotheses` that the proposals came from; none where proposals are nearly complete.
-  void concludeDensely(const ObservedScene& scene, const DenseScan& scan, const Judged& judged,
+  VerifiedPoses verify(const DenseScan& scan, std::vector<PoseProposal> proposals,
+                       const std::optional<PoseRegion>& region, MatchingCounters& counters,
+                       VerifiedPoses before) const;
+  VerifiedPoses verifyMinimalSets(const ObservedScene& scene, const DenseScan& scan,
+                                  const std::optional<PoseRegion>& region,
+                                  MatchingCounters& counters) const;
+  /// Fills the result from the verified poses. `hypotheses` are those that the proposals came from;
+  /// empty for mode (e), which hardly ever misses the right pose.
+  void concludeDensely(const ObservedScene& scene, const DenseScan& scan,
+                       const VerifiedPoses& verified,
                        const std::vector<FeatureHypothesis>& hypotheses,
                        RelocationResult& result) const;
 
