@@ -14,7 +14,7 @@
 
 namespace sigloc
 {
-/// A pose with its rotation worked out.
+/// A pose with the cosine and sine of its heading.
 struct Placement
 {
   explicit Placement(const mrpt::math::TPose2D& pose)
@@ -29,7 +29,7 @@ struct Placement
   float x, y, c, s;
 };
 
-/// Look-up of cells by map coordinates; outside lies one cell that knows nothing.
+/// Look-up of cells by map coordinates. Everything outside the raster is one unknown cell.
 class CellView
 {
  public:
@@ -48,16 +48,16 @@ class CellView
 
   const DenseCell& at(float x, float y) const { return cellAt(column(x), row(y)); }
 
-  /// Where points fall on the raster and the cells there, worked out for many at a time. Its loops
-  /// have no branches, which is what lets compilers take several points at once.
+  /// The cells in which many points fall, and their positions in these cells. The loops have no
+  /// branches, so that compilers can process several points at once.
   struct Block
   {
     static constexpr std::size_t kSize = 64;
-    std::array<std::int32_t, kSize> ix, iy;  ///< cell; what lies outside may be any outside
-    std::array<float, kSize> fx, fy;  ///< from the middle of the cell, in cells
-    std::array<std::uint32_t, kSize> packed;  ///< the cell's members, the first lowest
+    std::array<std::int32_t, kSize> ix, iy;  ///< cell; for a point outside, any cell outside
+    std::array<float, kSize> fx, fy;  ///< [cells] from the middle of the cell
+    std::array<std::uint32_t, kSize> packed;  ///< members of the cell, the first in the lowest byte
 
-    /// Places `count` <= kSize points of the robot frame.
+    /// Finds the cells of `count` <= kSize points [m] of the robot frame, placed at `place`.
     void fill(const CellView& view, const Placement& place, const float* x, const float* y,
               std::size_t count)
     {
@@ -107,7 +107,8 @@ class CellView
    private:
     static constexpr auto kOffsetUnit = static_cast<float>(DenseField::kOffsetUnit);
 
-    /// One look-up in memory; the members are taken apart for several points at once.
+    /// Packs a cell so that it takes one access to memory. The members are then separated for
+    /// several points at once.
     static std::uint32_t pack(const DenseCell& cell)
     {
       return static_cast<std::uint32_t>(cell.distance) |
@@ -118,8 +119,8 @@ class CellView
   };
 
  private:
-  /// A coordinate in cells plus one, so that all before the raster is cell 0; all beyond is the
-  /// cell after its last.
+  /// Returns a coordinate in cells plus one. All before the raster is cell 0, and all beyond it is
+  /// the cell after its last.
   float bordered(float x, float origin, std::int32_t size) const
   {
     const float cells = (x - origin) * scale_ + 1.0F;

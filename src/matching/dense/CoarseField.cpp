@@ -15,20 +15,20 @@ namespace sigloc
 {
 namespace
 {
-constexpr double kCell = 0.1;  // [m]
-constexpr double kLargestCell = 0.2;  // [m], of maps whose raster would leave the cache
-constexpr std::size_t kCachedCells = 2U << 20U;
-constexpr double kBorder = 20.0;  // [m] around the map where returns are looked up unchecked
-constexpr double kStandingCell = 0.5;  // [m]
-/// The lowest bit of a byte, of which the likelihood has the others: a robot could stand there.
-/// It is too little to matter in a sum of bytes.
+constexpr double kCell = 0.1;  // [m] cell of the likelihoods
+constexpr double kLargestCell = 0.2;  // [m] cell where the raster would be larger than the cache
+constexpr std::size_t kCachedCells = 2U << 20U;  // cells that the cache holds, one byte each
+constexpr double kBorder = 20.0;  // [m] around the map, where returns need no check of the range
+constexpr double kStandingCell = 0.5;  // [m] cell that must have free space in it or beside it
+/// The lowest bit of a byte: a robot could be there. The likelihood has the other bits. In a sum of
+/// bytes this bit is too little to matter.
 constexpr std::uint8_t kStanding = 1;
-constexpr std::size_t kReturns = 24;
-constexpr std::size_t kGlanceReturns = 8;  // of those, by which proposals are thinned first
-constexpr std::size_t kGlanceShare = 4;  // one in so many is kept,
-constexpr std::size_t kLeastGlanceKept = 512;  // but no fewer,
-constexpr std::size_t kMostGlanceKept = 2048;  // and no more
-constexpr std::uint32_t kHeadings = 512;  // 0.35 degrees to the nearest: 0.1 m at 16 m
+constexpr std::size_t kReturns = 24;  // returns that score a proposal
+constexpr std::size_t kThinningReturns = 8;  // first returns, by which proposals are thinned
+constexpr std::size_t kThinningShare = 4;  // one proposal in so many is kept
+constexpr std::size_t kLeastThinned = 512;  // lower bound of the proposals kept
+constexpr std::size_t kMostThinned = 2048;  // upper bound of the proposals kept
+constexpr std::uint32_t kHeadings = 512;  // of the table: an error of 0.35 degrees, 0.1 m at 16 m
 
 std::uint32_t ratioOf(const RasterFrame& coarse, const RasterFrame& fine)
 {
@@ -40,14 +40,14 @@ std::size_t cellCount(const RasterFrame& frame)
   return static_cast<std::size_t>(frame.width) * frame.height;
 }
 
-/// The raster of the first look: as fine as it pays, and small enough to stay in the cache.
+/// Returns the raster of the likelihoods, small enough to stay in the cache.
 RasterFrame likelihoodFrame(const RasterFrame& field)
 {
   const RasterFrame frame = coarserFrame(field, kCell);
   return cellCount(frame) <= kCachedCells ? frame : coarserFrame(field, kLargestCell);
 }
 
-/// For each block of the field kStanding if it holds free space, else 0.
+/// Returns kStanding for each block of the field with free space, else 0.
 std::vector<std::uint8_t> freeBlocks(const DenseField& field, const RasterFrame& blocks)
 {
   const std::uint32_t ratio = ratioOf(blocks, field.frame);
@@ -64,8 +64,8 @@ std::vector<std::uint8_t> freeBlocks(const DenseField& field, const RasterFrame&
   return out;
 }
 
-/// Where free space is no farther than in the next block there is a place to stand: a map may end a
-/// little early.
+/// Marks the blocks around free ones too, because a map may end a little before the free space
+/// does.
 std::vector<std::uint8_t> withNeighbours(const RasterFrame& blocks,
                                          const std::vector<std::uint8_t>& free)
 {
@@ -86,19 +86,19 @@ std::vector<std::uint8_t> withNeighbours(const RasterFrame& blocks,
   return out;
 }
 
-/// Keeps the best `count` of looks that were a glance only, and those that tie with the last of
-/// them: which ones stay must not hang on their order.
-void keepBest(std::vector<CoarseScore>& looks, std::size_t count)
+/// Keeps the best `count` of the first scores, and those equal to the last of them, so that the
+/// order of the proposals does not decide which ones stay.
+void keepBest(std::vector<CoarseScore>& scores, std::size_t count)
 {
-  if (looks.size() <= count) return;
-  std::array<std::uint32_t, 255 * kGlanceReturns + 1> with_score{};
-  for (const CoarseScore& look : looks) ++with_score[look.score];
+  if (scores.size() <= count) return;
+  std::array<std::uint32_t, 255 * kThinningReturns + 1> with_score{};
+  for (const CoarseScore& entry : scores) ++with_score[entry.score];
   std::size_t kept = 0;
   auto lowest = static_cast<std::uint32_t>(with_score.size());
   while (kept < count && lowest > 0) kept += with_score[--lowest];
-  looks.erase(std::remove_if(looks.begin(), looks.end(),
-                             [&](const CoarseScore& look) { return look.score < lowest; }),
-              looks.end());
+  scores.erase(std::remove_if(scores.begin(), scores.end(),
+                              [&](const CoarseScore& entry) { return entry.score < lowest; }),
+               scores.end());
 }
 }  // namespace
 
@@ -113,8 +113,8 @@ RasterFrame coarserFrame(const RasterFrame& fine, double cell)
   return frame;
 }
 
-/// The first returns of a scan as offsets in cells, for each heading of a table once it is asked
-/// for. A scan of fewer returns is gone through again.
+/// The first returns of a scan as offsets in cells, for the headings of a table. A heading is
+/// computed when it first occurs. A scan of fewer returns is used repeatedly.
 class CoarseField::TurnedReturns
 {
  public:
@@ -135,50 +135,51 @@ class CoarseField::TurnedReturns
     }
   }
 
-  /// Looks at the proposals that a robot could stand at by the first kGlanceReturns.
-  std::vector<CoarseScore> glance(const std::vector<PoseProposal>& proposals)
+  /// Scores the proposals at which a robot could be, by the first kThinningReturns.
+  std::vector<CoarseScore> firstScores(const std::vector<PoseProposal>& proposals)
   {
     const auto near_rim = static_cast<float>(border_);
     const auto right_rim = static_cast<float>(width_ - border_);
     const auto top_rim = static_cast<float>(height_ - border_);
-    std::vector<CoarseScore> looks(proposals.size());
+    std::vector<CoarseScore> scores(proposals.size());
     std::size_t count = 0;
     for (std::uint32_t k = 0; k < proposals.size(); ++k)
     {
       const PoseProposal& p = proposals[k];
       const float x = columnOf(p);
       const float y = rowOf(p);
-      // Nobody stands in the border, and from there it would not hold all returns.
+      // No robot is in the border, and from there returns could fall outside.
       if (!(x >= near_rim && y >= near_rim && x < right_rim && y < top_rim)) continue;
-      // Kept or written over by the next: which of them stand follows no pattern to be guessed.
-      looks[count] = {sumAt<0, kGlanceReturns>(p), k};
+      // The entry is kept or overwritten by the next one: a branch here could not be predicted.
+      scores[count] = {sumAt<0, kThinningReturns>(p), k};
       const std::uint8_t here = *byteAt(static_cast<std::int32_t>(x), static_cast<std::int32_t>(y));
       count += here & kStanding;
     }
-    looks.resize(count);
-    return looks;
+    scores.resize(count);
+    return scores;
   }
 
-  /// Adds what the other returns say at each look's pose to its score.
-  void lookFurther(std::vector<CoarseScore>& looks, const std::vector<PoseProposal>& proposals)
+  /// Adds the likelihoods of the other returns to each score.
+  void addOtherReturns(std::vector<CoarseScore>& scores, const std::vector<PoseProposal>& proposals)
   {
-    for (CoarseScore& look : looks)
+    for (CoarseScore& entry : scores)
     {
-      look.score += sumAt<kGlanceReturns, kReturns>(proposals[look.index]);
+      entry.score += sumAt<kThinningReturns, kReturns>(proposals[entry.index]);
     }
   }
 
  private:
   struct Turned
   {
-    std::int32_t left, right, bottom, top;  // from here all returns fall on the raster
+    std::int32_t left, right, bottom, top;  // within these cells all returns fall on the raster
     std::array<std::int32_t, kReturns> dx, dy, flat;
   };
 
   float columnOf(const PoseProposal& p) const { return (p.x - x0_) * scale_; }
   float rowOf(const PoseProposal& p) const { return (p.y - y0_) * scale_; }
 
-  /// The sum of the bytes where the returns `from` to `to` fall at a pose inside of the raster.
+  /// Returns the sum of the bytes in which the returns `from` to `to` fall, at a pose on the
+  /// raster.
   template <std::size_t from, std::size_t to>
   std::uint32_t sumAt(const PoseProposal& p)
   {
@@ -226,8 +227,8 @@ class CoarseField::TurnedReturns
 
   SIGLOC_WIDE_VECTORS void turn(float phi, Turned& turned) const
   {
-    constexpr std::int32_t kShift =
-        1 << 14;  // truncation rounds to the nearest where all is positive
+    // Truncation rounds to the nearest where all values are positive.
+    constexpr std::int32_t kShift = 1 << 14;
     const float c = std::cos(phi);
     const float s = std::sin(phi);
     std::int32_t least_x = 0;
@@ -240,7 +241,7 @@ class CoarseField::TurnedReturns
       const auto dy = static_cast<std::int32_t>(s * x_[i] + c * y_[i] + (kShift + 0.5F)) - kShift;
       turned.dx[i] = dx;
       turned.dy[i] = dy;
-      // Only of use where all returns fall on the raster; elsewhere it may wrap around.
+      // Used only where all returns fall on the raster; elsewhere it may wrap around.
       turned.flat[i] = static_cast<std::int32_t>(static_cast<std::uint32_t>(dy) *
                                                      static_cast<std::uint32_t>(width_) +
                                                  static_cast<std::uint32_t>(dx));
@@ -260,7 +261,7 @@ class CoarseField::TurnedReturns
   std::int32_t width_, height_, border_;
   std::array<float, kReturns> x_, y_;  // [cells], robot frame
   std::bitset<kHeadings> ready_;
-  std::unique_ptr<Turned[]> table_;  // its rows are left as they are until they are asked for
+  std::unique_ptr<Turned[]> table_;  // a row is not initialised before it is ready
 };
 
 CoarseField::CoarseField(const DenseField& field) : frame_(likelihoodFrame(field.frame))
@@ -320,9 +321,9 @@ std::vector<CoarseScore> CoarseField::score(const DenseScan& scan,
                                             const std::vector<PoseProposal>& proposals) const
 {
   TurnedReturns returns(scan, *this);
-  std::vector<CoarseScore> looks = returns.glance(proposals);
-  keepBest(looks, std::clamp(looks.size() / kGlanceShare, kLeastGlanceKept, kMostGlanceKept));
-  returns.lookFurther(looks, proposals);
-  return looks;
+  std::vector<CoarseScore> scores = returns.firstScores(proposals);
+  keepBest(scores, std::clamp(scores.size() / kThinningShare, kLeastThinned, kMostThinned));
+  returns.addOtherReturns(scores, proposals);
+  return scores;
 }
 }  // namespace sigloc

@@ -11,25 +11,27 @@
 
 namespace sigloc
 {
-/// A raster over the same area with cells of about `cell` [m], a whole number of the finer ones.
+/// Returns a raster over the same area with cells of about `cell` [m]: a whole number of fine
+/// cells.
 RasterFrame coarserFrame(const RasterFrame& fine, double cell);
 
-/// A proposal's first look.
+/// The coarse score of a proposal.
 struct CoarseScore
 {
-  std::uint32_t score;  ///< sum of the likelihood bytes of the returns looked up
+  std::uint32_t score;  ///< sum of the likelihood bytes at the first returns
   std::uint32_t index;  ///< of the proposal
 };
 
-/// The first look at many proposals: a few returns each, on a coarse raster of likelihoods, turned
-/// by a table of headings. Const and thread-safe. \cite algorithm section 6
+/// The coarse likelihood field, which scores many proposals first. It uses a few returns for each,
+/// on a coarse raster, with the returns turned by a table of headings. Const and thread-safe.
+/// \cite algorithm section 6, "The cascade"
 class CoarseField
 {
  public:
   explicit CoarseField(const DenseField& field);
 
-  /// Looks at the proposals that a robot could stand at, in their order; of very many only at those
-  /// that are best by their first returns.
+  /// Returns the scores of the proposals at which a robot could be, in their order. Of very many
+  /// only those are returned that are best by their first returns.
   std::vector<CoarseScore> score(const DenseScan& scan,
                                  const std::vector<PoseProposal>& proposals) const;
 
@@ -39,7 +41,7 @@ class CoarseField
   void markStanding(const DenseField& field);
 
   RasterFrame frame_;  ///< with a border around the map
-  std::uint32_t border_ = 0;  ///< [cells] of it
-  std::vector<std::uint8_t> likelihoods_;  ///< and in their lowest bit whether a robot could stand
+  std::uint32_t border_ = 0;  ///< [cells] width of the border
+  std::vector<std::uint8_t> likelihoods_;  ///< the lowest bit: whether a robot could be there
 };
 }  // namespace sigloc

@@ -6,7 +6,7 @@
 
 namespace sigloc
 {
-/// A pose to be judged.
+/// A pose that the dense field is to score.
 struct PoseProposal
 {
   float x = 0;  ///< [m]
@@ -14,18 +14,18 @@ struct PoseProposal
   float phi = 0;  ///< [rad], not wrapped
 };
 
-/// What the dense field says of a pose; all shares are of the returns used.
+/// How the dense field explains a scan at a pose. All shares are of the returns used, in [0, 1].
 struct DenseEvidence
 {
   double fine = 0;  ///< mean likelihood, sigma 0.12 m, in [0, 1]
   double coarse = 0;  ///< mean likelihood, sigma 0.25 m, in [0, 1]
-  double through_wall = 0;  ///< share of beams that pass a mapped wall before their end
-  double in_free = 0;  ///< share that ends in known free space, away from any wall
-  double unknown = 0;  ///< share that ends where the map knows nothing
-  double score = 0;  ///< the one figure to rank by, \cite algorithm eq. (6.8)
+  double through_wall = 0;  ///< share of beams that pass a solid wall before their end
+  double in_free = 0;  ///< share that ends in free cells, more than 0.4 m from any wall
+  double unknown = 0;  ///< share that ends in unknown cells, more than 0.4 m from any wall
+  double score = 0;  ///< poses are ranked by it, in about [-1, 1], \cite algorithm eq. (6.8)
 };
 
-/// A proposal that survived the cascade.
+/// A pose that is left at the end of the cascade.
 struct RankedPose
 {
   mrpt::math::TPose2D pose;

@@ -21,23 +21,23 @@ using mrpt::math::wrapToPi;
 
 namespace
 {
-constexpr double kMaxShift = 0.5;  // [m] a refinement may move a pose
-constexpr double kMaxTurn = 10.0 * M_PI / 180.0;  // [rad]
-constexpr float kFirstRobustSigma = 0.25F;  // [m], scale of the Cauchy weight of the first step
-constexpr float kRobustSigma = 0.12F;  // [m], and of the later ones
-constexpr double kHold = 0.05;  // keeps what the returns leave open
-constexpr double kConverged = 1e-3;  // [m], [rad], a step this small is the last
+constexpr double kMaxShift = 0.5;  // [m] by which a refinement may move a pose
+constexpr double kMaxTurn = 10.0 * M_PI / 180.0;  // [rad] by which a refinement may turn a pose
+constexpr float kFirstRobustSigma = 0.25F;  // [m] scale of the Cauchy weight of step 1, eq. (6.6)
+constexpr float kRobustSigma = 0.12F;  // [m] scale of the Cauchy weight of later steps, eq. (6.6)
+constexpr double kHold = 0.05;  // keeps the directions that the returns leave open, eq. (6.7)
+constexpr double kConverged = 1e-3;  // [m], [rad] size of a step that is the last
 
 using Floats = std::array<float, CellView::Block::kSize>;  // one for each return of a block
 
-/// What returns say of a move of the robot in its own frame, where their places and pulls do not
-/// turn with the pose: sums of (6.5) to (6.7) in the order (x, y, phi).
+/// The sums of (6.5) to (6.7) in the order (x, y, phi), taken in the robot frame. There the returns
+/// and normals do not turn with the pose.
 struct PullSums
 {
   float xx = 0, xy = 0, xt = 0, yy = 0, yt = 0, tt = 0;  // weight times j jᵀ
   float gx = 0, gy = 0, gt = 0;  // weight times (a·e) j
 
-  /// Adds `count` returns of a block that begins at `first`; `ex` and `ey` are their offsets from
+  /// Adds `count` returns of a block that begins at `first`. `ex` and `ey` are their offsets from
   /// the ridge [m].
   void add(const DenseScan& scan, std::size_t first, std::size_t count, const Floats& weight,
            const Floats& ex, const Floats& ey)
@@ -83,10 +83,10 @@ struct PullSums
     gt += sumOf(sgt);
   }
 
-  /// The sum of the returns' weights (6.6).
+  /// Returns the sum of the returns' weights (6.6).
   float explained() const { return xx + yy; }
 
-  /// The move that (6.7) asks for, by Cholesky; kHold keeps the system positive definite.
+  /// Returns the step of (6.7), by Cholesky. kHold keeps the system positive definite.
   std::array<double, 3> step() const
   {
     const double l00 = std::sqrt(kHold + static_cast<double>(xx));
@@ -106,7 +106,7 @@ struct PullSums
 };
 
 /// Finds the vectors [m] from the nearest wall's ridge to the returns of a block, in the robot
-/// frame, and their weights (6.6); those without a wall within the field's reach weigh nothing.
+/// frame, and their weights (6.6). The weight is 0 without a wall within 1.27 m.
 void offsetsFromRidge(const CellView::Block& block, float resolution, const Placement& place,
                       std::size_t count, float robust_sigma, Floats& weight, Floats& ex, Floats& ey)
 {
@@ -141,7 +141,7 @@ SIGLOC_WIDE_VECTORS PullSums pullsAt(const CellView& cells, const DenseScan& sca
   return sums;
 }
 
-/// Of the returns that lie on walls, weighted by the fine likelihood.
+/// Returns the sums of (6.9) over the returns on walls, weighted by the fine likelihood.
 SIGLOC_WIDE_VECTORS PullSums informationAt(const CellView& cells, const DenseScan& scan,
                                            const Placement& place)
 {
@@ -165,16 +165,17 @@ SIGLOC_WIDE_VECTORS PullSums informationAt(const CellView& cells, const DenseSca
   return sums;
 }
 
-/// What a return that lies on a wall tells of the robot's place along the wall's normal [1/m^2].
+/// Returns the information [1/m^2] of a return on a wall along the wall's normal: tau/sigma^2 of
+/// (6.9).
 double informationOfReturn(const DenseScan& scan)
 {
-  constexpr double kRangeSigma = 0.05;  // [m], of a return against the raster
-  constexpr double kIndependentBeams = 40;  // neighbouring beams are correlated
+  constexpr double kRangeSigma = 0.05;  // [m] of a return against the raster
+  constexpr double kIndependentBeams = 40;  // count of all beams, because neighbours are correlated
   const double tempering = std::min(1.0, kIndependentBeams / static_cast<double>(scan.size() + 1));
   return tempering / (kRangeSigma * kRangeSigma);
 }
 
-/// The pose after a step in the robot frame.
+/// Returns the pose after a step in the robot frame.
 TPose2D movedBy(const TPose2D& pose, const Placement& place, const std::array<double, 3>& move)
 {
   const auto c = static_cast<double>(place.c);
@@ -188,12 +189,12 @@ bool isLast(const std::array<double, 3>& move)
   return std::abs(move[0]) + std::abs(move[1]) < kConverged && std::abs(move[2]) < kConverged;
 }
 
-/// A pose on its way.
+/// A pose that is being refined.
 struct Refined
 {
   explicit Refined(const TPose2D& at) : start(at.x, at.y, wrapToPi(at.phi)), pose(start) {}
 
-  /// Where it has come to, or its start if that is too far away.
+  /// Returns the refined pose, or the start if that is too far away.
   TPose2D result() const
   {
     const TPose2D end(pose.x, pose.y, wrapToPi(pose.phi));
@@ -204,11 +205,11 @@ struct Refined
 
   TPose2D start;
   TPose2D pose;
-  std::optional<float> explained;  // by the pose after one step, if that was not the last
-  bool settled = false;
+  std::optional<float> explained;  // weights (6.6) after one step, if that was not the last
+  bool converged = false;
 };
 
-/// Takes out those that explain less than `least` of what the best one explains.
+/// Removes the poses whose weights (6.6) sum to less than `least` of those of the best.
 void dropHopeless(std::vector<Refined>& refined, float least)
 {
   float most = 0;
@@ -227,9 +228,9 @@ TPose2D DenseVerifier::refine(const DenseScan& scan, const TPose2D& start, int s
   return poses.front();
 }
 
-/// The poses take their steps in turns: each waits for its own sums, not for those of the others.
-/// The second tells how much of the returns each explains; those below `least` of the best are left
-/// out.
+/// Refines several poses, one step of each in turn, so that the processor can work on one while
+/// another waits for its sums. The second step gives the weights (6.6) of each pose. Poses below
+/// `least` of the best are then left out.
 void DenseVerifier::refineAll(const DenseScan& scan, std::vector<TPose2D>& poses, int steps,
                               std::size_t beams, float least) const
 {
@@ -241,12 +242,12 @@ void DenseVerifier::refineAll(const DenseScan& scan, std::vector<TPose2D>& poses
     const float robust_sigma = step == 0 ? kFirstRobustSigma : kRobustSigma;
     for (Refined& one : refined)
     {
-      if (one.settled) continue;
+      if (one.converged) continue;
       const Placement place(one.pose);
       const PullSums sums = pullsAt(cells, scan, count, place, robust_sigma);
       const std::array<double, 3> move = sums.step();
       one.pose = movedBy(one.pose, place, move);
-      one.settled = isLast(move);
+      one.converged = isLast(move);
       if (step == 1) one.explained = sums.explained();
     }
     if (step == 1) dropHopeless(refined, least);
@@ -258,7 +259,7 @@ void DenseVerifier::refineAll(const DenseScan& scan, std::vector<TPose2D>& poses
 mrpt::math::CMatrixDouble33 DenseVerifier::covarianceAt(const DenseScan& scan,
                                                         const TPose2D& pose) const
 {
-  constexpr double kOpenSigma = 5.0;  // [m], of a direction that nothing fixes
+  constexpr double kOpenSigma = 5.0;  // [m] prior of a direction that nothing fixes, eq. (6.9)
   const PullSums sums = informationAt(CellView(field_), scan, Placement(pose));
   Eigen::Matrix3f in_robot;
   in_robot << sums.xx, sums.xy, sums.xt, sums.xy, sums.yy, sums.yt, sums.xt, sums.yt, sums.tt;
@@ -278,14 +279,14 @@ mrpt::math::CMatrixDouble33 DenseVerifier::covarianceAt(const DenseScan& scan,
   return out;
 }
 
-/// Returns on no wall in particular, and what was moved and now stands where something else did,
-/// seem to fix a pose along a corridor. What they tell must show in the fit.
+/// Returns on no particular wall seem to fix a pose along a corridor, and so does furniture that
+/// was moved to where something else was mapped. Their information must therefore show in the fit.
 mrpt::math::CMatrixDouble33 DenseVerifier::testedCovarianceAt(const DenseScan& scan,
                                                               const TPose2D& pose) const
 {
-  constexpr double kMove = 0.12;  // [m], the fine sigma
-  constexpr double kUntestedSigma = 0.1;  // [m], where the fit does not suffer at all
-  const double loss_of_return = 1.0 - std::exp(-0.5);  // of one that such a move takes off its wall
+  constexpr double kMove = 0.12;  // [m] of the test, the fine sigma
+  constexpr double kUntestedSigma = 0.1;  // [m] where the fit gets no worse at all
+  const double loss_of_return = 1.0 - std::exp(-0.5);  // of a return that the move takes off a wall
   mrpt::math::CMatrixDouble33 covariance = covarianceAt(scan, pose);
   const Eigen::Matrix2d position = covariance.asEigen().topLeftCorner<2, 2>();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(position);
@@ -295,9 +296,9 @@ mrpt::math::CMatrixDouble33 DenseVerifier::testedCovarianceAt(const DenseScan& s
     return fineLikelihood(scan, {pose.x + move * along[0], pose.y + move * along[1], pose.phi});
   };
   const double loss = fit_after(0) - std::max(fit_after(kMove), fit_after(-kMove));
-  const double telling = std::max(0.0, loss / loss_of_return);
+  const double missed = std::max(0.0, loss / loss_of_return);
   const double variance =
-      1.0 / (telling * informationOfReturn(scan) + 1.0 / (kUntestedSigma * kUntestedSigma));
+      1.0 / (missed * informationOfReturn(scan) + 1.0 / (kUntestedSigma * kUntestedSigma));
   if (variance <= widest) return covariance;
   const Eigen::Matrix2d more = (variance - widest) * along * along.transpose();
   for (int r = 0; r < 2; ++r)

@@ -12,14 +12,14 @@ using mrpt::math::TPoint2D;
 
 namespace
 {
-constexpr float kOnSegment = 0.05F;  // [m], a return this near a fitted segment lies on it
-constexpr double kSharedLength = 0.2;  // [m] of wall whose returns share one weight
-constexpr double kLeastShare = 0.01;  // of a return that repeats those beside it
+constexpr float kOnSegment = 0.05F;  // [m] from a fitted segment, within which a return is on it
+constexpr double kSharedLength = 0.2;  // [m] bound of the distance between returns, eq. (6.11)
+constexpr double kLeastShare = 0.01;  // of this length, for a return that repeats those beside it
 
-/// Indices 0..n-1 in van der Corput order: every prefix is spread evenly.
+/// Returns the indices 0..n-1 in van der Corput order: every first part is spread evenly.
 std::vector<std::uint32_t> interleavedOrder(std::uint32_t n)
 {
-  // Between any two of the indices so far comes one of the next half.
+  // One index of the next half goes between any two of the indices so far.
   std::vector<std::uint32_t> order = {0};
   while (order.size() < n)
   {
@@ -33,20 +33,20 @@ std::vector<std::uint32_t> interleavedOrder(std::uint32_t n)
   return order;
 }
 
-/// How far [m] a beam's neighbour may end from it on the same surface.
+/// Returns the distance [m] up to which a beam's neighbour ends on the same surface.
 double gapAt(const BeamEnd& beam)
 {
   constexpr double kGap = 0.3;  // [m]
-  constexpr double kGapPerRange = 0.05;  // [m/m], beams fan out
+  constexpr double kGapPerRange = 0.05;  // [m/m], because beams diverge
   return kGap + kGapPerRange * beam.point.norm();
 }
 
-/// What the beams beside a return tell of it.
+/// What the beams beside a return show of it.
 struct Surroundings
 {
-  bool isolated = true;  ///< none ends near it: a speck of clutter, or something thin and far
-  /// The share of kSharedLength that it stands for, in [kLeastShare, 1]: its mean distance to the
-  /// beams beside it on the same surface.
+  bool isolated = true;  ///< none ends near it: clutter, or something thin and far.
+  /// Mean distance to the beams beside it on the same surface, as a share of kSharedLength in
+  /// [kLeastShare, 1]. Eq. (6.11)
   double length_share = 1;
 };
 
@@ -59,7 +59,7 @@ Surroundings surroundingsOf(const std::vector<BeamEnd>& beams, std::size_t i)
   int neighbours = 0;
   for (const std::size_t k : {i - 2, i - 1, i + 1, i + 2})
   {
-    // Before the first beam is far beyond the last.
+    // An index before the first beam wraps around to far beyond the last.
     if (k >= beams.size() || beams[k].origin != beam.origin) continue;
     const double dx = beams[k].point.x - beam.point.x;
     const double dy = beams[k].point.y - beam.point.y;
@@ -77,8 +77,8 @@ Surroundings surroundingsOf(const std::vector<BeamEnd>& beams, std::size_t i)
   return surroundings;
 }
 
-/// Says how each return pulls: along the normal of the wall it lies on, or to both sides alike. Of
-/// several walls the first one counts.
+/// Sets the directions of the residuals: the normal of the wall that a return lies on, or both axes
+/// alike. Of several walls the first one counts. Eq. (6.4)
 void setPulls(const std::vector<Feature>& features, DenseScan& scan)
 {
   const std::size_t n = scan.x.size();
@@ -97,7 +97,7 @@ void setPulls(const std::vector<Feature>& features, DenseScan& scan)
     const float xx = nx * nx;
     const float xy = nx * ny;
     const float yy = ny * ny;
-    // Without branches, so that compilers take several returns at a time.
+    // There are no branches, so that compilers can process several returns at once.
     for (std::size_t i = 0; i < n; ++i)
     {
       const float dx = scan.x[i] - x0;

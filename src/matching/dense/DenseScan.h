@@ -12,23 +12,23 @@
 
 namespace sigloc
 {
-/// The returns of a scene, laid out for look-ups. Interleaved: any prefix of the order is spread
-/// evenly over the scan, so "the first 24" is a fair sample.
+/// The returns of a scene, in an order of which any first part is spread evenly over the scan. So
+/// the first 24 returns are a fair sample. All vectors have one element for each return.
 struct DenseScan
 {
   std::vector<float> x, y;  ///< [m], robot frame
-  /// How a return pulls, robot frame: n nᵀ along the unit normal of the wall it lies on; off any
-  /// wall half the unit matrix. \cite algorithm eq. (6.4)
+  /// The directions in which a return has a residual, robot frame: n nᵀ of the unit normal n of the
+  /// wall that it lies on. Off any wall it is half the unit matrix. \cite algorithm eq. (6.4)
   std::vector<float> pull_xx, pull_xy, pull_yy;
-  /// Weight of a return halfway between every return and every stretch of wall weighing alike, mean
-  /// 1. \cite algorithm eq. (6.11)
+  /// Weight of a return, with mean 1. It balances equal weight for returns against equal weight for
+  /// stretches of wall. \cite algorithm eq. (6.11)
   std::vector<float> balance;
-  std::vector<std::uint8_t> isolated;  ///< not 0: no beam beside it ends near it, may be clutter
+  std::vector<std::uint8_t> isolated;  ///< not 0 where no beam beside it ends near it
   std::vector<std::uint32_t> origin;  ///< index into origins
-  std::vector<mrpt::math::TPoint2D> origins;
+  std::vector<mrpt::math::TPoint2D> origins;  ///< [m], robot frame; one for each sensor
   std::size_t size() const { return x.size(); }
 };
 
-/// Returns the scene's returns interleaved; with more than `max_beams`, an even choice of them.
+/// Returns the scene's returns in van der Corput order; of more than `max_beams` an even choice.
 DenseScan makeDenseScan(const ObservedScene& scene, std::size_t max_beams);
 }  // namespace sigloc

@@ -25,28 +25,35 @@ using mrpt::math::wrapToPi;
 
 namespace
 {
-constexpr std::size_t kQuickSorted = 1024;  // best first looks that are sorted at all
-constexpr std::size_t kQuickKept = 40;  // places that are refined: the cascade's knob
-constexpr float kMiddleShare = 0.65F;  // of what the best explains: with less a place is dropped
-constexpr std::size_t kMiddleBeams = 32;
-constexpr std::size_t kMiddleScored = 48;
-constexpr int kMiddleSteps = 3;
-constexpr std::size_t kFinalKept = 12;
-constexpr std::size_t kFinalBeams = 64;
-constexpr double kFinalLead = 0.3;  // of the best; what is farther behind is not refined further
-constexpr int kFinalSteps = 2;
-constexpr std::size_t kSettled = 4;
-constexpr int kSettleSteps = 12;
-constexpr double kSettleLoss = 0.01;  // of the score, that settling may cost
-constexpr double kApartDistance = 0.08;  // [m]
+// The cascade, \cite algorithm section 6. Stage 2, one pose of each neighbourhood:
+constexpr std::size_t kCoarseSorted = 1024;  // best coarse scores that are considered
+constexpr std::size_t kCoarseKept = 40;  // poses that are refined; sets the cost of the cascade
+constexpr float kMiddleShare =
+    0.65F;  // of the weights (6.6) of the best, below which one is dropped
+constexpr std::size_t kMiddleBeams = 32;  // returns that refine
+constexpr std::size_t kMiddleScored = 48;  // returns that score
+constexpr int kMiddleSteps = 3;  // of refinement
+// Stage 3, distinct poses:
+constexpr std::size_t kFinalKept = 12;  // poses that are refined
+constexpr std::size_t kFinalBeams = 64;  // returns that refine
+constexpr double kFinalLead =
+    0.3;  // below the best score, from which a pose is not refined further
+constexpr int kFinalSteps = 2;  // of refinement
+// Stage 4, final refinement:
+constexpr std::size_t kFinallyRefined = 4;  // poses that are refined
+constexpr int kLastSteps = 12;  // of refinement on all returns
+constexpr double kLastLoss = 0.01;  // of the score that it may cost
+// All stages:
+constexpr double kApartDistance = 0.08;  // [m] between distinct poses after stage 2
 constexpr std::size_t kRayBeams = WallCrossings::kRays;  // beams tested for passing through walls
-constexpr std::size_t kFinalRays = 24;  // of them, for a pose that may still be no contender
-constexpr double kFreeMargin = 0.4;  // [m] from any wall that makes an end in free space count
+constexpr std::size_t kFinalRays = 24;  // beams tested in stage 3
+constexpr double kFreeMargin = 0.4;  // [m] from any wall, from which a return is in free space
 constexpr auto kFarFromWall = static_cast<std::uint8_t>(kFreeMargin / DenseField::kDistanceUnit);
-constexpr double kThroughPenalty = 0.5;
-constexpr double kFreePenalty = 0.5;
+constexpr double kThroughPenalty = 0.5;  // score per share of beams through walls, eq. (6.8)
+constexpr double kFreePenalty = 0.5;  // score per share of returns in free space, eq. (6.8)
 
-/// Of a return by its distance from the ridge of the nearest wall.
+/// Returns L_0.06 of a return, by its distance from the ridge of the nearest wall. Eq. (6.3),
+/// (6.12)
 float sharpLikelihood(const CellView::Block& block, std::size_t i, float resolution)
 {
   constexpr float kSharpSigma = 0.06F;  // [m]
@@ -57,7 +64,8 @@ float sharpLikelihood(const CellView::Block& block, std::size_t i, float resolut
   return std::exp(kSlope * (x * x + y * y));
 }
 
-/// Best first; ties are broken by the pose, so that the order never depends on the history.
+/// Orders poses, best first. Ties are broken by the pose, so that the order never depends on how
+/// the proposals came in.
 bool better(const RankedPose& a, const RankedPose& b)
 {
   if (a.evidence.score != b.evidence.score) return a.evidence.score > b.evidence.score;
@@ -66,7 +74,7 @@ bool better(const RankedPose& a, const RankedPose& b)
   return a.pose.phi < b.pose.phi;
 }
 
-/// Keeps the best of each group of poses that are not distinct; at most `count`.
+/// Keeps the best of each group of poses that are not distinct, at most `count`.
 void keepDistinct(std::vector<RankedPose>& poses, std::size_t count,
                   double distance = kSamePlaceDistance)
 {
@@ -84,13 +92,14 @@ void keepDistinct(std::vector<RankedPose>& poses, std::size_t count,
   poses = std::move(kept);
 }
 
-/// Of poses that are sorted, best first; 0 where there is none.
+/// Returns the score of the first of sorted poses, or 0 without any.
 double bestScore(const std::vector<RankedPose>& poses)
 {
   return poses.empty() ? 0 : poses.front().evidence.score;
 }
 
-/// Proposals that were taken, to leave out others so near that one of them is enough to refine.
+/// Proposals that were chosen. Others near one of them are left out, because refining one is
+/// enough.
 class TakenPoses
 {
  public:
@@ -111,7 +120,7 @@ class TakenPoses
     return near != 0;
   }
 
-  /// Adds one; at most kQuickKept.
+  /// Adds one; at most kCoarseKept.
   void add(const PoseProposal& p)
   {
     x_[count_] = p.x;
@@ -121,11 +130,11 @@ class TakenPoses
   }
 
  private:
-  std::array<float, kQuickKept> x_, y_, phi_;
+  std::array<float, kCoarseKept> x_, y_, phi_;
   std::size_t count_ = 0;
 };
 
-/// The same scan, with the pull of its returns balanced.
+/// Returns the scan with its residuals weighted by (6.11).
 DenseScan balancedScan(DenseScan scan)
 {
   for (std::size_t i = 0; i < scan.size(); ++i)
@@ -137,11 +146,11 @@ DenseScan balancedScan(DenseScan scan)
   return scan;
 }
 
-/// What the field says of where a scan's beams end.
+/// Sums over the cells in which a scan's returns end.
 struct EndSums
 {
-  float fine = 0, coarse = 0;  ///< likelihoods
-  std::uint32_t in_free = 0, specks = 0, unknown = 0;  ///< returns away from any wall
+  float fine = 0, coarse = 0;  ///< sums of likelihoods
+  std::uint32_t in_free = 0, specks = 0, unknown = 0;  ///< numbers of returns far from any wall
 };
 
 SIGLOC_WIDE_VECTORS EndSums sumsOfEnds(const DenseField& field, const DenseScan& scan,
@@ -186,17 +195,17 @@ std::vector<RankedPose> DenseVerifier::rank(const DenseScan& scan,
                                             std::vector<RankedPose> before) const
 {
   if (scan.size() == 0 || proposals.empty()) return before;
-  // 1. A first look at every proposal with a few beams.
-  std::vector<CoarseScore> looks = coarse_field_->score(scan, proposals);
-  poses_scored += looks.size();
+  // 1. Score every proposal coarsely with a few returns.
+  std::vector<CoarseScore> scores = coarse_field_->score(scan, proposals);
+  poses_scored += scores.size();
 
-  // 2. The best of each place, refined on some of the beams.
-  std::vector<RankedPose> poses = refineBest(scan, proposals, std::move(looks));
-  // Poses of one place that stopped apart stay rivals until all beams have judged them: which of
-  // them wins must not hang on where the proposals happened to lie.
+  // 2. Refine the best of each neighbourhood on some of the returns.
+  std::vector<RankedPose> poses = refineBest(scan, proposals, std::move(scores));
+  // Neighbouring poses that did not converge stay rivals until all returns have scored them. Which
+  // of them wins must not depend on where the proposals were.
   keepDistinct(poses, kFinalKept, kApartDistance);
 
-  // 3. The best of those, refined on more beams and judged by all of them.
+  // 3. Refine the best of those on more returns, and score them by all.
   const double promising = std::max(bestScore(poses), bestScore(before)) - kFinalLead;
   std::vector<TPose2D> refined;
   for (const RankedPose& pose : poses)
@@ -212,33 +221,35 @@ std::vector<RankedPose> DenseVerifier::rank(const DenseScan& scan,
   }
   keepDistinct(poses, max_ranked);
 
-  // 4. What may win or be the runner-up is settled on all beams.
+  // 4. Refine those that may win or be the runner-up on all returns.
   const DenseScan balanced = balancedScan(scan);
   const double contender = std::max(bestScore(poses), bestScore(before)) - kContender;
-  for (std::size_t k = 0; k < std::min(kSettled, poses.size()); ++k)
+  for (std::size_t k = 0; k < std::min(kFinallyRefined, poses.size()); ++k)
   {
     RankedPose& pose = poses[k];
     if (pose.evidence.score < contender) break;
-    settle(scan, balanced, pose);
+    refineFinally(scan, balanced, pose);
   }
   poses.insert(poses.end(), before.begin(), before.end());
   keepDistinct(poses, max_ranked);
   return poses;
 }
 
-/// Refines a pose on all beams. What all of them say of its place outweighs a small loss of score;
-/// the place still ranks by the better of the two.
-void DenseVerifier::settle(const DenseScan& scan, const DenseScan& balanced, RankedPose& pose) const
+/// Refines a pose on all returns. They fix it better than a small difference of the score does, so
+/// a small loss is accepted. The pose ranks by the better of the two scores.
+void DenseVerifier::refineFinally(const DenseScan& scan, const DenseScan& balanced,
+                                  RankedPose& pose) const
 {
   RankedPose settled;
-  settled.pose = refine(balanced, pose.pose, kSettleSteps, scan.size());
+  settled.pose = refine(balanced, pose.pose, kLastSteps, scan.size());
   settled.evidence = evaluate(scan, settled.pose, kRayBeams);
-  // Rays only lower a score: often the ends alone tell that the start is not better.
+  // Beams through walls only lower a score. So the returns alone often show that the start is not
+  // better.
   const double of_ends = pose.evidence.score + kThroughPenalty * pose.evidence.through_wall;
   if (settled.evidence.score < of_ends)
   {
     pose.evidence = evaluate(scan, pose.pose, kRayBeams);
-    if (settled.evidence.score < pose.evidence.score - kSettleLoss) return;
+    if (settled.evidence.score < pose.evidence.score - kLastLoss) return;
     if (settled.evidence.score < pose.evidence.score) settled.evidence = pose.evidence;
   }
   pose = settled;
@@ -246,21 +257,22 @@ void DenseVerifier::settle(const DenseScan& scan, const DenseScan& balanced, Ran
 
 std::vector<RankedPose> DenseVerifier::refineBest(const DenseScan& scan,
                                                   const std::vector<PoseProposal>& proposals,
-                                                  std::vector<CoarseScore> looks) const
+                                                  std::vector<CoarseScore> scores) const
 {
   const auto worse = [](const CoarseScore& a, const CoarseScore& b)
   { return a.score != b.score ? a.score < b.score : a.index > b.index; };
-  // Few are taken before there are enough: a heap sorts no more than those.
-  std::make_heap(looks.begin(), looks.end(), worse);
-  auto end = looks.end();
+  // Few are needed before enough are chosen, and a heap sorts no more than those.
+  std::make_heap(scores.begin(), scores.end(), worse);
+  auto end = scores.end();
   std::vector<TPose2D> places;
-  places.reserve(kQuickKept);
-  // By distance, not by cells of the map: moving the map must not change which ones are refined.
+  places.reserve(kCoarseKept);
+  // Neighbours are found by distance, not by cells of the map: moving the map must not change which
+  // poses are refined.
   TakenPoses taken;
-  for (std::size_t k = 0; k < kQuickSorted && end != looks.begin() && places.size() < kQuickKept;
+  for (std::size_t k = 0; k < kCoarseSorted && end != scores.begin() && places.size() < kCoarseKept;
        ++k)
   {
-    std::pop_heap(looks.begin(), end, worse);
+    std::pop_heap(scores.begin(), end, worse);
     const PoseProposal& p = proposals[(--end)->index];
     if (taken.holdsNear(p)) continue;
     taken.add(p);
@@ -276,7 +288,7 @@ std::vector<RankedPose> DenseVerifier::refineBest(const DenseScan& scan,
   return poses;
 }
 
-/// Mean of the fine and the coarse likelihood of the first `beams` returns.
+/// Returns the mean of the fine and the coarse likelihood of the first `beams` returns.
 double DenseVerifier::likelihood(const DenseScan& scan, const TPose2D& pose,
                                  std::size_t beams) const
 {
@@ -285,7 +297,7 @@ double DenseVerifier::likelihood(const DenseScan& scan, const TPose2D& pose,
   return 0.5 * static_cast<double>(sums.fine + sums.coarse) / static_cast<double>(count);
 }
 
-/// Sum over the returns.
+/// Returns the sum of the fine likelihood over the returns: F of eq. (6.13).
 double DenseVerifier::fineLikelihood(const DenseScan& scan, const TPose2D& pose) const
 {
   return static_cast<double>(sumsOfEnds(field_, scan, Placement(pose), scan.size()).fine);
@@ -332,7 +344,7 @@ DenseEvidence DenseVerifier::evaluate(const DenseScan& scan, const TPose2D& pose
   DenseEvidence evidence;
   if (scan.size() == 0) return evidence;
   const EndSums sums = sumsOfEnds(field_, scan, Placement(pose), scan.size());
-  // A lone return in free space is clutter, and says nothing.
+  // An isolated return in free space is a speck of clutter, and no evidence.
   const auto n = static_cast<double>(std::max<std::size_t>(1, scan.size() - sums.specks));
   evidence.fine = static_cast<double>(sums.fine) / n;
   evidence.coarse = static_cast<double>(sums.coarse) / n;

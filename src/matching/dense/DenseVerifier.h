@@ -19,13 +19,13 @@ struct CoarseScore;
 class CoarseField;
 class WallCrossings;
 
-/// Judges poses by the dense field. Never searches: every pose comes from a proposal and is refined
-/// in a few stages, by at most 0.5 m and 10 degrees each. Const and thread-safe. \cite algorithm
-/// section 6
+/// Scores and refines poses in the dense field. It never searches: every pose comes from a proposal
+/// and is refined in a few stages, by at most 0.5 m and 10 degrees each. Const and thread-safe.
+/// \cite algorithm section 6
 class DenseVerifier
 {
  public:
-  /// A pose that scores less than this behind the best may still win, or be its rival.
+  /// A pose may still win, or be the best rival, if it scores less than this below the best.
   static constexpr double kContender = 0.2;
 
   /// Keeps a reference to the field, which must outlive the verifier. Throws std::invalid_argument
@@ -34,32 +34,34 @@ class DenseVerifier
   ~DenseVerifier();
 
   /// Returns at most `max_ranked` distinct poses (more than 0.5 m or 17 degrees apart), best first.
-  /// `poses_scored` is increased by the number of poses looked up. Those that were ranked `before`
-  /// for the same scan compete with what the proposals lead to.
+  /// `poses_scored` is increased by the number of poses scored. Poses ranked `before` for the same
+  /// scan compete with those from the proposals. \cite algorithm section 6, "The cascade"
   std::vector<RankedPose> rank(const DenseScan& scan, const std::vector<PoseProposal>& proposals,
                                std::size_t max_ranked, std::uint64_t& poses_scored,
                                std::vector<RankedPose> before = {}) const;
 
-  /// Returns the pose moved to fit the returns, within 0.5 m and 10 degrees of the start, by
-  /// `steps` of iterated closest points on the first `beams` returns. \cite algorithm eq. (6.7)
+  /// Returns the pose refined by up to `steps` Gauss-Newton steps on the first `beams` returns. It
+  /// is the start where the refinement ends more than 0.5 m or 10 degrees away from it.
+  /// \cite algorithm eq. (6.4) to (6.7)
   mrpt::math::TPose2D refine(const DenseScan& scan, const mrpt::math::TPose2D& start, int steps,
                              std::size_t beams) const;
 
   /// Returns the full evidence for a pose. \cite algorithm eq. (6.8)
   DenseEvidence evaluate(const DenseScan& scan, const mrpt::math::TPose2D& pose) const;
 
-  /// Returns how far the map explains each return of the scan, in [0, 1]: as the score (6.8) does,
-  /// but with a sharper eye for where a wall is; of beams that pass walls only those of the 64
-  /// first returns count. \cite algorithm eq. (8.26)
+  /// Returns how far the map explains each return of the scan, in [0, 1], as the score (6.8) does.
+  /// A narrower likelihood is added, and only the first 64 returns are tested for passing through
+  /// walls. \cite algorithm section 8, "Weigh"
   std::vector<float> explainedReturns(const DenseScan& scan, const mrpt::math::TPose2D& pose) const;
 
-  /// Returns the 3x3 covariance of a refined pose [m^2, m rad, rad^2]: the returns' information
-  /// of 0.05 m each, tempered; the map's own error is not in it. \cite algorithm eq. (6.9)
+  /// Returns the 3x3 covariance of a refined pose [m^2, m rad, rad^2], from the tempered
+  /// information of the returns, with a sigma of 0.05 m each. It leaves out the map's own error.
+  /// \cite algorithm eq. (6.9)
   mrpt::math::CMatrixDouble33 covarianceAt(const DenseScan& scan,
                                            const mrpt::math::TPose2D& pose) const;
 
-  /// Returns the same, wider in the direction that is least known as far as the fit does not suffer
-  /// from a move that way. \cite algorithm eq. (6.13)
+  /// Returns the same covariance, but wider in the least certain direction where a move that way
+  /// does not make the fit worse. \cite algorithm eq. (6.13)
   mrpt::math::CMatrixDouble33 testedCovarianceAt(const DenseScan& scan,
                                                  const mrpt::math::TPose2D& pose) const;
 
@@ -68,10 +70,10 @@ class DenseVerifier
  private:
   std::vector<RankedPose> refineBest(const DenseScan& scan,
                                      const std::vector<PoseProposal>& proposals,
-                                     std::vector<CoarseScore> looks) const;
+                                     std::vector<CoarseScore> scores) const;
   void refineAll(const DenseScan& scan, std::vector<mrpt::math::TPose2D>& poses, int steps,
                  std::size_t beams, float least) const;
-  void settle(const DenseScan& scan, const DenseScan& balanced, RankedPose& pose) const;
+  void refineFinally(const DenseScan& scan, const DenseScan& balanced, RankedPose& pose) const;
   DenseEvidence evaluate(const DenseScan& scan, const mrpt::math::TPose2D& pose,
                          std::size_t rays) const;
   double likelihood(const DenseScan& scan, const mrpt::math::TPose2D& pose,

@@ -19,19 +19,19 @@ using mrpt::math::wrapToPi;
 namespace
 {
 constexpr double kSampleStep = 0.1;  // [m] along an observed wall
-constexpr double kExplained = 0.5;  // mean fine likelihood of what the map explains
-constexpr double kSameDirection = 0.2;  // [rad], of two pieces of one wall
-constexpr double kSameOffset = 0.2;  // [m]
-constexpr double kBend = 0.6;  // [rad], from one piece of a curved wall to the next
-constexpr double kJoint = 0.3;  // [m] between their ends
-constexpr std::uint32_t kCurveFacts = 3;  // a centre and a radius
-constexpr double kInside = 0.1;  // [m] before its end a wall must be mapped,
-constexpr double kBeyond = 0.3;  // [m] and beyond it, not
-constexpr double kOnWall = 0.13;  // [m], of a place on a mapped wall
-constexpr double kOffWall = 0.16;  // [m], of one that is not
+constexpr double kExplained = 0.5;  // fine likelihood from which the map explains a feature
+constexpr double kSameDirection = 0.2;  // [rad] between two pieces of one wall
+constexpr double kSameOffset = 0.2;  // [m] between two pieces of one wall
+constexpr double kBend = 0.6;  // [rad] from one piece of a curved wall to the next
+constexpr double kJoint = 0.3;  // [m] between the ends of two pieces of a curved wall
+constexpr std::uint32_t kCurveConstraints = 3;  // of a curved wall: a centre and a radius
+constexpr double kInside = 0.1;  // [m] before a wall end, where a wall must be mapped
+constexpr double kBeyond = 0.3;  // [m] beyond a wall end, where no wall may be mapped
+constexpr double kOnWall = 0.13;  // [m] from a mapped wall, within which a point is on it
+constexpr double kOffWall = 0.16;  // [m] from any mapped wall, beyond which a point is off walls
 }  // namespace
 
-/// Look-ups of places given in the robot frame.
+/// Look-up of points given in the robot frame.
 class ExplainedConstraints::PlacedField
 {
  public:
@@ -58,11 +58,11 @@ class ExplainedConstraints::PlacedField
   Placement place_;
 };
 
-/// Counts walls: pieces of one wall once, the pieces of a curved one as what it is made by.
+/// Counts walls: the pieces of one wall once, those of a curved wall kCurveConstraints at most.
 class ExplainedConstraints::WallCount
 {
  public:
-  /// Adds a wall; returns whether it tells something that those before it did not.
+  /// Adds a wall. Returns whether it is a further constraint, besides those of the walls before.
   bool add(const Wall& wall)
   {
     const auto is_known = [&](const Counted& other) { return isSameWall(wall, *other.wall); };
@@ -70,10 +70,10 @@ class ExplainedConstraints::WallCount
     const auto before =
         std::find_if(walls_.begin(), walls_.end(),
                      [&](const Counted& other) { return bendsOn(*other.wall, wall); });
-    const std::size_t curve = before != walls_.end() ? before->curve : facts_of_curve_.size();
-    if (curve == facts_of_curve_.size()) facts_of_curve_.push_back(0);
+    const std::size_t curve = before != walls_.end() ? before->curve : count_of_curve_.size();
+    if (curve == count_of_curve_.size()) count_of_curve_.push_back(0);
     walls_.push_back({&wall, curve});
-    return ++facts_of_curve_[curve] <= kCurveFacts;
+    return ++count_of_curve_[curve] <= kCurveConstraints;
   }
 
  private:
@@ -83,7 +83,7 @@ class ExplainedConstraints::WallCount
     std::size_t curve;
   };
   std::vector<Counted> walls_;
-  std::vector<std::uint32_t> facts_of_curve_;
+  std::vector<std::uint32_t> count_of_curve_;
 };
 
 ExplainedConstraints::ExplainedConstraints(const std::vector<Feature>& observed)
@@ -112,7 +112,7 @@ bool ExplainedConstraints::isSameWall(const Wall& a, const Wall& b)
          std::abs(wrapToPi(a.direction - b.direction)) < kSameDirection;
 }
 
-/// True for a piece that goes on where another ends, and bends less than a corner does.
+/// True for a piece that continues where another ends and bends less than a corner.
 bool ExplainedConstraints::bendsOn(const Wall& a, const Wall& b)
 {
   const double joint = std::min((a.end - b.start).norm(), (a.start - b.end).norm());
@@ -135,19 +135,19 @@ std::uint32_t ExplainedConstraints::explainedAt(const TPose2D& pose, const Dense
 {
   const PlacedField placed(field, pose);
   WallCount walls;
-  std::uint32_t facts = 0;
+  std::uint32_t explained = 0;
   for (const Wall& wall : walls_)
   {
-    if (isExplained(wall, placed)) facts += walls.add(wall);
+    if (isExplained(wall, placed)) explained += walls.add(wall);
   }
   for (const WallEnd& end : wall_ends_)
   {
-    facts += placed.distance(end.before) < kOnWall && placed.distance(end.beyond) > kOffWall;
+    explained += placed.distance(end.before) < kOnWall && placed.distance(end.beyond) > kOffWall;
   }
   for (const TPoint2D& circle : circles_)
   {
-    if (placed.likelihood(circle) > kExplained) facts += 2;
+    if (placed.likelihood(circle) > kExplained) explained += 2;
   }
-  return facts;
+  return explained;
 }
 }  // namespace sigloc

@@ -13,19 +13,19 @@
 
 namespace sigloc
 {
-/// What a scene's features say of the robot's place, made ready to be asked of many poses.
+/// The constraints on a pose that the features of a scene give, prepared for many poses.
 /// \cite algorithm eq. (7.5)
 class ExplainedConstraints
 {
  public:
   explicit ExplainedConstraints(const std::vector<Feature>& observed);
 
-  /// Returns how many independent facts the map explains when the robot stands at `pose`: a wall's
-  /// offset counts one, however many pieces of it are seen, a wall end one, a circle two.
+  /// Returns how many constraints the map explains when the robot is at `pose`. A wall counts one,
+  /// however many pieces of it are seen, a curved wall three at most, a wall end one, a circle two.
   std::uint32_t explainedAt(const mrpt::math::TPose2D& pose, const DenseField& field) const;
 
  private:
-  /// All places are in the robot frame.
+  /// All points are in the robot frame [m].
   struct Wall
   {
     double direction;  // [rad], of the normal
@@ -34,7 +34,7 @@ class ExplainedConstraints
   };
   struct WallEnd
   {
-    mrpt::math::TPoint2D before, beyond;  // the wall's own last stretch, and where nothing follows
+    mrpt::math::TPoint2D before, beyond;  // points before and beyond the end of the wall
   };
   class WallCount;
   class PlacedField;
@@ -45,6 +45,6 @@ class ExplainedConstraints
 
   std::vector<Wall> walls_;
   std::vector<WallEnd> wall_ends_;
-  std::vector<mrpt::math::TPoint2D> circles_;  // their nearest points
+  std::vector<mrpt::math::TPoint2D> circles_;  // points of the circles nearest to the robot
 };
 }  // namespace sigloc

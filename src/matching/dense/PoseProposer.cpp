@@ -14,13 +14,13 @@ using mrpt::math::wrapToPi;
 
 namespace
 {
-constexpr double kParallel = 0.35;  // [rad], walls closer than this tell the same
-constexpr double kMinPairDistance = 0.8;  // [m], shorter pairs give poor headings
-constexpr std::uint32_t kUsualProposals = 16384;  // room is made for at once
-constexpr double kRadiusTolerance = 0.3;  // [m], an observed radius is good to this only
+constexpr double kParallel = 0.35;  // [rad] between walls, below which one of them is enough
+constexpr double kMinPairDistance = 0.8;  // [m] of circles; shorter pairs give poor headings
+constexpr std::uint32_t kUsualProposals = 16384;  // for which memory is reserved
+constexpr double kRadiusTolerance = 0.3;  // [m] gate on the radius of an observed circle
 
-/// The pose that turns by `phi`, with cosine `c` and sine `s`, and carries a point of the robot
-/// frame to one of the map.
+/// Returns the pose with heading `phi` (cosine `c`, sine `s`) that maps a point of the robot frame
+/// to one of the map.
 PoseProposal poseCarrying(const TPoint2D& in_robot, const TPoint2D& in_map, double phi, double c,
                           double s)
 {
@@ -135,7 +135,7 @@ void PoseProposer::proposeWallEnds(const std::vector<Feature>& observed,
   }
 }
 
-/// The longest observed walls that tell different things.
+/// Returns the longest observed walls that differ in direction.
 std::vector<const Feature*> PoseProposer::wallsToSlide(const std::vector<Feature>& observed) const
 {
   std::vector<const Feature*> walls;
@@ -158,7 +158,8 @@ std::vector<const Feature*> PoseProposer::wallsToSlide(const std::vector<Feature
   return slid;
 }
 
-/// Lays an observed wall on every mapped one that is long enough, until there are `most` proposals.
+/// Slides an observed wall along every mapped one that is long enough, until there are `most`
+/// proposals. Eq. (4.9)
 void PoseProposer::slide(const Feature& wall, std::size_t most,
                          std::vector<PoseProposal>& out) const
 {
@@ -180,7 +181,7 @@ void PoseProposer::slide(const Feature& wall, std::size_t most,
     PoseProposal next = poseCarrying(wall.position, mapped.start + tangent * low, phi, c, s);
     const auto dx = static_cast<float>(tangent.x * step);
     const auto dy = static_cast<float>(tangent.y * step);
-    // Room first: what is pushed back keeps nothing in registers.
+    // Resized first, because the compiler keeps nothing in registers across push_back.
     const std::size_t size = out.size();
     out.resize(size + static_cast<std::size_t>(steps) + 1);
     for (auto to = out.begin() + static_cast<std::ptrdiff_t>(size); to != out.end(); ++to)
@@ -192,7 +193,7 @@ void PoseProposer::slide(const Feature& wall, std::size_t most,
   }
 }
 
-/// By the observed pairs from the `first` rarest to before the `last`.
+/// Proposes by pairs of observed circles, from the `first` rarest up to before the `last`.
 void PoseProposer::proposeCirclePairs(const std::vector<Feature>& observed, std::size_t first,
                                       std::size_t last, std::vector<PoseProposal>& out) const
 {

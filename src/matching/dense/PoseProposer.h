@@ -14,6 +14,7 @@
 
 namespace sigloc
 {
+/// How PoseProposer proposes. Units, ranges and meanings are in `visitFields`.
 struct PoseProposerOptions
 {
   std::uint32_t budget = 20000;
@@ -59,19 +60,21 @@ struct PoseProposerOptions
   }
 };
 
-/// Mode (e): poses from bases so small that their evidence alone would mean little, to be judged
-/// densely: one wall end, one wall slid along the mapped ones, or a rare pair of circles.
-/// Const and thread-safe. \cite algorithm eq. (4.8), (4.9)
+/// Mode (e): proposes poses from minimal sets of features, which the dense field then scores. A set
+/// is one wall end, one wall slid along the mapped ones, or a rare pair of circles.
+/// Const and thread-safe. \cite algorithm section 4 (e), eq. (4.8), (4.9)
 class PoseProposer
 {
  public:
+  /// Copies what it needs of the map. Throws std::invalid_argument for options outside their
+  /// ranges.
   explicit PoseProposer(const FeatureMap& map, const PoseProposerOptions& options = {});
 
-  /// Returns the poses proposed for observed features by bases enough for nearly every scene, the
-  /// most telling ones first, at most `budget` of them.
+  /// Returns the poses proposed for observed features: wall ends first, then circles, then slid
+  /// walls, at most `budget` poses. They are enough for nearly every scene.
   std::vector<PoseProposal> propose(const std::vector<Feature>& observed) const;
 
-  /// Returns those of further bases, for a scene that the first ones explain poorly, at most
+  /// Returns further poses for a scene that the first ones explain poorly, at most
   /// `thorough_budget` of them.
   std::vector<PoseProposal> proposeFurther(const std::vector<Feature>& observed) const;
 
@@ -80,24 +83,24 @@ class PoseProposer
   {
     mrpt::math::TPoint2D position;  // [m]
     double length;  // [m] of its wall
-    double direction;  // of its wall [rad]
-    double c, s;  // cosine and sine of it
+    double direction;  // [rad] of its wall
+    double c, s;  // cosine and sine of the direction
   };
   struct MappedWall
   {
-    double direction;  // normal [rad]
-    double c, s;  // cosine and sine of it
-    mrpt::math::TPoint2D start;  // of the linked wall [m]
+    double direction;  // [rad] of the normal
+    double c, s;  // cosine and sine of the direction
+    mrpt::math::TPoint2D start;  // [m] of the linked wall
     double length;  // [m]
   };
   struct CirclePair
   {
-    double distance;
-    std::uint32_t from, to;
+    double distance;  // [m]
+    std::uint32_t from, to;  // indices of the map features
     mrpt::math::TPoint2D middle;  // [m]
     double from_radius, to_radius;  // [m]
-    double bearing;  // of `to` from `from` [rad]
-    double c, s;  // cosine and sine of it
+    double bearing;  // [rad] of `to` from `from`
+    double c, s;  // cosine and sine of the bearing
   };
 
   void proposeWallEnds(const std::vector<Feature>& observed, std::vector<PoseProposal>& out) const;

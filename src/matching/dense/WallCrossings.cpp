@@ -17,11 +17,12 @@ using mrpt::math::TPose2D;
 
 namespace
 {
-constexpr float kMargin = 0.4F;  // [m] before its end a beam must be clear of walls
-constexpr float kBeyondRim = 0.7F;  // [cells] on from the rim; a grazed cell is no wall
-constexpr float kTiny = 1e-6F;
+constexpr float kMargin = 0.4F;  // [m] before its end, up to which a beam is tested, eq. (6.8)
+constexpr float kBeyondRim = 0.7F;  // [cells] added to each step; a grazed cell is no wall
+constexpr float kTiny = 1e-6F;  // [cells] avoids a division by zero
 
-/// Chessboard distance [cells] to the nearest zero cell, in two passes, exact up to 255.
+/// Computes the chessboard distance [cells] to the nearest zero cell, in two passes, exact up to
+/// 255.
 void spreadRings(std::vector<std::uint8_t>& rings, std::uint32_t width, std::uint32_t height)
 {
   const auto relax = [&](std::size_t cell, std::size_t neighbour)
@@ -59,18 +60,18 @@ void spreadRings(std::vector<std::uint8_t>& rings, std::uint32_t width, std::uin
 
 constexpr std::size_t kRays = WallCrossings::kRays;
 
-/// In cells of the frame, from its origin.
+/// Beams in cells of the frame, from its origin.
 struct Rays
 {
   std::size_t count;  // a multiple of eight
   std::array<float, kRays> x, y;
   std::array<float, kRays> dx, dy;  // unit vectors
-  std::array<float, kRays> start, length;  // of what of them lies in the frame
-  std::array<float, kRays> per_column, per_row;  // length that leads on by one, signed
+  std::array<float, kRays> start, length;  // along the ray: where its part in the frame is
+  std::array<float, kRays> per_column, per_row;  // signed length of the ray per column and row
 };
 
-/// The `count` beams from `first` on, up to the margin before their ends, as far as they lie in the
-/// frame; those that fill up the last eight have no length.
+/// Returns the `count` beams from `first` on, up to the margin before their ends and within the
+/// frame. Rays that fill up the last eight have no length.
 Rays raysOf(const RasterFrame& frame, const DenseScan& scan, const Placement& place,
             std::size_t first, std::size_t count)
 {
@@ -103,7 +104,7 @@ Rays raysOf(const RasterFrame& frame, const DenseScan& scan, const Placement& pl
     rays.dy[i] /= length;
     rays.per_column[i] = 1.0F / (rays.dx[i] + std::copysign(kTiny, rays.dx[i]));
     rays.per_row[i] = 1.0F / (rays.dy[i] + std::copysign(kTiny, rays.dy[i]));
-    // However far a beam goes, beyond the frame it meets nothing.
+    // Beyond the frame a beam meets nothing.
     const float left = -rays.x[i] * rays.per_column[i];
     const float right = (width - rays.x[i]) * rays.per_column[i];
     const float bottom = -rays.y[i] * rays.per_row[i];
@@ -115,8 +116,8 @@ Rays raysOf(const RasterFrame& frame, const DenseScan& scan, const Placement& pl
   return rays;
 }
 
-/// Tells of eight rays that have come `along` [cells] how many rings of cells around them are
-/// clear, and how far they may go on: to the rim of those, and a little beyond.
+/// Finds, for eight rays that have advanced by `along` [cells], how many rings of cells around them
+/// are clear. Also finds how far they may go on: to the rim of those, and a little beyond.
 inline void lookAround(const RasterFrame& frame, const std::uint8_t* clear_rings, const Rays& rays,
                        std::size_t first, const WideFloat& along, WideInt& rings, WideFloat& clear)
 {
@@ -158,7 +159,7 @@ WallCrossings::WallCrossings(const DenseField& field) : frame_(field.frame)
     clear_rings_.push_back(cell.state == CellState::solid_wall ? 0 : 255);
   }
   spreadRings(clear_rings_, frame_.width, frame_.height);
-  // Outside nothing is near but what may be just inside.
+  // A wall just inside the frame may be near, so the cell outside has one clear ring.
   clear_rings_.push_back(1);
 }
 
@@ -182,8 +183,9 @@ std::uint64_t WallCrossings::throughBits(const DenseScan& scan, const TPose2D& p
   return crossings(scan, Placement(pose), 0, std::min({beams, kRays, scan.size()}));
 }
 
-/// Which of the beams meet a solid wall. They advance eight at a time, and the eights in turns: a
-/// ray's next look-up waits for its last, those of different rays don't wait for each other.
+/// Returns which of the beams meet a solid wall, as bits. They advance eight at a time, and the
+/// groups of eight in turn. A ray's next look-up waits for its last one, but not for those of other
+/// rays.
 SIGLOC_WIDE_VECTORS std::uint64_t WallCrossings::crossings(const DenseScan& scan,
                                                            const Placement& place,
                                                            std::size_t first,
@@ -192,8 +194,8 @@ SIGLOC_WIDE_VECTORS std::uint64_t WallCrossings::crossings(const DenseScan& scan
   struct Eight
   {
     std::size_t first;
-    WideFloat along;  // [cells] that they have come
-    WideInt under_way;  // all bits of those that are
+    WideFloat along;  // [cells] by which they have advanced
+    WideInt under_way;  // all bits set for those that still advance
   };
   const Rays rays = raysOf(frame_, scan, place, first, count);
   std::array<Eight, kRays / kWideFloats> eights;
@@ -205,7 +207,7 @@ SIGLOC_WIDE_VECTORS std::uint64_t WallCrossings::crossings(const DenseScan& scan
     loadWide(&rays.length[i], kWideFloats, length);
     eights[advancing++] = {i, start, start < length};
   }
-  std::array<WideInt, kRays / kWideFloats> crossed{};  // all bits of those that do
+  std::array<WideInt, kRays / kWideFloats> crossed{};  // all bits set for those that meet a wall
   while (advancing > 0)
   {
     std::size_t kept = 0;
@@ -220,7 +222,7 @@ SIGLOC_WIDE_VECTORS std::uint64_t WallCrossings::crossings(const DenseScan& scan
       loadWide(&rays.length[eight.first], kWideFloats, length);
       eight.along += clear;
       crossed[eight.first / kWideFloats] |= eight.under_way & (rings == 0);
-      // A ray so far away that a step is lost in rounding gets no farther.
+      // A ray stops where it is so far away that a step is lost in rounding.
       eight.under_way &= (rings != 0) & (eight.along < length) & (eight.along > before);
       eights[kept] = eight;
       kept += anyOf(eight.under_way) ? 1 : 0;

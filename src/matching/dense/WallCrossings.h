@@ -14,20 +14,21 @@ namespace sigloc
 {
 struct Placement;
 
-/// Tells which beams pass through walls that no beam goes through. Const and thread-safe.
+/// The ray crossing test: finds the beams that pass through solid walls. Const and thread-safe.
+/// \cite algorithm eq. (6.2), (6.8)
 class WallCrossings
 {
  public:
-  static constexpr std::size_t kRays = 64;  ///< beams that are followed at a time
+  static constexpr std::size_t kRays = 64;  ///< beams that are tested at a time
 
   explicit WallCrossings(const DenseField& field);
 
-  /// Returns the share of the first `beams` of a scan that pass a solid wall more than 0.4 m before
-  /// their end when the robot stands at `pose`. \cite algorithm eq. (6.8)
+  /// Returns the share, in [0, 1], of the first `beams` of a scan that pass a solid wall more than
+  /// 0.4 m before their end when the robot is at `pose`. \cite algorithm eq. (6.8)
   double throughShare(const DenseScan& scan, const mrpt::math::TPose2D& pose,
                       std::size_t beams) const;
 
-  /// Tells of the first `beams` <= kRays which ones do: bit i is set for the i-th.
+  /// Returns which of the first `beams` <= kRays do so: bit i is set for the i-th.
   std::uint64_t throughBits(const DenseScan& scan, const mrpt::math::TPose2D& pose,
                             std::size_t beams) const;
 
@@ -36,8 +37,8 @@ class WallCrossings
                           std::size_t count) const;
 
   RasterFrame frame_;
-  /// Rings of cells around each one that hold no solid wall, 0: it holds one itself. One more at
-  /// the end stands for all that lies outside of the frame.
+  /// Number of rings of cells around each cell without a solid wall; 0 for a solid wall itself. One
+  /// more element at the end is for all cells outside the frame.
   std::vector<std::uint8_t> clear_rings_;
 };
 }  // namespace sigloc

@@ -11,11 +11,11 @@ using mrpt::math::TPose2D;
 
 namespace
 {
-constexpr double kReach = 8.0;  // [m]
-constexpr double kNearest = 0.5;  // [m], nearer is the robot's own place
-constexpr double kSpacing = 0.3;  // [m]
-constexpr double kWall = 0.2;  // [m], a wall is so near that no sample steps over it
-constexpr double kClear = 0.5;  // [m]
+constexpr double kReach = 8.0;  // [m] from the robot, farthest point
+constexpr double kNearest = 0.5;  // [m] from the robot, within which points are its own position
+constexpr double kSpacing = 0.3;  // [m] between samples
+constexpr double kWall = 0.2;  // [m] to a wall, small enough that samples do not step over one
+constexpr double kClear = 0.5;  // [m] to any wall, least distance of a point in free space
 
 bool differ(const DenseCell& a, const DenseCell& b)
 {

@@ -11,10 +11,10 @@
 
 namespace sigloc
 {
-/// Returns where to look to tell two poses apart: the place nearest to the robot, in its own frame
-/// [m] and 0.5 m to 8 m away, behind walls or not, where the map has a wall from one pose and
-/// nothing but known free space within 0.5 m from the other. None where the map looks the same
-/// around both. Samples 0.3 m apart.
+/// Returns the nearest point that distinguishes two poses, in the robot frame [m], 0.5 m to 8 m
+/// away, behind walls or not. There the map has a wall for one pose. For the other it has nothing
+/// but known free space within 0.5 m. Returns none where the map is the same around both. Points
+/// are sampled 0.3 m apart. \cite algorithm section 8, "Publish"
 std::optional<mrpt::math::TPoint2D> distinguishingPlace(const DenseField& field,
                                                         const mrpt::math::TPose2D& a,
                                                         const mrpt::math::TPose2D& b);

@@ -6,10 +6,11 @@
 
 namespace sigloc
 {
-/// Likelihood of a return at each distance byte of a dense cell.
+/// Likelihood in [0, 1] of a return, for each distance byte of a dense cell.
+/// \cite algorithm eq. (6.3)
 using LikelihoodTable = std::array<float, 256>;
 
-/// Of a return 0.12 m (fine) or 0.25 m (coarse) wide.
+/// Returns the table for a sigma of 0.12 m (fine) or 0.25 m (coarse).
 const LikelihoodTable& fineTable();
 const LikelihoodTable& coarseTable();
 }  // namespace sigloc

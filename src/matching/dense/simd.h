@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <cstring>
 
-/// Before a function: it is compiled twice, and the form for wide vectors is taken where the
+/// Placed before a function, this compiles it twice. The form for wide vectors runs where the
 /// processor has them. Everything called in its loops is inlined into both forms.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
     !defined(__SANITIZE_ADDRESS__)
@@ -20,15 +20,15 @@ namespace sigloc
 {
 constexpr std::size_t kWideFloats = 8;
 
-/// Eight floats that are worked on together, by as many instructions as the processor needs: sums
-/// come out the same, bit for bit, whether it takes four at once or eight.
+/// Eight floats that are processed together, by as many instructions as the processor needs. Sums
+/// are the same, bit for bit, whether it processes four at once or eight.
 using WideFloat = float __attribute__((vector_size(kWideFloats * sizeof(float))));
 
-/// And eight integers. A comparison of two of either kind gives -1 where it holds, 0 elsewhere.
+/// Eight integers. A comparison of two wide values gives -1 where it is true, 0 elsewhere.
 using WideInt = std::int32_t __attribute__((vector_size(kWideFloats * sizeof(std::int32_t))));
 
-/// Reads the first n <= 8 of them; the others become 0. Into an argument, because how a wide vector
-/// is returned hangs on the instructions that a function is compiled for.
+/// Reads the first n <= 8 floats; the others become 0. The result is an argument, because the way a
+/// wide vector is returned depends on the instructions that a function is compiled for.
 inline void loadWide(const float* from, std::size_t n, WideFloat& to)
 {
   if (n == kWideFloats)
@@ -45,7 +45,7 @@ inline float sumOf(const WideFloat& v)
   return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));
 }
 
-/// Whether any of them is not 0.
+/// Returns whether any of them is not 0.
 inline bool anyOf(const WideInt& v)
 {
   std::array<std::uint64_t, sizeof(v) / sizeof(std::uint64_t)> pairs;
