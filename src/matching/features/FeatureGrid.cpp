@@ -17,7 +17,7 @@ FeatureGrid::FeatureGrid(const std::vector<Feature>& features)
     high = {std::max(high.x, feature.position.x), std::max(high.y, feature.position.y)};
   }
   origin_ = (low + high) * 0.5;
-  // About one feature a cell; bounded, because outliers may blow up the bounding box.
+  // About one feature a cell. The size is bounded, because outliers may enlarge the bounding box.
   const double area = (high.x - low.x) * (high.y - low.y);
   constexpr double kSmallestCell = 0.5;  // [m]
   constexpr double kLargestCell = 4.0;  // [m]

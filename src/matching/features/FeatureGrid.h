@@ -11,21 +11,21 @@
 
 namespace sigloc
 {
-/// A spatial hash over map features: which lie near a place. The plane is cut into square cells
-/// that are folded onto a table of fixed size, so that neighbouring cells are neighbours in memory
-/// and far-off features cost nothing. Segments are entered in every cell along them.
+/// A spatial hash that finds the map features near a point. The plane is divided into square cells,
+/// which are folded onto a table of fixed size. So neighbouring cells are neighbours in memory, and
+/// distant features cost nothing. A segment is in every cell along it.
 class FeatureGrid
 {
  public:
   explicit FeatureGrid(const std::vector<Feature>& features);
 
-  /// Calls visit(index) for every feature of the type within `radius` [m] of the place (a segment:
-  /// with a sample point within radius + cell), perhaps more than once for segments.
+  /// Calls visit(index) for every feature of the type within `radius` [m] of the place. For a
+  /// segment, a sample point must be within radius + cell, and it may be visited more than once.
   template <class Visit>
   void visitNear(const mrpt::math::TPoint2D& place, double radius, FeatureType type,
                  Visit&& visit) const;
 
-  /// Asks for the memory of the place's cell ahead of a visit.
+  /// Prefetches the memory of the place's cell before a visit.
   void prefetch(const mrpt::math::TPoint2D& place) const
   {
     __builtin_prefetch(&starts_[slotOf(cellOf(place.x - origin_.x), cellOf(place.y - origin_.y))]);
@@ -72,7 +72,7 @@ void FeatureGrid::visitNear(const mrpt::math::TPoint2D& place, double radius, Fe
   const double squared_reach = reach * reach * (1 + 1e-6);
   const std::int64_t ix0 = cellOf(x - reach);
   const std::int64_t iy0 = cellOf(y - reach);
-  // A reach beyond the table would come round to the same slots again.
+  // A reach beyond the table would wrap around to the same slots.
   const std::int64_t ix1 =
       std::min(cellOf(x + reach), ix0 + static_cast<std::int64_t>(column_mask_));
   const std::int64_t iy1 = std::min(cellOf(y + reach), iy0 + static_cast<std::int64_t>(row_mask_));

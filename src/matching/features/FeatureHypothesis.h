@@ -16,10 +16,10 @@ struct FeatureHypothesis
 {
   GaussianPose pose;
   std::vector<FeaturePairing> pairings;
-  std::uint32_t support = 0;  ///< pairings that count: a corner does not beside its own wall
+  std::uint32_t support = 0;  ///< pairings that count: not a corner whose wall is paired
   double log_odds = 0;  ///< against "all clutter", \cite algorithm eq. (5.10)
-  /// How many hypotheses with this support are expected by chance among all bases retrieved: below
-  /// `GeneratorOptions::significance` chance is refuted. \cite algorithm eq. (5.12)
+  /// Expected number of hypotheses with this support by chance among all bases retrieved. Below
+  /// `GeneratorOptions::significance` the hypothesis is significant. \cite algorithm eq. (5.12)
   double chance = 1;
 };
 

@@ -17,9 +17,9 @@ using mrpt::math::TPoint2D;
 namespace
 {
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-constexpr int kTabulatedDegrees = 200;
-constexpr double kGiveUp = -2.3;  // log of Wald's lower bound: gives up 10 % of good bases at most
-constexpr double kWorthKeeping = 0.6;  // share of the best support a rival must reach
+constexpr int kTabulatedDegrees = 200;  // degrees of freedom whose gates are tabulated
+constexpr double kGiveUp = -2.3;  // ln 0.1, Wald's lower bound of the log-odds, eq. (5.7)
+constexpr double kWorthKeeping = 0.6;  // share of the best support that a rival must reach
 
 bool contains(const std::vector<FeaturePairing>& pairings, std::uint32_t mapped)
 {
@@ -39,8 +39,8 @@ bool samePairings(const std::vector<FeaturePairing>& a, const std::vector<Featur
   return a.size() == b.size() && std::all_of(a.begin(), a.end(), in_b);
 }
 
-/// Largest variance [m^2] along any direction. Asked for every feature at every pose, where
-/// std::hypot would guard against an overflow that cannot come.
+/// Returns the largest variance [m^2] along any direction. It is computed for every feature at
+/// every pose, so it avoids std::hypot, which guards against an overflow that cannot occur here.
 double largestVariance(double xx, double xy, double yy)
 {
   const double half = 0.5 * (xx - yy);
@@ -61,7 +61,7 @@ struct FeatureVerifier::Filter
   PoseEstimate pose;
   double joint_distance = 0;  ///< running sum of the normalised innovations
   int joint_degrees = 0;
-  TPoint2D base_place;  ///< [m] robot frame, from where the map's relative error is counted
+  TPoint2D base_place;  ///< [m] robot frame, origin of the map's relative error
 };
 
 FeatureVerifier::FeatureVerifier(std::shared_ptr<const PreparedMap> map,
@@ -108,7 +108,7 @@ bool FeatureVerifier::gatePairing(const PreparedScene& scene, std::uint32_t q, s
   if (!unaryCompatible(observed, mapped, gates_.scalar)) return false;
   if (isSegment(observed.type()))
   {
-    // The extension constraint: the placed piece lies on its mapped wall, at least in part.
+    // The extension constraint (3.12): at least a part of the placed piece lies on its mapped wall.
     const TPoint2D tangent = mapped.tangent();
     const double along = tangent.x * tangent.x * pose.covariance.xx +
                          2 * tangent.x * tangent.y * pose.covariance.xy +
@@ -135,8 +135,8 @@ void FeatureVerifier::visitCandidates(const PreparedScene& scene, std::uint32_t 
   const TPoint2D arm = pose.turn(observed.position());
   const Symmetric3& p = pose.covariance;
   const auto& own = observed.feature->position_covariance;
-  // The longest half axis of the gate around the predicted place: of the pose's part exactly, of
-  // the features' parts bounded by their traces.
+  // The longest half axis of the gate around the predicted place: an upper bound by the sum of the
+  // largest variances of the pose's and the features' parts.
   const double xx = p.xx - 2 * arm.y * p.xt + arm.y * arm.y * p.tt;
   const double xy = p.xy + arm.x * p.xt - arm.y * p.yt - arm.x * arm.y * p.tt;
   const double yy = p.yy + 2 * arm.x * p.yt + arm.x * arm.x * p.tt;
@@ -149,7 +149,7 @@ void FeatureVerifier::visitCandidates(const PreparedScene& scene, std::uint32_t 
     map_->grid().visitNear({pose.x + arm.x, pose.y + arm.y}, radius, type, visit);
     return;
   }
-  // A wall is entered along its length: look along the observed piece as well.
+  // The grid has samples along a mapped wall, so the search is along the observed piece as well.
   const double step = 2 * map_->grid().cellSize();
   const auto pieces = 1 + static_cast<int>(observed.length() / step);
   const TPoint2D tangent = pose.turn(observed.tangent());
@@ -204,7 +204,7 @@ std::uint32_t FeatureVerifier::bestCandidate(const PreparedScene& scene,
   else
   {
     visitCandidates(scene, q, filter.pose, relative, consider);
-    checks = std::max<std::uint64_t>(checks, 1);  // looking at an empty place is work as well
+    checks = std::max<std::uint64_t>(checks, 1);  // a search without candidates is work as well
   }
   counters.checks += checks;
   return best;
@@ -343,14 +343,14 @@ void FeatureVerifier::verify(const PreparedScene& scene, const CandidateLists* l
   const auto rival = static_cast<std::uint32_t>(kWorthKeeping * found.bestSupport());
   const std::uint32_t needed = lists ? wanted : std::max(wanted, rival);
 
-  // 1. Grow the base feature by feature, each gate sharper than the last: eq. (5.5) to (5.7).
+  // 1. Grow the base feature by feature, with ever tighter gates: eq. (5.5) to (5.7).
   Filter filter;
   filter.pose = base.pose;
   filter.base_place = scene.views[base.pairings.front().observed].position();
   if (!associate(scene, lists, needed, workspace, filter, counters)) return;
 
-  // 2. Refit on all pairings and recount with the tight gates of the refitted pose, twice, so that
-  // what the base's error excluded comes in and what it let in goes out: eq. (5.8).
+  // 2. Refit on all pairings and recount with the tight gates of the refitted pose, twice. This
+  // adds what the base's error excluded, and removes what it let in: eq. (5.8).
   PoseEstimate pose = filter.pose;
   constexpr int kRecounts = 2;
   for (int fits = 0; fits <= kRecounts; ++fits)

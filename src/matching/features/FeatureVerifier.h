@@ -13,21 +13,23 @@
 
 namespace sigloc
 {
-/// The pairings a hypothesis starts from and the pose they fix.
+/// The pairings that a hypothesis starts from, and the pose that they fix.
 struct HypothesisBase
 {
   std::vector<FeaturePairing> pairings;
   PoseEstimate pose;
 };
 
-/// For every observed feature, the map features it may be: the lists L_q of the plain mode.
+/// For every observed feature, the map features that it may be: the lists L_q of the plain mode,
+/// \cite algorithm eq. (4.1).
 using CandidateLists = std::vector<std::vector<std::uint32_t>>;
 
-/// Verifies pose hypotheses from features alone: a sequential Kalman filter over the observed
-/// features, nearest to the base first, with location-dependent gates, extension, one-to-one
-/// pairing and joint compatibility; then least squares, a recount with tight gates, and log-odds.
+/// Verifies pose hypotheses by features alone. A sequential Kalman filter pairs the observed
+/// features, nearest to the base first. Pairings pass location-dependent gates, extension and joint
+/// compatibility, and are one to one. Least squares, a recount with tight gates and log-odds
+/// follow. \cite algorithm section 5
 ///
-/// Const and thread-safe; what changes lives in a Workspace, one a query.
+/// Const and thread-safe. Each query has its own Workspace for what changes.
 class FeatureVerifier
 {
  public:
@@ -48,31 +50,32 @@ class FeatureVerifier
     std::vector<Match> matches;
   };
 
-  /// Turns two pairings into a base with its pose. False when they fix none.
+  /// Turns two pairings into a base with its pose. Returns false when they fix no pose.
+  /// \cite algorithm eq. (5.1) to (5.4)
   bool makeBase(const PreparedScene& scene, const FeaturePairing& first,
                 const FeaturePairing& second, HypothesisBase& base,
                 MatchingCounters& counters) const;
 
-  /// Verifies workspace.base and adds what it grows into to `found`. With `lists` the partners are
-  /// sought there and nothing is given up early (the plain mode); otherwise near the predicted
-  /// place in the spatial hash, until a sequential test finds the base worthless.
+  /// Verifies workspace.base and adds the hypothesis that grows from it to `found`. With `lists`
+  /// (the plain mode) partners come from there, and no base is given up early. Otherwise they come
+  /// from the spatial hash near the predicted place, and a sequential test may give the base up.
+  /// \cite algorithm eq. (5.5) to (5.11)
   void verify(const PreparedScene& scene, const CandidateLists* lists, HypothesisSet& found,
               Workspace& workspace, MatchingCounters& counters) const;
 
-  /// Expected number of hypotheses of this support among `bases` retrieved by chance, each base
-  /// of `base_size` features. \cite algorithm eq. (5.12)
+  /// Returns the expected number of hypotheses with this support by chance among `bases` retrieved,
+  /// each of `base_size` features. \cite algorithm eq. (5.12)
   static double expectedByChance(const PreparedScene& scene, std::uint32_t support,
                                  std::uint32_t base_size, std::uint64_t bases);
 
-  /// Returns the map features that observed feature q may be at an estimated pose: all that pass
-  /// the unary and the location-dependent gates, eq. (3.1) and (3.9) to (3.12), the pose's
-  /// covariance included. `relative_sigma` [m] is the map's own error over the distance in
-  /// question.
+  /// Returns the map features that observed feature q may be at an estimated pose with covariance:
+  /// all that pass the unary and the location-dependent gates. `relative_sigma` [m] is the map's
+  /// own error over the distance in question. \cite algorithm eq. (3.1), (3.9) to (3.12)
   std::vector<Workspace::Match> compatibleAt(const PreparedScene& scene, std::uint32_t q,
                                              const PoseEstimate& pose, double relative_sigma) const;
 
-  /// What the normalised innovations of jointly compatible pairings stay below, \cite algorithm
-  /// eq. (5.6).
+  /// Upper bound of the summed normalised innovations of jointly compatible pairings.
+  /// \cite algorithm eq. (5.6)
   double jointGate(int degrees) const { return chi_square_(degrees); }
 
   const PreparedMap& map() const { return *map_; }

@@ -6,7 +6,8 @@
 
 namespace sigloc
 {
-/// How hypotheses are generated and verified from features alone: modes (a) to (d).
+/// How hypotheses are generated and verified by features alone: modes (a) to (d). Units, ranges and
+/// meanings are in `visitFields`. \cite algorithm sections 4 and 5
 struct GeneratorOptions
 {
   double gate_probability = 0.995;

@@ -13,8 +13,8 @@ namespace sigloc
 namespace
 {
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-constexpr std::size_t kMostItems = 4096;  // then the worse half is dropped
-constexpr std::int64_t kHeadingCells = 21;  // of at least kSamePlaceAngle
+constexpr std::size_t kMostItems = 4096;  // hypotheses kept; with more the worse half is dropped
+constexpr std::int64_t kHeadingCells = 21;  // of the grid, each at least kSamePlaceAngle
 
 bool ranksBefore(const FeatureHypothesis& a, const FeatureHypothesis& b)
 {
@@ -86,8 +86,8 @@ void HypothesisSet::add(FeatureHypothesis hypothesis)
       if (!ranksBefore(hypothesis, other)) return;
     }
   }
-  // Worse ones at the same place stay until the ranking drops them: they may be the only ones
-  // standing where the new one does not reach.
+  // Worse ones near the new one stay until the ranking drops them. One may be the only hypothesis
+  // near a pose that the new one is not near.
   items_.push_back({std::move(hypothesis), {}});
   enterCells(static_cast<std::uint32_t>(items_.size() - 1));
   if (items_.size() > kMostItems) prune();

@@ -11,24 +11,24 @@
 
 namespace sigloc
 {
-/// Verified hypotheses gathered during one query, equal poses merged through a hash grid of poses:
-/// of several at one place the best stays. \cite algorithm eq. (5.13)
+/// The verified hypotheses of one query. A hash grid of poses finds equal poses, of which the best
+/// stays. \cite algorithm eq. (5.13)
 class HypothesisSet
 {
  public:
   explicit HypothesisSet(std::size_t observed_count) : observed_count_(observed_count) {}
 
-  /// Adds a hypothesis unless a better one stands at the same place.
+  /// Adds a hypothesis unless there is a better one within 0.5 m and 17 degrees.
   void add(FeatureHypothesis hypothesis);
 
-  /// True when a hypothesis already holds both pairings: verifying the base again is no news.
+  /// True when a hypothesis already has both pairings, so that the base need not be verified.
   bool explains(const FeaturePairing& first, const FeaturePairing& second) const;
 
   std::uint32_t bestSupport() const { return best_support_; }
   /// The best so far by log-odds, or nullptr.
   const FeatureHypothesis* best() const;
 
-  /// Returns the best `count`, best first, mutually apart; ties ordered by pose.
+  /// Returns the best `count` distinct hypotheses, best first. Ties are ordered by the pose.
   std::vector<FeatureHypothesis> ranked(std::size_t count) const;
 
  private:

@@ -23,7 +23,8 @@ void* allocateTable(std::size_t bytes)
   void* table = std::aligned_alloc(kLargePage, rounded);
   if (!table) throw std::bad_alloc();
 #ifdef __linux__
-  // Advice only: small pages serve as well, slower. The rest of the last large one is not wanted.
+  // Advice only: small pages work too, but slower. The unused part of the last large page is left
+  // out.
   madvise(table, bytes / kLargePage * kLargePage, MADV_HUGEPAGE);
 #endif
   return table;

@@ -7,8 +7,8 @@
 
 namespace sigloc
 {
-/// Returns memory for a table that is read at random places, on large pages where the system has
-/// them: else most of the time goes into finding the pages. Throws std::bad_alloc.
+/// Returns memory for a table with random access, on large pages where the system has them.
+/// On small pages, finding the pages would take most of the time. Throws std::bad_alloc.
 void* allocateTable(std::size_t bytes);
 void freeTable(void* table) noexcept;
 
@@ -28,7 +28,7 @@ struct TableAllocator
   friend bool operator!=(const TableAllocator& /*a*/, const TableAllocator& /*b*/) { return false; }
 };
 
-/// A vector for large tables that are read at random places.
+/// A vector for large tables with random access.
 template <class T>
 using LargeVector = std::vector<T, TableAllocator<T>>;
 }  // namespace sigloc

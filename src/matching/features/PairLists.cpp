@@ -32,7 +32,7 @@ bool extentsCross(const DirectedFeature& a, const DirectedFeature& b)
   return !separates(a, b) && !separates(b, a);
 }
 
-/// Closest distance between the mapped pieces themselves.
+/// Returns the shortest distance [m] between the mapped pieces themselves.
 double distanceBetween(const DirectedFeature& a, const DirectedFeature& b)
 {
   if (extentsCross(a, b)) return 0;
@@ -50,7 +50,7 @@ double distanceBetween(const DirectedFeature& a, const DirectedFeature& b)
   return best;
 }
 
-/// Indices of the features within the cut-off of feature k, without k, ascending.
+/// Gathers the indices of the features within the cut-off of feature k, without k, ascending.
 void gatherNeighbours(const PreparedMap& map, std::size_t k, double cut_off,
                       std::vector<std::uint32_t>& neighbours)
 {
@@ -111,7 +111,7 @@ double PairLists::cutOffFor(const PreparedMap& map, const GeneratorOptions& opti
 {
   const double by_range = options.effective_range > 0 ? 2 * options.effective_range : kUncut;
   if (map.size() <= options.max_neighbours + 1) return by_range;
-  // The distance within which the wanted number of neighbours lies, over a sample of features.
+  // The distance within which the wanted number of neighbours is, over a sample of features.
   constexpr std::size_t kSamples = 64;
   const std::size_t samples = std::min(kSamples, map.size());
   std::vector<float> distances;

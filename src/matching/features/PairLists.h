@@ -14,9 +14,9 @@
 
 namespace sigloc
 {
-/// The binary constraints of every map signature, sorted: B_k, for each feature k its neighbours
-/// of each type by the pair's key. Neighbours are those within a cut-off between extents; the
-/// plain mode takes all.
+/// The binary constraints B_k of every map signature: for each feature k its neighbours of each
+/// type, sorted by the key of the pair. Neighbours are features within a cut-off between extents;
+/// the plain mode has no cut-off. \cite algorithm eq. (3.3), (4.1)
 class PairLists
 {
  public:
@@ -24,18 +24,20 @@ class PairLists
 
   PairLists(const PreparedMap& map, double cut_off);
 
-  /// The cut-off [m] that leaves `neighbours` on average, or twice the effective range if nearer.
+  /// Returns the cut-off [m] that leaves `max_neighbours` on average, or twice the effective range
+  /// if that is less. \cite algorithm section 4 (b)
   static double cutOffFor(const PreparedMap& map, const GeneratorOptions& options);
 
   double cutOff() const { return cut_off_; }
 
-  /// Calls visit(l) for every l of the second feature's type whose b_kl is within the gate of the
-  /// observed b_ij: the list L_j(i, k) before its unary filter. Found by binary search.
+  /// Calls visit(l) for every l of the type `second` whose b_kl is within `tolerance` of the
+  /// observed b_ij. This is the list L_j(i, k) before its unary filter, found by binary search.
+  /// \cite algorithm eq. (4.1)
   template <class Visit>
   void visit(std::size_t k, const BinaryKey& observed, FeatureType second, double tolerance,
              Visit&& visit) const;
 
-  /// Calls visit(key, k, l) for all neighbours of k.
+  /// Calls visit(key, l) for all neighbours l of k.
   template <class Visit>
   void visitAll(std::size_t k, Visit&& visit) const
   {
@@ -45,7 +47,8 @@ class PairLists
     }
   }
 
-  /// Largest variance of a mapped key for a pair of types: what the gates must allow for.
+  /// Largest variance [m^2 or rad^2] of a mapped key for a pair of types, which the gates allow
+  /// for.
   double largestKeyVariance(FeatureType first, FeatureType second) const
   {
     return key_variance_[typeIndex(first)][typeIndex(second)];
@@ -95,7 +98,7 @@ void PairLists::visit(std::size_t k, const BinaryKey& observed, FeatureType seco
   const double high = observed.value + slack;
   visitRange(begin, end, low, high, visit);
   if (!observed.is_angle) return;
-  // Angles wrap: the part of the range beyond +-pi comes back at the other end.
+  // Angles wrap: the part of the range beyond +-pi is at the other end.
   if (low < -M_PI) visitRange(begin, end, std::max(low + 2 * M_PI, high), 4.0, visit);
   if (high > M_PI) visitRange(begin, end, -4.0, std::min(high - 2 * M_PI, low), visit);
 }

@@ -12,10 +12,10 @@ namespace sigloc
 namespace
 {
 constexpr double kTwoPi = 2 * M_PI;
-constexpr double kTypicalPiece = 1.0;  // [m], length of an observed piece of wall
+constexpr double kTypicalPiece = 1.0;  // [m] length of an observed piece of wall, eq. (5.9)
 
-/// How much likelier two directions of the map agree than if they were spread evenly: 1 for even,
-/// about 9 for the four directions of a rectangular building.
+/// Returns the concentration kappa of (5.9): how much more often two directions of the map agree
+/// than evenly spread ones. It is 1 for those, and about 9 for the four of a rectangular building.
 double directionConcentration(const std::vector<Feature>& features, FeatureType type)
 {
   constexpr std::size_t kBins = 36;

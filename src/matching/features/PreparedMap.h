@@ -12,7 +12,7 @@
 namespace sigloc
 {
 /// What all modes need of a map, computed once: directed views of its features, the spatial hash,
-/// and how dense features of each type are. Refers to the map, which must outlive it.
+/// and the density of each type. Keeps a reference to the map, which must outlive it.
 class PreparedMap
 {
  public:
@@ -21,13 +21,13 @@ class PreparedMap
   const FeatureMap& map() const { return *map_; }
   std::size_t size() const { return views_.size(); }
   const DirectedFeature& view(std::size_t k) const { return views_[k]; }
-  /// Asks for the memory of a view ahead of its use.
+  /// Prefetches the memory of a view before its use.
   void prefetch(std::size_t k) const { __builtin_prefetch(&views_[k]); }
   const FeatureGrid& grid() const { return grid_; }
-  double area() const { return area_; }  ///< [m^2], where the robot can be, at least 1
+  double area() const { return area_; }  ///< [m^2] in which the robot can be, at least 1
 
-  /// lambda: how many features of the type fall into a unit of their own measurement space by
-  /// chance, [1/m^2], for a segment [1/(rad m)], for a corner or wall end [1/(m^2 rad)].
+  /// Density lambda of the background: features of the type per unit of their measurement space.
+  /// The unit is [1/m^2], for a segment [1/(rad m)], for a corner or wall end [1/(m^2 rad)].
   /// \cite algorithm eq. (5.9)
   double clutterDensity(FeatureType type) const { return clutter_[typeIndex(type)]; }
   /// Largest variance [m^2] of any feature of the type along any direction.
@@ -35,8 +35,8 @@ class PreparedMap
   {
     return position_variance_[typeIndex(type)];
   }
-  /// Mean over the features of the type of their largest variance along any direction [m^2], and of
-  /// their directions' [rad^2]: what to expect, where the largest is what must not be missed.
+  /// Means over the features of the type: of the largest variance along any direction [m^2], and of
+  /// the direction's variance [rad^2].
   double typicalPositionVariance(FeatureType type) const
   {
     return typical_position_variance_[typeIndex(type)];
@@ -46,8 +46,9 @@ class PreparedMap
     return typical_direction_variance_[typeIndex(type)];
   }
 
-  /// Share of a stretch, in metres along feature k's tangent from its position, that lies on the
-  /// mapped pieces of k's wall, each widened by `tolerance`. \cite algorithm eq. (3.12)
+  /// Returns the share, in [0, 1], of a stretch that is on the mapped pieces of k's wall. The
+  /// stretch is from `low` to `high` [m] along feature k's tangent from its position. Each piece is
+  /// widened by `tolerance` [m]. \cite algorithm eq. (3.12)
   double coveredShare(std::size_t k, double low, double high, double tolerance) const;
 
   std::size_t bytes() const { return views_.size() * sizeof(DirectedFeature) + grid_.bytes(); }

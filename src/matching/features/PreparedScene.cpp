@@ -9,8 +9,8 @@ namespace sigloc
 {
 namespace
 {
-/// Volume of the gate around a predicted feature, in its own measurement space, doubled for the
-/// uncertainty of the pose.
+/// Returns the volume of the gate around a predicted feature, in its own measurement space. It is
+/// doubled for the uncertainty of the pose.
 double gateVolume(const DirectedFeature& view, const PreparedMap& map, double relative_sigma,
                   double planar_gate, double scalar_gate)
 {

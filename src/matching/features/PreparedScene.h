@@ -12,8 +12,8 @@
 
 namespace sigloc
 {
-/// What all modes need of the observed features, computed once a query. Refers to the features,
-/// which must outlive it.
+/// What all modes need of the observed features, computed once a query. Keeps references to the
+/// features, which must outlive it.
 struct PreparedScene
 {
   PreparedScene(const std::vector<Feature>& observed, const PreparedMap& map,
@@ -21,21 +21,21 @@ struct PreparedScene
 
   std::size_t size() const { return views.size(); }
 
-  /// All indices by distance from feature i, nearest (i itself) first; derived features last,
-  /// because the walls they are made of count before them.
+  /// Returns all indices by distance from feature i, nearest (i itself) first. Derived features
+  /// come last, because they count only where their walls are not paired.
   const std::uint32_t* orderFrom(std::size_t i) const { return &order[i * views.size()]; }
 
   std::vector<DirectedFeature> views;
   std::vector<std::uint32_t> order;
   std::vector<double> chance;  ///< p_i: probability that a wrong pose finds a match for feature i
-  std::vector<double> hit_gain;  ///< ln(w / p_i), what a match says for the pose
-  std::vector<double> miss_gain;  ///< ln((1 - w) / (1 - p_i)), what a miss says
-  double mean_chance = 0;
+  std::vector<double> hit_gain;  ///< ln(w / p_i), log-odds of a match, eq. (5.7)
+  std::vector<double> miss_gain;  ///< ln((1 - w) / (1 - p_i)), log-odds of a miss, eq. (5.7)
+  double mean_chance = 0;  ///< mean of p_i, p of eq. (5.12)
   double relative_sigma = 0;  ///< [m], the map's relative error over the scene's mean range
 };
 
-/// False for a corner or wall end beside a pairing of the wall it was made of: both are the same
-/// beams. Of `pairing` the observed feature matters.
+/// Returns false for a corner or wall end if the wall that it was derived from is paired, because
+/// both come from the same beams. Only the observed feature of `pairing` is used.
 bool counts(const PreparedScene& scene, const FeaturePairing& pairing,
             const std::vector<FeaturePairing>& pairings);
 }  // namespace sigloc

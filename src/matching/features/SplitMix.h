@@ -7,8 +7,8 @@
 
 namespace sigloc
 {
-/// A small generator of random numbers (SplitMix64) for sampling inside a query: the same on every
-/// machine, and cheap to start.
+/// A small generator of random numbers (SplitMix64) for sampling within a query. It gives the same
+/// numbers on every machine and is cheap to start.
 class SplitMix
 {
  public:
@@ -22,7 +22,7 @@ class SplitMix
     z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
     return z ^ (z >> 31);
   }
-  /// Uniform in {0, ..., count - 1}; `count` > 0.
+  /// Returns a number that is uniform in {0, ..., count - 1}; `count` > 0.
   std::uint32_t index(std::uint32_t count)
   {
     return static_cast<std::uint32_t>(((next() >> 32) * count) >> 32);

@@ -12,7 +12,7 @@ using mrpt::math::TPoint2D;
 
 namespace
 {
-/// Corners of the convex hull, counter-clockwise.
+/// Returns the corners of the convex hull, counter-clockwise.
 std::vector<TPoint2D> convexHull(std::vector<TPoint2D> points)
 {
   std::sort(points.begin(), points.end(),
@@ -46,7 +46,8 @@ bool insideBy(const std::vector<TPoint2D>& hull, const TPoint2D& p, double margi
 }
 using SeenTypes = std::array<bool, kFeatureTypes>;
 
-/// Mapped places of these types that lie inside the hull of `places` (map frame), unpaired.
+/// Returns the number of unpaired mapped places of these types inside the hull of `places` (map
+/// frame).
 std::size_t countMissedWithin(std::vector<TPoint2D> places, const SeenTypes& types,
                               const PreparedMap& map, const std::vector<FeaturePairing>& pairings)
 {
@@ -61,7 +62,7 @@ std::size_t countMissedWithin(std::vector<TPoint2D> places, const SeenTypes& typ
   const std::vector<TPoint2D> hull = convexHull(std::move(places));
   if (hull.size() < 3) return 0;
 
-  constexpr double kMargin = 0.2;  // [m]: on the rim it is a matter of luck
+  constexpr double kMargin = 0.2;  // [m] from the rim, where a place may be seen or not
   std::size_t missed = 0;
   for (std::size_t t = 0; t < kFeatureTypes; ++t)
   {

@@ -11,15 +11,14 @@
 
 namespace sigloc
 {
-/// Negative information without beams: returns how many mapped places lie well inside the convex
-/// hull of the paired places, as seen from the pose, and are of a type that was seen, but are not
-/// paired themselves. What lies between things that were seen should have been seen.
-/// \cite algorithm eq. (5.11)
+/// Negative information: returns the number of mapped places that should have been seen but are not
+/// paired. They lie more than 0.2 m inside the convex hull of the paired places and are of a type
+/// that is paired. This is M of \cite algorithm eq. (5.11).
 std::size_t countMissed(const PreparedScene& scene, const PreparedMap& map,
                         const PoseEstimate& pose, const std::vector<FeaturePairing>& pairings);
 
-/// The same for everything that was seen, paired or not: the area is then the same for all poses
-/// that are compared. Only points and circles count, walls hide the others.
+/// The same inside the hull of everything seen, paired or not, so that the area is the same for all
+/// poses that are compared. Only points and circles count, because walls hide the others.
 /// \cite algorithm eq. (8.14)
 std::size_t countMissedInView(const PreparedScene& scene, const PreparedMap& map,
                               const PoseEstimate& pose,

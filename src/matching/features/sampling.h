@@ -10,23 +10,25 @@
 
 namespace sigloc
 {
-/// Of the bases of `size` features that the best hypothesis explains, `explained` in number, the
-/// share that a rival still has. A rival lacks a tenth of them at most, or two where that is less
-/// than two: one that explains less is worse by so many log-odds that it cannot change the verdict;
-/// one that explains more must not be missed. \cite algorithm eq. (4.4)
+/// Returns the share that a rival has of the bases of `size` features, where the best hypothesis
+/// explains `explained` features. A rival lacks a tenth of the features, or two if that is more.
+/// One that lacks more cannot change the verdict. One that lacks less must not be missed. \cite
+/// algorithm eq. (4.4)
 double rivalShare(std::size_t explained, std::size_t size);
 
-/// How many sets of k there are among n, 0 for n < k.
+/// Returns the number of sets of k among n; 0 for n < k.
 double combinations(std::size_t n, std::size_t k);
 
-/// Number of draws t after which all fail with probability `failure` when one succeeds with
-/// probability `success`; the largest there is when none can. \cite algorithm eq. (4.3)
+/// Returns the number of draws t that all fail with probability `failure`, where one succeeds with
+/// probability `success`. It is the largest number where none can succeed.
+/// \cite algorithm eq. (4.3)
 std::uint32_t drawsNeeded(double failure, double success);
 
 /// Returns the observed features of a hypothesis' pairings, ascending.
 std::vector<std::uint32_t> observedOf(const FeatureHypothesis& hypothesis);
 
-/// Returns the best hypotheses found, with what chance would have given.
+/// Returns the best hypotheses found, with the expected number of equally good ones by chance.
+/// \cite algorithm eq. (5.12)
 std::vector<FeatureHypothesis> rankedHypotheses(const PreparedScene& scene,
                                                 const FeatureVerifier& verifier,
                                                 const HypothesisSet& found, std::uint32_t base_size,

@@ -16,8 +16,8 @@ namespace sigloc
 {
 namespace
 {
-/// Partners of an anchor: random ones of the farther half of those that the lists can hold,
-/// because a long base gives a good heading.
+/// Returns random partners of an anchor, from the farther half of the features within the cut-off.
+/// A long base gives a good heading.
 std::vector<std::uint32_t> drawPartners(const PreparedScene& scene, std::uint32_t anchor,
                                         double cut_off, std::uint32_t count, SplitMix& random)
 {
@@ -53,8 +53,8 @@ void AnchorGenerator::search(const PreparedScene& scene, HypothesisSet& found,
   std::vector<std::uint32_t> candidates;
   SplitMix random(options.seed);
 
-  // 1. How many anchors: eq. (4.2), (4.3). Not shortened as support comes in: accidental support
-  // would stop the search too early, and all plausible poses are wanted.
+  // 1. The number of anchors: eq. (4.2), (4.3). It is not reduced as support is found, because
+  // accidental support would stop the search too early, and all plausible poses are wanted.
   const double w = options.good_share;
   const double works = w * (1 - std::pow(1 - w, options.partners));
   const std::uint32_t draws = std::min(n, drawsNeeded(options.failure_probability, works));
@@ -65,7 +65,7 @@ void AnchorGenerator::search(const PreparedScene& scene, HypothesisSet& found,
 
   for (const std::uint32_t i : anchors)
   {
-    // 2. A few partners for each, far away.
+    // 2. A few distant partners for each.
     const auto partners = drawPartners(scene, i, lists_->cutOff(), options.partners, random);
     for (std::uint32_t k = 0; k < map.size(); ++k)
     {

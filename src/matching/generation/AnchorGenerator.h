@@ -7,8 +7,9 @@
 
 namespace sigloc
 {
-/// Mode (b): a fixed number of random observed anchors, each with a few random partners, against
-/// the whole map. Linear in the map and in the number of observed features.
+/// Mode (b): compares a fixed number of random observed anchors, each with a few random partners,
+/// with the whole map. Linear in the map and in the number of observed features.
+/// \cite algorithm eq. (4.2), (4.3)
 class AnchorGenerator : public FeatureHypothesisGenerator
 {
  public:
@@ -21,7 +22,7 @@ class AnchorGenerator : public FeatureHypothesisGenerator
   std::vector<FeatureHypothesis> generate(const std::vector<Feature>& observed,
                                           MatchingCounters& counters) const override;
 
-  /// The search itself, adding to `found`, within a budget of hypotheses.
+  /// Runs the search, which adds to `found`, within a budget of hypotheses.
   void search(const PreparedScene& scene, HypothesisSet& found,
               FeatureVerifier::Workspace& workspace, MatchingCounters& counters,
               std::uint64_t budget) const;

@@ -9,8 +9,8 @@ namespace sigloc
 {
 PairIndex::PairIndex(const PreparedMap& map, const PairLists& lists)
 {
-  // Each pair once, the lower type first and of equal types the lower index. Counted first: the
-  // tables are most of the index's memory, and growing them would double it for a while.
+  // Each pair is entered once, the lower type first and of equal types the lower index. They are
+  // counted first, because growing tables would double the memory of the index for a while.
   const auto each_pair = [&](auto&& enter)
   {
     for (std::uint32_t k = 0; k < map.size(); ++k)
@@ -78,7 +78,8 @@ PairIndex::Runs PairIndex::find(FeatureType first, FeatureType second, const Bin
     if (wraps) appendRange(runs.first_types, turned - slack, turned + slack, swapped, runs);
   };
   append(observed.value, reversed);
-  // Two of one type may be either way round; an angle changes its sign then, a distance does not.
+  // Two features of one type may be in either order. An angle then changes its sign, a distance
+  // does not.
   if (first == second) append(observed.is_angle ? -observed.value : observed.value, true);
   return runs;
 }

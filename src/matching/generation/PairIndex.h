@@ -10,27 +10,28 @@
 
 namespace sigloc
 {
-/// All pairs of neighbouring map features, by the types of the two and sorted by their key, so
-/// that the pairs that fit an observed one, and how many they are, come from a binary search.
+/// All pairs of neighbouring map features, by the types of the two and sorted by their key. A
+/// binary search finds the pairs that fit an observed one, and their number. \cite algorithm
+/// section 4 (c)
 class PairIndex
 {
  public:
   PairIndex(const PreparedMap& map, const PairLists& lists);
 
-  /// A run of pairs (k, l) whose key fits; `swapped` when observed i is l and j is k.
+  /// A run of pairs (k, l) whose key fits. It is `swapped` when observed i is l and j is k.
   struct Run
   {
     std::size_t begin = 0;
     std::size_t end = 0;
     bool swapped = false;
   };
-  /// The runs that fit an observed pair (i, j): both orders for two of one type, and the rest of
-  /// an angle range beyond +-pi.
+  /// The runs that fit an observed pair (i, j): both orders for two features of one type, and the
+  /// part of an angle range beyond +-pi.
   struct Runs
   {
     std::array<Run, 4> runs{};
     std::size_t count = 0;
-    std::size_t first_types = 0;  ///< which table the runs lie in
+    std::size_t first_types = 0;  ///< index of the table that has the runs
     std::uint64_t pairs() const;
   };
   Runs find(FeatureType first, FeatureType second, const BinaryKey& observed,

@@ -51,13 +51,13 @@ std::vector<PairIndexGenerator::Lookup> PairIndexGenerator::rankedLookups(
           {among[a], among[b], length, index_.find(first.type(), second.type(), key, tolerance)});
     }
   }
-  // Short bases give poor headings: only the longer half is used.
+  // Only the longer half is used, because short bases give poor headings.
   const auto middle = lookups.begin() + static_cast<std::ptrdiff_t>(lookups.size() / 2);
   std::nth_element(lookups.begin(), middle, lookups.end(),
                    [](const Lookup& a, const Lookup& b) { return a.length > b.length; });
   if (lookups.size() / 2 >= count) lookups.erase(middle, lookups.end());
 
-  // Rare ones first; no feature in too many, because it may be spurious.
+  // Rare pairs come first. No feature is in too many, because it may be spurious.
   std::sort(lookups.begin(), lookups.end(),
             [](const Lookup& a, const Lookup& b)
             {
@@ -158,7 +158,7 @@ void PairIndexGenerator::search(const PreparedScene& scene, HypothesisSet& found
   }
   if (!significant()) return;
 
-  // 2. Pairs of what the answer explains: places that look alike share most of it.
+  // 2. Pairs of what the answer explains, because look-alike poses share most of it.
   for (const Lookup& lookup : lookupsOfExplained(scene, found))
   {
     tryLookup(scene, lookup, found, workspace, counters, limit);

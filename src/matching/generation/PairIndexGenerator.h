@@ -7,8 +7,9 @@
 
 namespace sigloc
 {
-/// Mode (c): observed pairs, rare and long ones first, looked up in an index of all mapped pairs.
-/// Ends with the first significant answer, after a second look for places that look alike.
+/// Mode (c): finds observed pairs, rare and long ones first, in an index of all mapped pairs. The
+/// first significant answer ends the search, after a second round for look-alike poses.
+/// \cite algorithm section 4 (c)
 class PairIndexGenerator : public FeatureHypothesisGenerator
 {
  public:
@@ -18,18 +19,19 @@ class PairIndexGenerator : public FeatureHypothesisGenerator
   std::vector<FeatureHypothesis> generate(const std::vector<Feature>& observed,
                                           MatchingCounters& counters) const override;
 
-  /// The search itself, adding to `found`, within a budget of hypotheses.
+  /// Runs the search, which adds to `found`, within a budget of hypotheses.
   void search(const PreparedScene& scene, HypothesisSet& found,
               FeatureVerifier::Workspace& workspace, MatchingCounters& counters,
               std::uint64_t budget) const;
 
-  /// Searches with pairs of what the best hypothesis explains for places that explain nearly as
-  /// much, eq. (4.4). Not at all where that could take more than `budget` bases.
+  /// Searches for poses that explain nearly as much as the best hypothesis, with pairs of the
+  /// features that it explains, eq. (4.4). Does nothing where that could take more than `budget`
+  /// bases.
   void lookAgain(const PreparedScene& scene, HypothesisSet& found,
                  FeatureVerifier::Workspace& workspace, MatchingCounters& counters,
                  std::uint64_t budget) const;
 
-  /// How many bases a search would retrieve at most, without retrieving them.
+  /// Returns how many bases a search would retrieve at most, without retrieving them.
   std::uint64_t basesFor(const PreparedScene& scene) const;
 
  private:

@@ -15,17 +15,17 @@ using mrpt::math::TPoint2D;
 
 namespace
 {
-// Share of the patterns of mapped features around a robot that the index holds: not those whose
-// members are no near neighbours of each other in the map.
+// Share of the patterns of mapped features around a robot that the index has. It lacks those whose
+// members are not near neighbours of each other in the map. Eta of eq. (4.10)
 constexpr double kIndexedShare = 0.5;
-// And of those around a robot that found none: where the map is sparse, the neighbours of what is
-// seen are out of sight.
+// The same where nothing was found: in a sparse map, the neighbours of what is seen are out of
+// sight. Eta of eq. (4.10)
 constexpr double kSparselyIndexedShare = 0.05;
-constexpr double kUnlikely = 0.5;  // hypotheses as good by chance: an answer that explains enough
-constexpr double kBetterThanChance = 1;  // hypotheses as good expected by chance
+constexpr double kFewExpected = 0.5;  // E of (5.12) below which an answer that explains w is enough
+constexpr double kBetterThanBackground = 1;  // E of (5.12) below which an answer counts, eq. (4.10)
 constexpr std::uint64_t kFewPairBases = 2000;  // that may be tried where patterns are too few
-// More draws cost little beside answering nothing sure, or trying smaller bases next: before that
-// they may fail this much less. Where a map is sparse few of the patterns seen are indexed.
+// P_fail of the second round of draws. More draws cost less than smaller bases, or than no sure
+// answer. In a sparse map few of the patterns seen are indexed.
 constexpr double kDrawsAreCheap = 1e-6;
 
 bool seesWalls(const PreparedScene& scene)
@@ -82,7 +82,7 @@ void PatternGenerator::tryPattern(const PreparedScene& scene, Query& query, Hypo
       observed[k] = query.members[order[k]];
       ordered[k] = scene.views[observed[k]].position();
     }
-    // Three passes, so that the memory of one hit is fetched while others are worked on.
+    // There are three passes, so that the memory of one hit is fetched while others are processed.
     ++counters.signature_pairs;
     query.hits.clear();
     index_.visit(PatternIndex::shapeOf(ordered.data(), size), query.gate,
@@ -117,7 +117,7 @@ void PatternGenerator::tryPattern(const PreparedScene& scene, Query& query, Hypo
   }
 }
 
-bool PatternGenerator::refutesChance(const PreparedScene& scene, const HypothesisSet& found,
+bool PatternGenerator::isSignificant(const PreparedScene& scene, const HypothesisSet& found,
                                      std::uint32_t base_size, std::uint64_t bases) const
 {
   const FeatureHypothesis* best = found.best();
@@ -125,9 +125,9 @@ bool PatternGenerator::refutesChance(const PreparedScene& scene, const Hypothesi
                      verifier_->options().significance;
 }
 
-/// True when chance is refuted, or when the best explains its share of the features: more or
-/// smaller bases find no better answer then, even where too few features were seen to be sure of
-/// it.
+/// True when the best answer is significant, or when it explains the share w of the features and
+/// has E < 1/2. Then more or smaller bases find no better answer, even where too few features were
+/// seen for significance.
 bool PatternGenerator::settles(const PreparedScene& scene, const HypothesisSet& found,
                                std::uint32_t base_size, std::uint64_t bases) const
 {
@@ -137,12 +137,12 @@ bool PatternGenerator::settles(const PreparedScene& scene, const HypothesisSet& 
   const double chance = FeatureVerifier::expectedByChance(scene, best->support, base_size, bases);
   const bool explains_enough =
       best->support >= options.good_share * static_cast<double>(scene.size());
-  return chance < options.significance || (explains_enough && chance < kUnlikely);
+  return chance < options.significance || (explains_enough && chance < kFewExpected);
 }
 
-/// Draws patterns of `roots` until `wanted` fresh ones are tried or `done` says so. Every draw
-/// starts at another feature. Patterns that could be written in many orders wait until others are
-/// used up. Draws that find no fresh pattern are made up for, up to a point: few features hold few
+/// Draws patterns of `roots` until `wanted` new ones are tried or `done` returns true. Every draw
+/// starts at another feature. Patterns that could be written in many orders wait until the others
+/// are used up. A draw without a new pattern is repeated, but not for ever: few features have few
 /// patterns.
 template <class Done>
 std::uint32_t PatternGenerator::draw(const PreparedScene& scene,
@@ -187,7 +187,7 @@ bool PatternGenerator::search(const PreparedScene& scene, Query& query, Hypothes
   // 1. Patterns of all features, until an answer is significant.
   const std::uint64_t before = counters.hypotheses;
   const auto significant = [&]
-  { return refutesChance(scene, found, size, counters.hypotheses - before); };
+  { return isSignificant(scene, found, size, counters.hypotheses - before); };
   const auto settled = [&] { return settles(scene, found, size, counters.hypotheses - before); };
   const double good = kIndexedShare * std::pow(options.good_share, size);
   for (const double failure : {options.failure_probability, kDrawsAreCheap})
@@ -202,9 +202,9 @@ bool PatternGenerator::search(const PreparedScene& scene, Query& query, Hypothes
   return true;
 }
 
-/// Places that look alike share most of what the best one explains. Only patterns that the index
-/// holds at the best place are drawn: most likely it holds them at a place like it. Where there are
-/// too few of them, pairs are looked up.
+/// Look-alike poses share most of what the best one explains. Only patterns that the index has at
+/// the best pose are drawn, because most likely it has them at look-alike poses too. Where there
+/// are too few of them, pairs are looked up.
 void PatternGenerator::lookAgain(const PreparedScene& scene, Query& query, HypothesisSet& found,
                                  FeatureVerifier::Workspace& workspace,
                                  MatchingCounters& counters) const
@@ -236,15 +236,15 @@ void PatternGenerator::lookAgain(const PreparedScene& scene, Query& query, Hypot
   query.pair_bases = counters.hypotheses - before;
 }
 
-/// Smaller bases find what shares too few features with the map for patterns. They are worth their
-/// cost where the budget holds all of them, and where such a hypothesis, of a support that the
-/// draws so far may have missed, could beat what is found, and chance.
-bool PatternGenerator::smallerBasesMayTell(const PreparedScene& scene, const Query& query,
+/// Smaller bases find poses that share too few features with the map for patterns. They are worth
+/// their cost on two conditions. The budget must be enough for all of them. And some support that
+/// the draws may have missed must beat both the best answer and the background. Eq. (4.10)
+bool PatternGenerator::smallerBasesMayHelp(const PreparedScene& scene, const Query& query,
                                            const HypothesisSet& found) const
 {
   const GeneratorOptions& options = verifier_->options();
   const auto n = static_cast<std::uint32_t>(scene.size());
-  // Patterns know nothing of walls, pairs do.
+  // Patterns do not use walls, pairs do.
   if (seesWalls(scene)) return true;
   const std::uint64_t bases = pairs_.basesFor(scene);
   if (bases > options.fall_back_hypotheses) return false;
@@ -255,7 +255,7 @@ bool PatternGenerator::smallerBasesMayTell(const PreparedScene& scene, const Que
     const double good = indexed * shareOfPatterns(scene, support);
     const double missed = std::pow(1 - good, static_cast<double>(query.tried.size()));
     if (missed > options.failure_probability &&
-        FeatureVerifier::expectedByChance(scene, support, 2, bases) < kBetterThanChance)
+        FeatureVerifier::expectedByChance(scene, support, 2, bases) < kBetterThanBackground)
     {
       return true;
     }
@@ -263,8 +263,8 @@ bool PatternGenerator::smallerBasesMayTell(const PreparedScene& scene, const Que
   return false;
 }
 
-/// Of the patterns of all places seen, the share that consists of mapped ones if `support` features
-/// are.
+/// Returns the share of the patterns of all places seen that consist of mapped places, if `support`
+/// of the features are mapped. Eq. (4.10)
 double PatternGenerator::shareOfPatterns(const PreparedScene& scene, std::uint32_t support) const
 {
   const std::size_t size = index_.patternSize();
@@ -303,14 +303,14 @@ std::vector<FeatureHypothesis> PatternGenerator::generate(const std::vector<Feat
 
   const bool settled = search(scene, query, found, workspace, counters);
   const auto base_size = static_cast<std::uint32_t>(index_.patternSize());
-  if (settled || !smallerBasesMayTell(scene, query, found))
+  if (settled || !smallerBasesMayHelp(scene, query, found))
   {
     return rankedHypotheses(scene, *verifier_, found, base_size,
                             counters.hypotheses - before - query.pair_bases);
   }
-  // Nothing sure: smaller bases find what shares few features with the map.
+  // Without a sure answer, smaller bases find poses that share few features with the map.
   pairs_.search(scene, found, workspace, counters, options.fall_back_hypotheses);
-  const bool sure = seesWalls(scene) ? refutesChance(scene, found, 2, counters.hypotheses - before)
+  const bool sure = seesWalls(scene) ? isSignificant(scene, found, 2, counters.hypotheses - before)
                                      : settles(scene, found, 2, counters.hypotheses - before);
   if (!sure)
   {

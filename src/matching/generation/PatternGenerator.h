@@ -9,9 +9,9 @@
 
 namespace sigloc
 {
-/// Mode (d): observed patterns of three to five places, looked up in a hash of all mapped ones.
-/// What a look-up returns hardly grows with the map. Falls back to pairs, then to anchors, when no
-/// answer is significant and theirs could be.
+/// Mode (d): finds observed patterns of three to five places in a hash of all mapped patterns. The
+/// number of patterns found hardly grows with the map. Falls back to pairs, then to anchors, when
+/// no answer is significant and theirs could be. \cite algorithm section 4 (d)
 class PatternGenerator : public FeatureHypothesisGenerator
 {
  public:
@@ -44,17 +44,17 @@ class PatternGenerator : public FeatureHypothesisGenerator
                  FeatureVerifier::Workspace& workspace, MatchingCounters& counters) const;
   bool search(const PreparedScene& scene, Query& query, HypothesisSet& found,
               FeatureVerifier::Workspace& workspace, MatchingCounters& counters) const;
-  bool refutesChance(const PreparedScene& scene, const HypothesisSet& found,
+  bool isSignificant(const PreparedScene& scene, const HypothesisSet& found,
                      std::uint32_t base_size, std::uint64_t bases) const;
   bool settles(const PreparedScene& scene, const HypothesisSet& found, std::uint32_t base_size,
                std::uint64_t bases) const;
-  bool smallerBasesMayTell(const PreparedScene& scene, const Query& query,
+  bool smallerBasesMayHelp(const PreparedScene& scene, const Query& query,
                            const HypothesisSet& found) const;
   double shareOfPatterns(const PreparedScene& scene, std::uint32_t support) const;
 
   std::shared_ptr<const FeatureVerifier> verifier_;
   PatternIndex index_;
-  double residual_gate_;  ///< of a pattern's residuals, after the best alignment
+  double residual_gate_;  ///< chi-square gate on the residuals of a pattern, eq. (4.7)
   PairIndexGenerator pairs_;
   AnchorGenerator anchors_;
 };

@@ -11,11 +11,11 @@ using mrpt::math::TPoint2D;
 
 namespace
 {
-// Share of the gate within which an order is taken to be undecided: every further order is a
-// further look-up, and an order missed costs one draw of many.
+// Share of the gate within which an order counts as undecided. Every further order costs a query,
+// and an order that is missed costs one draw of many.
 constexpr double kOrderShare = 0.5;
 
-/// Two patterns that share a key by accident cost one draw of many.
+/// Returns a hash of the members. Two patterns that share one by accident cost one draw of many.
 std::uint64_t keyOf(const PatternMembers& members)
 {
   std::uint64_t key = 0;
@@ -28,8 +28,8 @@ std::uint64_t keyOf(const PatternMembers& members)
 }
 }  // namespace
 
-/// Every pattern is gated by its own members' variance: one vague feature must not make the others'
-/// patterns match anything.
+/// Every pattern is gated by the variance of its own members. So a feature with a large variance
+/// does not make the patterns of others match anything. Eq. (4.7)
 void PatternGenerator::gatePattern(const PreparedScene& scene, Query& query) const
 {
   const std::size_t size = index_.patternSize();
@@ -48,8 +48,8 @@ bool PatternGenerator::drawPattern(const PreparedScene& scene, const std::vector
                                    std::uint32_t root, std::size_t most_orders, Query& query) const
 {
   const std::size_t size = index_.patternSize();
-  // The neighbours that the map's patterns are made of, and a few more: spurious ones push the
-  // real ones back.
+  // As many neighbours as in the map's patterns, and a few more, because spurious ones displace
+  // real ones.
   const std::size_t reach = index_.neighbours() + (index_.neighbours() + 2) / 3;
   query.near.clear();
   const std::uint32_t* order = scene.orderFrom(root);
@@ -92,8 +92,8 @@ bool PatternGenerator::leadsToPartners(const Query& query, const PatternMembers&
   return k == index_.patternSize();
 }
 
-/// Whether the index holds patterns of the root that this member is in, at the place whose
-/// look-alikes are sought; anything may be in one while no place is known.
+/// True when the index has patterns of the root with this member, at the pose whose look-alikes are
+/// sought. While no pose is known, every member may join.
 bool PatternGenerator::mayJoin(const Query& query, std::uint32_t root, std::uint32_t member) const
 {
   return query.partners.empty() ||

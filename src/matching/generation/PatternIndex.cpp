@@ -16,14 +16,14 @@ using mrpt::math::TPoint2D;
 
 namespace
 {
-constexpr double kFewHits = 100;  // accidental patterns a look-up may return
-constexpr double kTypicalSigma = 0.05;  // [m], of an observation, where none is known yet
-constexpr double kTypicalDistance = 5;  // [m], between members
+constexpr double kFewHits = 100;  // accidental patterns that a query may return, eq. (4.6)
+constexpr double kTypicalSigma = 0.05;  // [m] of an observation, before any is known
+constexpr double kTypicalDistance = 5;  // [m] between members
 constexpr double kFoundOnce = 0.6;  // share of the sets that are not found from another root
-constexpr double kLongest = 60;  // [m], longest stored value
+constexpr double kLongest = 60;  // [m] longest stored value
 
-/// The point-like features of a map and, for each, its nearest neighbours among them, `width` a
-/// feature and ascending by index, so that looking one up is a short scan.
+/// The point-like features of a map and the nearest neighbours of each among them: `width` a
+/// feature, nearest first.
 struct NearestPlaces
 {
   std::vector<std::uint32_t> roots;
@@ -94,8 +94,8 @@ NearestPlaces nearestPlaces(const PreparedMap& map, std::vector<std::uint32_t> r
   return nearest;
 }
 
-/// True when the set is entered from this root: of the members that have all others among their
-/// nearest neighbours, the root has the lowest index.
+/// True when the set is entered from this root. That is the member of lowest index among those that
+/// have all others among their nearest neighbours.
 bool entersHere(const NearestPlaces& nearest, const PatternMembers& set, std::size_t size)
 {
   for (std::size_t q = 1; q < size; ++q)
@@ -179,8 +179,8 @@ void PatternIndex::chooseSize(const PreparedMap& map, const GeneratorOptions& op
   size_ = options.pattern_size;
   if (size_ >= 3) return;
 
-  // Eq. (4.6): each further member divides the accidental matches by the chance p that a map
-  // feature lies in its gate; as many members as leave few of them.
+  // Eq. (4.6): each further member multiplies the accidental matches by the probability p that a
+  // map feature is in its gate. There are as many members as leave few such matches.
   const double area = 2 * M_PI * chiSquareGate(options.gate_probability, 2) * spread;
   const double p = std::clamp(places / map.area() * area, 1e-3, 0.3);
   constexpr double kSmallMap = 200;
@@ -281,7 +281,7 @@ PatternIndex::Alignment PatternIndex::alignmentOf(const PatternShape& shape) con
   const double share = 1 / static_cast<double>(size_);
   const double x = share * std::accumulate(alignment.x.begin(), alignment.x.end(), 0.0);
   const double y = share * std::accumulate(alignment.y.begin(), alignment.y.end(), 0.0);
-  alignment.inertia = 1e-9;  // [m^2]; coincident members have no turn to take out
+  alignment.inertia = 1e-9;  // [m^2], avoids a division by zero for coincident members
   for (std::size_t k = 0; k < size_; ++k)
   {
     alignment.x[k] -= x;
@@ -321,7 +321,7 @@ std::size_t PatternIndex::slotsNear(const PatternShape& shape, double tolerance,
   // 1. All groups that the tolerance reaches in each value, and which of their cells it reaches.
   struct Reached
   {
-    std::uint64_t group;  // no initial values: there is room for thousands
+    std::uint64_t group;  // without initial values, because the array has thousands of elements
     std::uint64_t members;  ///< a bit each
   };
   std::array<Reached, kMostCells> reached;
@@ -356,7 +356,7 @@ std::size_t PatternIndex::slotsNear(const PatternShape& shape, double tolerance,
   }
   for (std::size_t k = 0; k < count; ++k) __builtin_prefetch(&occupied_[wordOf(reached[k].group)]);
 
-  // 2. Of their cells, those that may hold patterns: most don't.
+  // 2. Keep the cells that may have patterns: most have none.
   std::size_t kept = 0;
   for (std::size_t k = 0; k < count; ++k)
   {

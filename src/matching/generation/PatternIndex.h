@@ -16,33 +16,33 @@ namespace sigloc
 constexpr std::size_t kLargestPattern = 5;
 
 /// The shape of a pattern of point-like features: its longest side, and the other members in the
-/// frame of that side, (along, across) each. Invariant under rigid motion, not under reflection.
-/// \cite algorithm eq. (4.5)
+/// frame of that side, (along, across) each. It is invariant under rigid motion, but not under
+/// reflection. \cite algorithm eq. (4.5)
 struct PatternShape
 {
   std::array<double, 2 * kLargestPattern - 3> values{};  ///< [m]
 };
 
-/// Members of a pattern in the order that its shape is written in: the ends of the longest side,
-/// then the others along it.
+/// Members of a pattern in the order of its shape: the ends of the longest side, then the others
+/// along it.
 using PatternMembers = std::array<std::uint32_t, kLargestPattern>;
 
-/// A hash over the shapes of small patterns of map features: a feature with some of its nearest
-/// neighbours, so that the patterns are as wide as the map is sparse and each feature has as many.
-/// Their size grows with the logarithm of the map, so that a look-up returns about as many in any
-/// map.
+/// A hash over the shapes of small patterns of map features. A pattern is a feature with some of
+/// its nearest neighbours. So patterns are wide where the map is sparse, and every feature has
+/// equally many. Their size grows with the logarithm of the map, so that every query returns about
+/// as many. \cite algorithm eq. (4.6)
 class PatternIndex
 {
  public:
   PatternIndex(const PreparedMap& map, const GeneratorOptions& options);
 
   std::size_t patternSize() const { return size_; }
-  /// How many nearest neighbours of a feature form patterns with it.
+  /// Number of nearest neighbours that form patterns with a feature.
   std::size_t neighbours() const { return neighbours_; }
   std::size_t count() const { return size_ > 0 ? members_.size() / size_ : 0; }
   std::size_t bytes() const;
 
-  /// True when a mapped feature is one of the `neighbours()` that form patterns with another one.
+  /// True when `other` is one of the `neighbours()` that form patterns with `root`.
   bool isNeighbour(const PreparedMap& map, std::uint32_t root, std::uint32_t other) const
   {
     return (map.view(other).position() - map.view(root).position()).norm() <= reach_[root];
@@ -55,7 +55,7 @@ class PatternIndex
     double residual = 0;  ///< [m^2], sum of squares over the members after the best alignment
   };
   /// Calls visit(const std::uint32_t* members) for every mapped pattern whose shape fits the given
-  /// one; the types are left to the caller.
+  /// one. The caller checks the types. \cite algorithm eq. (4.7)
   template <class Visit>
   void visit(const PatternShape& shape, const Gate& gate, Visit&& visit) const;
 
@@ -66,14 +66,14 @@ class PatternIndex
     for (std::size_t e = 0; e < count(); ++e) visit(&members_[e * size_]);
   }
 
-  /// Shape of places given in pattern order.
+  /// Returns the shape of `count` places [m] given in pattern order.
   static PatternShape shapeOf(const mrpt::math::TPoint2D* places, std::size_t count);
 
  private:
-  static constexpr std::size_t kHashedValues = 6;
-  static constexpr std::size_t kMostCells = 4096;
-  static constexpr std::size_t kGroupedValues = 3;
-  static constexpr std::size_t kGroupBits = 2;  // of each of them: 64 cells a group
+  static constexpr std::size_t kHashedValues = 6;  // values of a shape that are hashed
+  static constexpr std::size_t kMostCells = 4096;  // that one query may visit
+  static constexpr std::size_t kGroupedValues = 3;  // last values, whose cells form groups
+  static constexpr std::size_t kGroupBits = 2;  // of each grouped value: 64 cells a group
 
   std::size_t valueCount() const { return 2 * size_ - 3; }
   std::size_t hashedCount() const { return std::min(kHashedValues, valueCount()); }
@@ -86,28 +86,29 @@ class PatternIndex
     hash = (hash ^ static_cast<std::uint64_t>(cell + 4096)) * 0x9E3779B97F4A7C15ULL;
     return hash ^ (hash >> 29);
   }
-  /// Where a cell of shapes is kept. Cells that differ little in the last values share a group, and
-  /// so lie side by side in memory: a look-up asks for many of them.
+  /// The position of a cell of shapes in the table. Cells that differ little in the last values
+  /// share a group and are side by side in memory, because a query visits many of them.
   struct CellKey
   {
     std::uint64_t group = 0;
     std::uint32_t member = 0;
   };
-  /// Of the hashed values, those before this one tell groups apart; the others cells of a group,
-  /// too.
+  /// Index of the first grouped value. The hashed values before it separate groups; the others also
+  /// separate cells of a group.
   std::size_t firstGrouped() const { return hashedCount() - kGroupedValues; }
-  /// Where a cell along a grouped value lies among those of its group.
+  /// Position of a cell along a grouped value among those of its group.
   static std::uint32_t laneOf(std::int64_t cell)
   {
     return static_cast<std::uint32_t>(cell & ((1 << kGroupBits) - 1));
   }
-  /// How far the lanes of a grouped value lie apart in its group.
+  /// Bits by which the lane of a grouped value is shifted in the member.
   std::uint32_t laneShift(std::size_t v) const
   {
     return static_cast<std::uint32_t>((v - firstGrouped()) * kGroupBits);
   }
   CellKey keyOf(const PatternShape& shape) const;
-  /// The members, a bit each, that the stem's become along the cells first..last of value v.
+  /// Returns the members, a bit each, that the members `stem` give along the cells first..last of
+  /// value v.
   std::uint64_t membersAlong(std::size_t v, std::uint64_t stem, std::int64_t first,
                              std::int64_t last) const;
   std::size_t slotOf(std::uint64_t group, std::uint32_t member) const
@@ -115,12 +116,12 @@ class PatternIndex
     return (group >> 7 << kGroupedValues * kGroupBits | member) & slot_mask_;
   }
   std::size_t wordOf(std::uint64_t group) const { return (group >> 20) & occupied_mask_; }
-  /// Lays observed shapes onto stored ones; \cite algorithm eq. (4.7).
+  /// What aligns an observed shape with stored ones. \cite algorithm eq. (4.7)
   struct Alignment
   {
     std::array<double, kLargestPattern> x{};  ///< [m], members from their centroid
-    std::array<double, kLargestPattern> y{};
-    double inertia = 0;  ///< [m^2]
+    std::array<double, kLargestPattern> y{};  ///< [m], members from their centroid
+    double inertia = 0;  ///< [m^2], sum of the squared distances from the centroid
   };
   Alignment alignmentOf(const PatternShape& shape) const;
   double residualOf(const PatternShape& shape, const Alignment& alignment,
@@ -132,13 +133,13 @@ class PatternIndex
   void appendPattern(const PreparedMap& map, const PatternMembers& set, Draft& draft) const;
   void sortIntoSlots(const Draft& draft);
 
-  std::size_t size_ = 0;  ///< members of a pattern, 0 when the map holds none
+  std::size_t size_ = 0;  ///< members of a pattern, 0 when the map has no patterns
   std::size_t neighbours_ = 0;
   double cell_ = 0.4;
   double unit_ = 1e-3;  ///< [m] of a stored value
   std::size_t slot_mask_ = 0;
   std::uint64_t occupied_mask_ = 0;
-  LargeVector<std::uint64_t> occupied_;  ///< a word a group, a bit for cells that hold patterns
+  LargeVector<std::uint64_t> occupied_;  ///< a word a group, a bit for each cell with patterns
   LargeVector<std::uint32_t> starts_;
   LargeVector<std::int16_t> values_;  ///< valueCount() a pattern
   LargeVector<std::uint32_t> members_;  ///< size_ a pattern
@@ -148,8 +149,8 @@ class PatternIndex
 inline double PatternIndex::residualOf(const PatternShape& shape, const Alignment& alignment,
                                        const std::int16_t* stored) const
 {
-  // How far each member is off when the two longest sides start together and point the same way;
-  // then the common shift and turn are taken out.
+  // The differences of the members when both longest sides start together and point the same way.
+  // The common shift and turn are then removed, eq. (4.7).
   const double share = 1 / static_cast<double>(size_);
   double sum_x = 0;
   double sum_y = 0;
@@ -177,7 +178,7 @@ void PatternIndex::visit(const PatternShape& shape, const Gate& gate, Visit&& vi
   if (members_.empty()) return;
   std::array<std::size_t, kMostCells> slots;
   const std::size_t slot_count = slotsNear(shape, gate.tolerance, slots);
-  // Far apart in memory: ask for all of them before waiting for the first.
+  // The slots are far apart in memory, so all are prefetched before the first is read.
   for (std::size_t s = 0; s < slot_count; ++s) __builtin_prefetch(&starts_[slots[s]]);
   const std::size_t width = valueCount();
   std::array<std::int32_t, 2 * kLargestPattern - 3> low{};

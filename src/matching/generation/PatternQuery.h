@@ -10,7 +10,7 @@
 
 namespace sigloc
 {
-/// What one query carries along: random numbers, the pattern drawn last, buffers.
+/// The state of one query: random numbers, the pattern drawn last, and buffers.
 struct PatternGenerator::Query
 {
   explicit Query(std::uint64_t seed) : random(seed) {}
@@ -23,8 +23,9 @@ struct PatternGenerator::Query
   std::vector<std::uint32_t> near;
   std::vector<PatternOrder> orders;
   std::vector<std::uint64_t> tried;  ///< keys of the patterns drawn so far
-  std::uint64_t pair_bases = 0;  ///< tried for look-alikes only
-  std::vector<std::uint32_t> partners;  ///< of each feature at a place whose look-alikes are sought
+  std::uint64_t pair_bases = 0;  ///< pairs tried for look-alikes only
+  std::vector<std::uint32_t>
+      partners;  ///< of each feature at the pose whose look-alikes are sought
   std::vector<const std::uint32_t*> hits;
   std::vector<PoseEstimate> poses;
 };

@@ -52,7 +52,7 @@ std::vector<FeatureHypothesis> PlainGenerator::generate(const std::vector<Featur
       if (!unaryCompatible(scene.views[i], map.view(k), verifier_->gates().scalar)) continue;
       ++counters.signature_pairs;
 
-      // L_j(i, k) for every other observed feature; what they could support at best.
+      // L_j(i, k) for every other observed feature, and the largest support that they allow.
       std::uint32_t possible = 1;
       for (std::uint32_t j = 0; j < n; ++j)
       {
@@ -63,7 +63,7 @@ std::vector<FeatureHypothesis> PlainGenerator::generate(const std::vector<Featur
       }
       if (possible < needed) continue;
 
-      // Every base pairing gives a pose, which the other lists must support.
+      // Every second pairing gives a pose, which the other lists must support.
       for (std::uint32_t j = 0; j < n; ++j)
       {
         for (const std::uint32_t l : candidates[j])

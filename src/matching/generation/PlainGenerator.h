@@ -7,12 +7,12 @@
 
 namespace sigloc
 {
-/// Mode (a): every observed signature against every mapped one. Complete, the reference for all
-/// others; O(n^3 m c^2).
+/// Mode (a): compares every observed signature with every mapped one. It is complete and the
+/// reference for all others; it takes O(n^3 m c^2) checks. \cite algorithm section 4 (a)
 class PlainGenerator : public FeatureHypothesisGenerator
 {
  public:
-  /// The lists should be uncut; with a cut-off, pairs farther apart are never a base.
+  /// The lists should be uncut: with a cut-off, pairs farther apart are never a base.
   PlainGenerator(std::shared_ptr<const FeatureVerifier> verifier,
                  std::shared_ptr<const PairLists> lists)
       : verifier_(std::move(verifier)), lists_(std::move(lists))

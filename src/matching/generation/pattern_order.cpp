@@ -12,8 +12,8 @@ using mrpt::math::TPoint2D;
 
 namespace
 {
-/// Appends the orders of the members besides the ends (order[2], ...) that are ascending along
-/// the side up to the tolerance; they come in sorted by index.
+/// Appends the orders of the members besides the ends (order[2], ...) that are ascending along the
+/// side up to the tolerance. The members must be given sorted by index.
 void appendAscending(const std::array<double, kLargestPattern>& along, std::size_t count,
                      double tolerance, PatternOrder order, std::vector<PatternOrder>& orders)
 {
@@ -64,7 +64,7 @@ void possibleOrders(const TPoint2D* places, std::size_t count, double tolerance,
         lean += along[k] - 0.5 * length;
         order[filled++] = static_cast<std::uint8_t>(k);
       }
-      // From the end that the others lean to.
+      // The side starts from the end that the others lean to.
       if (lean > tolerance * static_cast<double>(count - 2)) continue;
       appendAscending(along, count, tolerance, order, orders);
     }
@@ -74,7 +74,7 @@ void possibleOrders(const TPoint2D* places, std::size_t count, double tolerance,
 PatternOrder canonicalOrder(const TPoint2D* places, std::size_t count)
 {
   std::vector<PatternOrder> orders;
-  // Rounding must not exclude both ends of a pattern that leans to neither.
+  // Rounding must not exclude both ends of a pattern that leans to neither of them.
   constexpr double kRounding = 1e-9;  // [m]
   possibleOrders(places, count, kRounding, orders);
   return orders.front();

@@ -8,15 +8,15 @@
 
 namespace sigloc
 {
-/// Positions of a pattern's members in the order its shape is written in.
+/// Positions of a pattern's members in the order of its shape.
 using PatternOrder = std::array<std::uint8_t, kLargestPattern>;
 
-/// Returns the one order that a mapped pattern is stored under: the longest side first, from the
-/// end that the other members are nearer to, then those by their place along it.
+/// Returns the order under which a mapped pattern is stored. The longest side comes first, from the
+/// end that the other members are nearer to. The others follow by their position along it.
 PatternOrder canonicalOrder(const mrpt::math::TPoint2D* places, std::size_t count);
 
-/// Appends every order that an observed pattern's mapped counterpart may be stored under, when
-/// differences below `tolerance` [m] may turn out either way; the canonical one among them.
+/// Appends every order under which the mapped counterpart of an observed pattern may be stored,
+/// where differences below `tolerance` [m] may have either sign. The canonical one is among them.
 void possibleOrders(const mrpt::math::TPoint2D* places, std::size_t count, double tolerance,
                     std::vector<PatternOrder>& orders);
 }  // namespace sigloc
