@@ -13,7 +13,7 @@ namespace sigloc
 {
 namespace
 {
-// By reference: how a pose is passed by value changed between compilers.
+// The pose is passed by reference, because compilers differ in how they pass it by value.
 GaussianPose widened(const GaussianPose& pose, const MapErrorModel& error, double sign)
 {
   GaussianPose out = pose;

@@ -27,7 +27,7 @@ void update(PoseEstimate& estimate, const PlanarMeasurement& m)
   const Symmetric3& p = estimate.covariance;
   const Symmetric2 s = innovationCovariance(p, m);
   const double scale = 1 / determinant(s);
-  // Rows of P H': how each pose component covaries with the two measured scalars.
+  // Rows of P H': the covariance of each pose component with the two measured scalars.
   const std::array<std::array<double, 3>, 3> rows{
       {{p.xx, p.xy, p.xt}, {p.xy, p.yy, p.yt}, {p.xt, p.yt, p.tt}}};
   std::array<std::array<double, 2>, 3> cross{};

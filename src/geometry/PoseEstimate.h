@@ -12,8 +12,8 @@
 
 namespace sigloc
 {
-/// A Gaussian pose as the inner loops keep it: the heading's cosine and sine at hand, the
-/// covariance in six numbers.
+/// A Gaussian pose for inner loops: with the cosine and sine of the heading, and the covariance as
+/// six numbers.
 struct PoseEstimate
 {
   double x = 0;  ///< [m]
@@ -43,8 +43,9 @@ PoseEstimate toEstimate(const GaussianPose& pose);
 /// Heading wrapped into (-pi, pi].
 GaussianPose toGaussian(const PoseEstimate& estimate);
 
-/// One or two scalars measured of a pose: residual z - h(x), Jacobian dh/d(x, y, heading), noise.
-/// A single scalar has a second row of zeros with unit noise, which changes nothing.
+/// One or two scalars measured of a pose: residual z - h(x), Jacobian dh/d(x, y, heading) and the
+/// covariance R of the noise. A single scalar has a second row of zeros with unit noise, which has
+/// no effect.
 struct PlanarMeasurement
 {
   std::array<double, 2> residual{};
@@ -53,7 +54,7 @@ struct PlanarMeasurement
   int degrees = 2;  ///< of freedom: 1 or 2
 };
 
-/// Covariance of the residual, H P H' + R.
+/// Returns the covariance of the residual, H P H' + R.
 inline Symmetric2 innovationCovariance(const Symmetric3& p, const PlanarMeasurement& m)
 {
   const auto& a = m.jacobian[0];
@@ -69,13 +70,13 @@ inline Symmetric2 innovationCovariance(const Symmetric3& p, const PlanarMeasurem
           b[0] * pbx + b[1] * pby + b[2] * pbt + m.noise.yy};
 }
 
-/// Normalised innovation squared: chi-square with `m.degrees` degrees of freedom.
+/// Returns the normalised innovation squared: chi-square with `m.degrees` degrees of freedom.
 inline double squaredInnovation(const PlanarMeasurement& m, const Symmetric2& innovation)
 {
   return squaredNorm(m.residual[0], m.residual[1], innovation);
 }
 
-/// Kalman update of the estimate by a measurement. \cite algorithm eq. (5.5)
+/// Updates the estimate by a measurement, as a Kalman filter does. \cite algorithm eq. (5.5)
 void update(PoseEstimate& estimate, const PlanarMeasurement& m);
 
 /// Adds H' R^-1 H to the information matrix and H' R^-1 r to the vector: one term of the normal

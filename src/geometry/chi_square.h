@@ -7,14 +7,14 @@
 namespace sigloc
 {
 /// Returns the logarithm of the gamma function of `x` > 0. Unlike std::lgamma it writes no global
-/// and so may run in several threads.
+/// variable, so it may run in several threads.
 double logGamma(double x);
 
-/// Returns the value a chi-square variable stays below with the given probability.
+/// Returns the value below which a chi-square variable stays with the given probability.
 /// Throws std::invalid_argument unless 0 < probability < 1 and degrees >= 1.
 double chiSquareGate(double probability, int degrees);
 
-/// Gates of one probability for 1..max degrees of freedom, looked up instead of computed.
+/// Gates of one probability for 1..max degrees of freedom, from a table.
 class ChiSquareGates
 {
  public:

@@ -25,7 +25,7 @@ Eigen::Matrix3d toEigen(const mrpt::math::CMatrixDouble33& m)
   return out;
 }
 
-/// Symmetrised on the way, so that rounding never piles up over the steps.
+/// Symmetrises the matrix, so that rounding errors do not add up over the steps.
 mrpt::math::CMatrixDouble33 fromEigen(const Eigen::Matrix3d& m)
 {
   mrpt::math::CMatrixDouble33 out;

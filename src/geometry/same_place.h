@@ -9,8 +9,8 @@
 
 namespace sigloc
 {
-// Two poses nearer than both of these are one answer: candidates, tracks and what competes with
-// them are that far apart.
+// Two poses nearer than both of these count as the same pose: candidates, and what competes with
+// them and with tracks, are farther apart. Eq. (5.13)
 constexpr double kSamePlaceDistance = 0.5;  // [m]
 constexpr double kSamePlaceAngle = 17.0 * M_PI / 180.0;  // [rad]
 
@@ -24,7 +24,7 @@ inline bool withinReach(const mrpt::math::TPose2D& a, const mrpt::math::TPose2D&
          std::abs(mrpt::math::wrapToPi(a.phi - b.phi)) <= angle;
 }
 
-/// True when two poses are one place.
+/// True when two poses count as the same pose.
 inline bool samePlace(const mrpt::math::TPose2D& a, const mrpt::math::TPose2D& b)
 {
   return withinReach(a, b, kSamePlaceDistance, kSamePlaceAngle);

@@ -8,8 +8,8 @@ namespace sigloc
 {
 std::optional<Symmetric3> inverse(const Symmetric3& m)
 {
-  // Scaled to a unit diagonal first: metres and radians may differ by orders of magnitude, and the
-  // determinant of the correlation matrix tells how well the three are told apart.
+  // Scaled to a unit diagonal first, because metres and radians may differ by orders of magnitude.
+  // The determinant of the correlation matrix then measures how independent the three are.
   if (!(m.xx > 0) || !(m.yy > 0) || !(m.tt > 0)) return std::nullopt;
   const double sx = 1 / std::sqrt(m.xx);
   const double sy = 1 / std::sqrt(m.yy);

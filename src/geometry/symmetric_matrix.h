@@ -38,7 +38,7 @@ inline double determinant(const Symmetric3& m)
          m.xt * (m.xy * m.yt - m.yy * m.xt);
 }
 
-/// v' M^-1 v for a positive definite M.
+/// Returns v' M^-1 v for a positive definite M.
 inline double squaredNorm(double vx, double vy, const Symmetric2& m)
 {
   return (m.yy * vx * vx - 2 * m.xy * vx * vy + m.xx * vy * vy) / determinant(m);

@@ -8,16 +8,16 @@
 
 namespace sigloc
 {
-/// A feature with the unit vector along its direction at hand, and, for a segment, the stretch its
-/// wall is known to cover: what the constraints of a signature look at. Place, type and label are
-/// repeated here so that the inner loops touch one cache line a feature.
+/// A feature prepared for the constraints of a signature: with the unit vector along its direction
+/// and, for a segment, the stretch that its wall covers. Place, type and label are repeated here,
+/// so that inner loops read one cache line a feature.
 struct DirectedFeature
 {
   const Feature* feature = nullptr;
   mrpt::math::TPoint2D place;  ///< the feature's position
   mrpt::math::TPoint2D normal{1, 0};
-  double start = 0;  ///< [m] along the tangent from the position: where the wall begins
-  double end = 0;  ///< [m] and where it ends; fragments of one wall share one stretch
+  double start = 0;  ///< [m] along the tangent from the position, start of the wall
+  double end = 0;  ///< [m] the same for its end; fragments of one wall share one stretch
   std::int32_t label = -1;
   FeatureType kind = FeatureType::point;
 
@@ -28,7 +28,7 @@ struct DirectedFeature
 };
 static_assert(sizeof(DirectedFeature) <= 64, "one cache line");
 
-/// Returns the view of a feature by itself: a segment covers its own length.
+/// Returns a feature prepared by itself: a segment covers its own length.
 inline DirectedFeature directed(const Feature& feature)
 {
   const double half = isSegment(feature.type) ? 0.5 * feature.size : 0;
@@ -49,7 +49,7 @@ inline double cross(const mrpt::math::TPoint2D& a, const mrpt::math::TPoint2D& b
 {
   return a.x * b.y - a.y * b.x;
 }
-/// Variance [m^2] of the feature's position along a unit vector.
+/// Returns the variance [m^2] of the feature's position along a unit vector.
 inline double varianceAlong(const Feature& feature, const mrpt::math::TPoint2D& unit)
 {
   const auto& p = feature.position_covariance;

@@ -20,7 +20,8 @@ double square(double value)
   return value * value;
 }
 
-/// Signed distance of a place to a line, with the line's own angle error over the lever arm.
+/// Returns the signed distance of a place to a line. Its variance includes the line's angle error
+/// over the lever arm.
 BinaryKey distanceToLine(const DirectedFeature& line, const DirectedFeature& place)
 {
   const TPoint2D between = place.position() - line.position();
@@ -31,7 +32,7 @@ BinaryKey distanceToLine(const DirectedFeature& line, const DirectedFeature& pla
           false};
 }
 
-/// Bearing of `other` in the frame of a directed place.
+/// Returns the bearing of `other` in the frame of a directed place.
 BinaryKey bearingFrom(const DirectedFeature& corner, const DirectedFeature& other)
 {
   const TPoint2D between = other.position() - corner.position();
@@ -58,7 +59,7 @@ double squaredSeparation(const DirectedFeature& a, const DirectedFeature& b)
   return dot(between, between);
 }
 
-/// Angle that the map's relative error bends a bearing by.
+/// Returns the angle [rad] by which the map's relative error changes a bearing.
 double relativeAngle(const DirectedFeature& a, const DirectedFeature& b, const MapErrorModel& error)
 {
   const double distance = std::sqrt(std::max(squaredSeparation(a, b), 1e-6));
@@ -94,8 +95,8 @@ bool bearingsAgree(const DirectedFeature& observed_first, const DirectedFeature&
                                     bearingFrom(mapped_second, mapped_first), bend, gate));
 }
 
-/// A place beside a wall: the observed piece, measured from the foot of the place, must overlap the
-/// mapped stretch; a corner's direction must also make the same angle with the wall.
+/// Tests a place beside a wall. The observed piece, measured from the foot of the place, must
+/// overlap the mapped stretch. A corner's direction must also make the same angle with the wall.
 bool placeBesideWall(const DirectedFeature& observed_wall, const DirectedFeature& observed_place,
                      const DirectedFeature& mapped_wall, const DirectedFeature& mapped_place,
                      const MapErrorModel& error, const BinaryGates& gates)
@@ -130,15 +131,15 @@ bool placeBesideWall(const DirectedFeature& observed_wall, const DirectedFeature
   return range.low <= 0 && range.high >= 0;
 }
 
-/// Two nearly parallel walls: the same signed offset, and one common slide that keeps both pieces
-/// on their mapped walls.
+/// Tests two nearly parallel walls. They must have the same signed offset, and one common slide
+/// must keep both pieces on their mapped walls. Eq. (3.6)
 bool parallelWallsAgree(const DirectedFeature& observed_first,
                         const DirectedFeature& observed_second, const DirectedFeature& mapped_first,
                         const DirectedFeature& mapped_second, const MapErrorModel& error,
                         const BinaryGates& gates)
 {
-  // The offset changes along walls that are not quite parallel: both are measured at the observed
-  // piece, slid to the middle of its mapped wall.
+  // The offset changes along walls that are not quite parallel. So both are measured at the
+  // observed piece, slid to the middle of its mapped wall.
   BinaryKey observed_offset = distanceToLine(observed_first, observed_second);
   BinaryKey mapped_offset = distanceToLine(mapped_first, mapped_second);
   const double slope = std::abs(cross(mapped_first.normal, mapped_second.normal));
@@ -168,8 +169,8 @@ bool parallelWallsAgree(const DirectedFeature& observed_first,
   return std::max(first.low, second.low) <= std::min(first.high, second.high);
 }
 
-/// Two walls that are not parallel cross in one point; measured from it, each observed piece must
-/// overlap its mapped wall. No pose is needed.
+/// Tests two walls that are not parallel. Measured from the point where their lines cross, each
+/// observed piece must overlap its mapped wall. No pose is needed. Eq. (3.7)
 bool crossingWallsAgree(const DirectedFeature& observed_first,
                         const DirectedFeature& observed_second, const DirectedFeature& mapped_first,
                         const DirectedFeature& mapped_second, const MapErrorModel& error,
@@ -177,7 +178,7 @@ bool crossingWallsAgree(const DirectedFeature& observed_first,
 {
   const auto crossing = [](const DirectedFeature& first, const DirectedFeature& second)
   {
-    // Where, along the first wall's tangent, the second wall's line is met.
+    // The position along the first wall's tangent where it meets the second wall's line.
     const double offset = dot(second.position() - first.position(), second.normal);
     return offset / dot(first.tangent(), second.normal);
   };
@@ -234,8 +235,8 @@ double keyTolerance(const BinaryKey& observed, double mapped_variance, const Map
                     double gate)
 {
   const double relative = observed.is_angle ? 0 : error.relativeSigma(std::abs(observed.value));
-  // The map's relative error is taken at the observed distance; the small growth within the gate
-  // is covered by the slope once more.
+  // The map's relative error is that at the observed distance. Adding the slope once more covers
+  // its small growth within the gate.
   const double width = std::sqrt(
       gate * (observed.variance + mapped_variance + square(relative) + kRoundingVariance));
   return observed.is_angle ? width : width * (1 + 2 * error.relative_slope);

@@ -15,24 +15,24 @@ BinaryKey binaryKey(const DirectedFeature& first, const DirectedFeature& second)
 struct BinaryGates
 {
   double scalar = 7.879;  ///< chi-square gate with one degree of freedom
-  double planar = 10.597;  ///< and with two
+  double planar = 10.597;  ///< chi-square gate with two degrees of freedom
   double min_overlap = 0.5;  ///< [-] share of an observed piece that must lie on the mapped wall
 };
 
-/// Half width [m or rad] of the range of mapped keys that fit an observed one, given the largest
-/// key variance of any mapped feature. \cite algorithm eq. (3.4)
+/// Returns the half width [m or rad] of the range of mapped keys that fit an observed one.
+/// `mapped_variance` is the largest key variance of any mapped feature. \cite algorithm eq. (3.4)
 double keyTolerance(const BinaryKey& observed, double mapped_variance, const MapErrorModel& error,
                     double gate);
 
-/// The full binary test b_ij ~ b_kl: the key, and what the types allow besides: bearings seen from
-/// corners, the position along a wall, offset and overlap of parallel walls, extension of others.
-/// \cite algorithm eq. (3.3) to (3.8)
+/// Returns the result of the full binary test b_ij ~ b_kl: the key, and further constraints by the
+/// types. These are bearings from corners, the position along a wall, offset and overlap of
+/// parallel walls, and the extension of others. \cite algorithm eq. (3.3) to (3.7)
 bool binaryCompatible(const DirectedFeature& observed_first, const DirectedFeature& observed_second,
                       const DirectedFeature& mapped_first, const DirectedFeature& mapped_second,
                       const MapErrorModel& error, const BinaryGates& gates);
 
-/// On which side of the directed line from `a` to `b` does `c` lie: +1 left, -1 right, 0 when it
-/// is nearer to the line than the gate tells apart. Distances cannot tell mirror images; this can.
+/// Returns the side of the directed line from `a` to `b` on which `c` lies: +1 left, -1 right, 0
+/// when it is within the gate of the line. This separates mirror images, which distances do not.
 /// \cite algorithm eq. (3.8)
 int sideOf(const Feature& a, const Feature& b, const Feature& c, double gate);
 

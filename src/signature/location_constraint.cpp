@@ -12,8 +12,8 @@ using mrpt::math::TPoint2D;
 
 namespace
 {
-// Added to every variance: features without any error (simulated ones) must not make a gate an
-// equality test on floating point numbers.
+// Added to every variance, so that features without any error (simulated ones) do not turn a gate
+// into an equality test on floating point numbers.
 constexpr double kRoundingVariance = 1e-12;  // [m^2], [rad^2]
 
 Symmetric2 pointMapNoise(const DirectedFeature& mapped, double relative_sigma)
@@ -37,7 +37,8 @@ PlanarMeasurement pointMeasurement(const PoseEstimate& pose, const DirectedFeatu
   return m;
 }
 
-/// What lies from the predicted middle of the observed piece to the mapped line's.
+/// Returns the vector [m] from the predicted middle of the observed piece to that of the mapped
+/// line.
 TPoint2D lineOffset(const PoseEstimate& pose, const TPoint2D& arm, const DirectedFeature& mapped)
 {
   return {mapped.position().x - pose.x - arm.x, mapped.position().y - pose.y - arm.y};
@@ -46,7 +47,7 @@ TPoint2D lineOffset(const PoseEstimate& pose, const TPoint2D& arm, const Directe
 Symmetric2 lineMapNoise(const TPoint2D& offset, const DirectedFeature& mapped,
                         double relative_sigma)
 {
-  // The mapped line's angle error lifts or lowers the line at the observed piece by the lever.
+  // The mapped line's angle error moves the line at the observed piece in proportion to the lever.
   const double lever = -dot(offset, mapped.tangent());
   const double angle = mapped.feature->direction_variance;
   return {angle + kRoundingVariance, lever * angle,

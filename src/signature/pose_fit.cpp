@@ -44,7 +44,7 @@ NormalEquations normalEquations(const PoseEstimate& pose, const DirectedPairing*
 }
 
 /// True when the pairings leave a direction of the plane open: the information about the position,
-/// the heading's uncertainty taken out, vanishes along it.
+/// with the heading marginalised, vanishes along it.
 bool leavesDirectionOpen(const Symmetric3& information)
 {
   if (!(information.tt > 0)) return true;
@@ -53,7 +53,7 @@ bool leavesDirectionOpen(const Symmetric3& information)
   const double yy = information.yy - information.yt * information.yt / information.tt;
   const double mean = 0.5 * (xx + yy);
   const double smallest = mean - std::hypot(0.5 * (xx - yy), xy);
-  constexpr double kOpenSigma = 3.0;  // [m]: as uncertain as a room is wide
+  constexpr double kOpenSigma = 3.0;  // [m] from which a direction is open, the width of a room
   return smallest < 1 / (kOpenSigma * kOpenSigma);
 }
 
@@ -85,7 +85,7 @@ double headingOf(const DirectedPairing& pairing)
                               pairing.observed.feature->direction);
 }
 
-/// Puts the pose where the observed place meets the mapped one, given the heading.
+/// Moves the pose, with its heading given, so that the observed place is at the mapped one.
 void putOnto(PoseEstimate& pose, const DirectedPairing& pairing)
 {
   const TPoint2D arm = pose.turn(pairing.observed.position());
@@ -147,7 +147,8 @@ std::optional<PoseEstimate> fromTwoWalls(const DirectedPairing& first,
   putOnto(pose, first);
   if (std::abs(sine) < kParallelSine)
   {
-    // Only across the walls is known: slide to the middle of the first mapped stretch.
+    // Only the position across the walls is known, so slide to the middle of the first mapped
+    // stretch.
     const double middle = 0.5 * (first.mapped.start + first.mapped.end);
     pose.x += middle * first.mapped.tangent().x;
     pose.y += middle * first.mapped.tangent().y;
@@ -227,8 +228,8 @@ std::optional<PoseEstimate> poseFromPlaces(const TPoint2D* observed, const TPoin
   const TPoint2D arm = pose.turn(centre);
   pose.x = target.x - arm.x;
   pose.y = target.y - arm.y;
-  // The centre is known to variance / count, the heading to variance / spread; the robot hangs on
-  // the centre by the arm.
+  // The centre has the variance / count, the heading the variance / spread. The arm from the robot
+  // to the centre turns the heading's error into one of the position.
   const double tt = variance / spread;
   pose.covariance = {variance * share + arm.y * arm.y * tt, -arm.x * arm.y * tt, arm.y * tt,
                      variance * share + arm.x * arm.x * tt, -arm.x * tt,         tt};

@@ -10,22 +10,22 @@
 
 namespace sigloc
 {
-/// An observed feature taken to be a mapped one.
+/// An observed feature that is assumed to be a mapped one.
 struct DirectedPairing
 {
   DirectedFeature observed;
   DirectedFeature mapped;
 };
 
-/// Returns the pose that two pairings fix, with covariance: two places, two walls, or a place and
-/// a wall in closed form, then one step of least squares over all they measure. Parallel walls
-/// leave a direction open and give it a large variance. nullopt when not even that is possible:
-/// two coincident places. \cite algorithm eq. (5.1) to (5.4)
+/// Returns the pose that two pairings fix, with covariance. Two places, two walls, or a place and a
+/// wall give it in closed form; one step of least squares over all measurements follows. Parallel
+/// walls leave a direction open, which gets a large variance. Returns nullopt for two coincident
+/// places. \cite algorithm eq. (5.1) to (5.4)
 std::optional<PoseEstimate> poseFromBase(const DirectedPairing& first,
                                          const DirectedPairing& second, double relative_sigma);
 
-/// Returns the pose that takes `count` >= 2 observed places onto mapped ones, in closed form, all
-/// with the same variance [m^2] of each coordinate. nullopt when the places coincide.
+/// Returns the pose that maps `count` >= 2 observed places onto mapped ones, in closed form. Each
+/// coordinate has the same variance [m^2]. Returns nullopt when the places coincide.
 /// \cite algorithm eq. (5.1)
 std::optional<PoseEstimate> poseFromPlaces(const mrpt::math::TPoint2D* observed,
                                            const mrpt::math::TPoint2D* mapped, std::size_t count,
@@ -34,8 +34,8 @@ std::optional<PoseEstimate> poseFromPlaces(const mrpt::math::TPoint2D* observed,
 /// Returns the pose that one corner or other directed place fixes by itself, else nullopt.
 std::optional<PoseEstimate> poseFromCorner(const DirectedPairing& pairing, double relative_sigma);
 
-/// Returns the least-squares pose over the pairings, by Gauss-Newton from `start`, with its
-/// covariance; a direction that no pairing fixes is held by the extent of the walls. nullopt when
+/// Returns the least-squares pose over the pairings with its covariance, by Gauss-Newton from
+/// `start`. The extent of the walls limits a direction that no pairing fixes. Returns nullopt when
 /// the pairings do not fix a pose. \cite algorithm eq. (5.8)
 std::optional<PoseEstimate> refinePose(const PoseEstimate& start,
                                        const std::vector<DirectedPairing>& pairings,

@@ -17,7 +17,7 @@ bool unaryCompatible(const DirectedFeature& observed, const DirectedFeature& map
   const double variance = e.size_variance + f.size_variance + kRounding;
   if (isSegment(type))
   {
-    // One-sided: a wall is seen in part, never longer than it is.
+    // The test is one-sided, because a wall is seen in part, but never longer than it is.
     const double end_variance =
         varianceAlong(e, observed.tangent()) + varianceAlong(f, mapped.tangent());
     const double excess = observed.length() - mapped.length();

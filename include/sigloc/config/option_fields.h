@@ -16,8 +16,8 @@
 
 namespace sigloc
 {
-/// One row of an options table: the key in the ini file, the member it sets, the allowed range
-/// (inclusive) and one line of documentation starting with the unit in brackets.
+/// One row of an options table: the key in the ini file, the member that it sets, the allowed range
+/// (inclusive) and one line of documentation. That line starts with the unit in brackets.
 ///
 /// An options struct `O` offers `template <class V> static void visitFields(V&& visit)` that calls
 /// `visit(OptionField<O, T>{...})` once per member. That single table drives loading, saving,
@@ -37,8 +37,8 @@ OptionField(const char*, T Options::*, T, T, const char*) -> OptionField<Options
 
 namespace detail
 {
-/// Returns the value that `text` spells, whole: "1.5 m" or "maybe" is std::nullopt, and so is a
-/// number that T cannot hold.
+/// Returns the value of a whole text. It is std::nullopt for "1.5 m" or "maybe", and for a number
+/// that T cannot represent.
 template <class T>
 std::optional<T> parseValue(const std::string& text)
 {
@@ -117,7 +117,7 @@ Options loadOptions(const mrpt::config::CConfigFileBase& ini, const std::string&
   {
     if (known_set.count(key) == 0)
     {
-      // Without brackets: MRPT's programs take what comes before one for a place in the source.
+      // Written without brackets: MRPT's programs take text before one for a source location.
       throw std::invalid_argument("section " + section + ": unknown key '" + key + "'");
     }
   }
@@ -148,7 +148,7 @@ void saveOptions(const Options& options, mrpt::config::CConfigFileBase& ini,
   Options::visitFields(
       [&](const auto& field)
       {
-        // MRPT's own writing of a double keeps six decimals only.
+        // MRPT itself writes a double with six decimals only.
         const std::string text = detail::formatValue(options.*(field.member));
         ini.write(section, field.key, text, -1, -1, field.description);
       });

@@ -7,7 +7,8 @@
 
 namespace sigloc
 {
-/// "1 step", "2 steps"; `plural` where an "s" does not make it.
+/// Returns a count with its noun: "1 step", "2 steps". `plural` is for nouns that take more than an
+/// "s".
 inline std::string counted(std::size_t count, const std::string& singular,
                            const std::string& plural = {})
 {

@@ -7,15 +7,15 @@
 
 namespace sigloc
 {
-/// A planar pose with its uncertainty: mean (x [m], y [m], phi [rad] in (-pi, pi]) and the 3x3
-/// covariance of (x, y, phi) in the parent frame [m^2, m rad, rad^2].
+/// A planar pose with its uncertainty. The mean is (x [m], y [m], phi [rad] in (-pi, pi]). The 3x3
+/// covariance is that of (x, y, phi) in the parent frame [m^2, m rad, rad^2].
 struct GaussianPose
 {
   mrpt::math::TPose2D mean;
   mrpt::math::CMatrixDouble33 covariance;
 };
 
-/// The motion of the robot between two steps, expressed in the frame of the earlier pose:
+/// The motion of the robot between two steps, in the frame of the earlier pose:
 /// `previous_from_current`, with the 3x3 covariance of (x, y, phi) [m^2, m rad, rad^2].
 struct MotionIncrement
 {
@@ -23,17 +23,18 @@ struct MotionIncrement
   mrpt::math::CMatrixDouble33 covariance;
 };
 
-/// Returns `map_from_previous (+) increment` with first-order propagation of both covariances,
-/// heading wrapped. \cite algorithm eq. (8.1)
+/// Returns `map_from_previous (+) increment` with first-order propagation of both covariances. The
+/// heading is wrapped. \cite algorithm eq. (8.1)
 GaussianPose composeWithMotion(const GaussianPose& map_from_previous,
                                const MotionIncrement& increment);
 
-/// Returns the squared Mahalanobis distance of two Gaussian poses with summed covariances, the
-/// heading difference wrapped. Throws std::invalid_argument when the sum is not positive definite.
+/// Returns the squared Mahalanobis distance of two Gaussian poses with summed covariances. The
+/// heading difference is wrapped.
+/// Throws std::invalid_argument when the sum is not positive definite.
 double squaredMahalanobisDistance(const GaussianPose& a, const GaussianPose& b);
 
-/// The map's own error, beyond the covariance of each feature: relative between two features at
-/// distance d, and common to a whole neighbourhood. \cite algorithm section 3
+/// The map's own error, beyond the covariance of each feature: an error between two features at
+/// distance d, and two errors common to a whole neighbourhood. \cite algorithm section 3
 struct MapErrorModel
 {
   double relative_constant = 0.02;  ///< [m], a of sigma_rel(d) = a + b d
@@ -41,17 +42,17 @@ struct MapErrorModel
   double common_sigma = 0.10;  ///< [m], moves a neighbourhood together
   double common_turn_sigma = 0.01;  ///< [rad], turns a neighbourhood: 0.1 m over its 10 m
 
-  /// sigma_rel(d) [m], \cite algorithm eq. (3.2)
+  /// Returns sigma_rel(d) [m] for the distance d [m]. \cite algorithm eq. (3.2)
   double relativeSigma(double distance) const
   {
     return relative_constant + relative_slope * distance;
   }
 };
 
-/// Returns the pose of someone who knows the map only as well as `error` says: what is common to a
-/// neighbourhood widens the covariance. \cite algorithm eq. (6.10)
+/// Returns the pose with its covariance widened by the errors common to a neighbourhood.
+/// \cite algorithm eq. (6.10)
 GaussianPose withCommonError(const GaussianPose& pose, const MapErrorModel& error);
 
-/// Takes back what withCommonError() added.
+/// Returns the pose without what withCommonError() added.
 GaussianPose withoutCommonError(const GaussianPose& pose, const MapErrorModel& error);
 }  // namespace sigloc

@@ -9,9 +9,9 @@
 
 namespace sigloc
 {
-/// The one scalar by which pairs of features are sorted and looked up, invariant under rigid
-/// motion: the distance of two places, the signed distance of a place to a line, the angle from
-/// the first line to the second. \cite algorithm eq. (3.3)
+/// The scalar by which pairs of features are sorted and found, invariant under rigid motion. For
+/// two places it is their distance, for a place and a line the signed distance. For two lines it is
+/// the angle from the first to the second. \cite algorithm eq. (3.3)
 struct BinaryKey
 {
   double value = 0;  ///< [m] or [rad]
@@ -19,21 +19,21 @@ struct BinaryKey
   bool is_angle = false;
 };
 
-/// How one feature stands to another, whatever the pose.
+/// The binary constraint between a feature and another one, independent of the pose.
 struct Relation
 {
   std::uint32_t other = 0;  ///< index of the feature
   BinaryKey key;  ///< eq. (3.3)
 };
 
-/// What tells a feature from others: the feature by itself and how the others stand to it; the
-/// location-dependent constraints, which need a pose, apart.
+/// The signature of a feature: what separates it from others, independent of the pose. It is the
+/// feature by itself and its relations to the others.
 struct Signature
 {
   std::uint32_t feature = 0;  ///< index of the feature
-  std::vector<Relation> relations;  ///< to every other one, in order
+  std::vector<Relation> relations;  ///< to every other feature, by index
 };
 
-/// Returns the signatures of features that were seen together.
+/// Returns the signatures of features that were seen together, in their order.
 std::vector<Signature> signaturesOf(const std::vector<Feature>& features);
 }  // namespace sigloc
