@@ -17,14 +17,15 @@ using mrpt::math::TPose2D;
 
 namespace
 {
-/// A feature of the previous robot frame seen from the current one, the motion's uncertainty added.
+/// Returns a feature of the previous robot frame in the current one, with the motion's uncertainty
+/// added.
 Feature moved(const MotionIncrement& previous_from_current, const Feature& feature)
 {
   const TPose2D& motion = previous_from_current.mean;
   Feature out = transformed(TPose2D(0, 0, 0) - motion, feature);
   const double c = std::cos(motion.phi);
   const double s = std::sin(motion.phi);
-  // p' = R' (p - t): the shift comes in turned back, the turn over the lever arm.
+  // p' = R' (p - t): the shift enters turned back, the turn enters over the lever arm.
   const Symmetric3 q = toSymmetric(previous_from_current.covariance);
   const Symmetric2 shift = rotated({q.xx, q.xy, q.yy}, c, -s);
   const double along_x = -(c * q.xt + s * q.yt);
@@ -95,8 +96,8 @@ LocalMap::LocalMap(const LocalMapOptions& options)
 
 Feature LocalMap::widened(const Feature& seen) const
 {
-  // The centre fitted to a trunk's near side shifts with the side it is seen from, again and again
-  // the same way: averaging does not take that out.
+  // The centre fitted to a trunk's near side shifts towards the side from which it is seen. The
+  // shift is the same in every scan, so averaging does not remove it.
   Feature feature = seen;
   const double radius = isRound(seen.type) ? seen.size : 0.0;
   widen(feature,
@@ -180,11 +181,11 @@ void LocalMap::add(const MotionIncrement& motion, const std::vector<Feature>& ob
     const bool is_place = isPointLike(feature.type);
     (is_place ? seen : segments_).push_back(is_place ? widened(feature) : feature);
     Feature& last = is_place ? seen.back() : segments_.back();
-    last.parent = -1;  // what it was made of is not kept beside it
+    last.parent = -1;  // the features that it is derived from are not kept
     last.sightings = 1;
   }
   MotionIncrement best = motion;
-  if (places_.empty()) best.covariance.setZero();  // nothing gathered yet to be uncertain about
+  if (places_.empty()) best.covariance.setZero();  // no older features that the motion could move
   std::vector<Match> matches = associate(best, seen);
   if (!matches.empty())
   {
@@ -194,8 +195,7 @@ void LocalMap::add(const MotionIncrement& motion, const std::vector<Feature>& ob
   for (Feature& place : places_) place = moved(best, place);
 
   std::vector<bool> known(seen.size(), false);
-  constexpr double kLasting =
-      0.3;  // share of the wandering that a view has in common with the last
+  constexpr double kLasting = 0.3;  // share of the wandering that is the same as in the last scan
   for (const Match& match : matches)
   {
     known[match.observed] = true;

@@ -11,6 +11,7 @@
 
 namespace sigloc
 {
+/// How a local map is gathered. Units, ranges and meanings are in `visitFields`.
 struct LocalMapOptions
 {
   double gate_probability = 0.999;
@@ -36,24 +37,25 @@ struct LocalMapOptions
   }
 };
 
-/// Features gathered over a short stretch of odometry, for when one look holds too little.
+/// Features gathered over a short stretch of odometry, for when one scan has too few.
 ///
-/// Everything is kept in the current robot frame. Each step moves the features by the odometry,
-/// corrected by those seen again; what the correction leaves uncertain widens their covariances,
-/// so that the older a feature is, the less sharp it gets. Sightings are associated among
-/// themselves by place alone. Places (points, circles, corners, wall ends) are gathered; segments
-/// are those of the last step, because pieces of a wall have no place of their own.
+/// Everything is in the current robot frame. Each step moves the features by the odometry,
+/// corrected by those seen again. What the correction leaves uncertain widens their covariances, so
+/// that they grow with the age of a feature. Sightings are associated with each other by place
+/// alone. Places (points, circles, corners, wall ends) are gathered. Segments are those of the last
+/// step, because pieces of a wall have no place of their own.
 class LocalMap
 {
  public:
   explicit LocalMap(const LocalMapOptions& options = {});
 
-  /// Moves on by `motion` (previous_from_current) and takes in what is seen there, robot frame.
+  /// Moves the features by `motion` (previous_from_current), then adds the observed ones, robot
+  /// frame.
   void add(const MotionIncrement& motion, const std::vector<Feature>& observed);
 
   void clear();
 
-  /// The features seen at least `min_sightings` times, in the current robot frame.
+  /// Returns the features seen at least `min_sightings` times, in the current robot frame.
   std::vector<Feature> features(std::uint32_t min_sightings = 1) const;
 
   double travelled() const { return travelled_; }  ///< [m]

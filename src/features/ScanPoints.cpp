@@ -25,7 +25,8 @@ bool breaksBetween(const ScanPoints& scan, std::size_t i, std::size_t j,
   return (scan.points[j] - scan.points[i]).norm() > limit;
 }
 
-/// Beams from return `from` on to the next return `to`; a full circle is counted through.
+/// Returns the number of beams from return `from` to the next return `to`, across the seam of a
+/// full circle.
 std::size_t beamsBetween(const ScanPoints& scan, std::size_t from, std::size_t to)
 {
   if (scan.beams[to] >= scan.beams[from]) return scan.beams[to] - scan.beams[from];
@@ -37,10 +38,10 @@ std::size_t beamsBetween(const ScanPoints& scan, std::size_t from, std::size_t t
 struct Neighbour
 {
   std::size_t index;
-  std::size_t beams;  // from the one to the other
+  std::size_t beams;  // from one return to the other
 };
 
-/// The return beyond `edge` (towards `step`); none at the end of the field of view.
+/// Returns the return beyond `edge` (towards `step`); none at the end of the field of view.
 std::optional<Neighbour> neighbourOf(const ScanPoints& scan, std::size_t edge, int step)
 {
   const std::size_t n = scan.points.size();
@@ -81,8 +82,8 @@ ScanPoints validPoints(const LaserScan& scan, const FeatureExtractorOptions& opt
 
 bool dropSpeckles(ScanPoints& scan, const FeatureExtractorOptions& options)
 {
-  constexpr std::size_t kReach = 2;  // returns to either side
-  constexpr std::size_t kFarther = 3;  // of those four
+  constexpr std::size_t kReach = 2;  // returns on either side that are compared
+  constexpr std::size_t kFarther = 3;  // of those four, that must be farther
   const std::size_t n = scan.points.size();
   const auto is_speckle = [&](std::size_t i)
   {
@@ -163,8 +164,8 @@ bool standsFree(const ScanPoints& scan, std::size_t edge, int step,
                 const FeatureExtractorOptions& options)
 {
   if (jumpsFarther(scan, edge, step, options)) return true;
-  constexpr std::size_t kSky = 6;  // beams lost in a row
-  constexpr double kWellWithin = 0.9;  // of the range: what ends near its limit goes on unseen
+  constexpr std::size_t kSky = 6;  // beams lost in a row that count as sky
+  constexpr double kWellWithin = 0.9;  // share of the range beyond which lost beams prove nothing
   if (scan.ranges[edge] > kWellWithin * scan.max_range) return false;
   const auto next = neighbourOf(scan, edge, step);
   const std::size_t to_the_end =

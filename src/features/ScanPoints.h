@@ -17,10 +17,10 @@ struct ScanPoints
   std::vector<mrpt::math::TPoint2D> points;
   std::vector<double> ranges;
   std::vector<std::size_t> beams;  // beam index of each return
-  std::size_t beam_count = 0;  // lost ones included
+  std::size_t beam_count = 0;  // including lost beams
   double beam_spacing = 0;  // [rad]
   double max_range = 0;  // [m]
-  bool closed = false;  // the scan covers the full circle: the last beam meets the first
+  bool closed = false;  // the scan covers the full circle: the last beam is beside the first
 };
 
 struct PointRange
@@ -32,26 +32,27 @@ struct PointRange
 /// Returns the valid returns of a scan; out-of-range and broken beams are skipped.
 ScanPoints validPoints(const LaserScan& scan, const FeatureExtractorOptions& options);
 
-/// Drops returns that lie near none of the two before and the two after and are nearer than most of
-/// them: dust, rain, insects. They tell no place and tear walls apart. Returns whether there were
+/// Drops the speckles: returns near none of the two before and the two after, and nearer than most
+/// of them. Dust, rain and insects cause them, and they split walls. Returns whether there were
 /// any. \cite algorithm eq. (2.8)
 bool dropSpeckles(ScanPoints& scan, const FeatureExtractorOptions& options);
 
-/// Turns a full-circle scan so that no wall is cut by its seam: it starts at a break or, where the
-/// outline is closed, at the farthest return, which is a corner.
+/// Rotates the order of a full-circle scan so that its seam cuts no wall. The scan then starts at a
+/// break or, where the outline is closed, at the farthest return, which is a corner.
 void startAtBreak(ScanPoints& scan, const FeatureExtractorOptions& options);
 
-/// Returns the runs of neighbouring returns without a break between them.
+/// Returns the runs of neighbouring returns without a break between them. \cite algorithm eq. (2.1)
 std::vector<PointRange> clustersOf(const ScanPoints& scan, const FeatureExtractorOptions& options);
 
 /// True when the neighbouring return beyond `edge` (towards `step`) was measured by the next beam
-/// and lies farther by the jump: what ends here ends for real. A lost or nearer beam tells nothing.
-/// In a full-circle scan the first and the last return are neighbours.
+/// and is farther by the jump. Then the wall really ends here. A lost or nearer beam is no
+/// evidence. In a full-circle scan the first and the last return are neighbours.
 bool jumpsFarther(const ScanPoints& scan, std::size_t edge, int step,
                   const FeatureExtractorOptions& options);
 
-/// True when nothing stands beside `edge` (towards `step`): the neighbouring return jumps farther,
-/// or several beams are lost in a row well within the laser's range, to the sky behind a post.
+/// True when nothing is beside `edge` (towards `step`). Either the neighbouring return jumps
+/// farther, or several beams are lost in a row well within the laser's range: the sky behind a
+/// post.
 bool standsFree(const ScanPoints& scan, std::size_t edge, int step,
                 const FeatureExtractorOptions& options);
 

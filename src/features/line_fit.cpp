@@ -13,7 +13,8 @@ using mrpt::math::TPoint2D;
 
 namespace
 {
-/// Variance of a return's distance from a line whose normal makes `cosine` with its beam.
+/// Returns the variance [m^2] of a return's distance from a line. `cosine` is that of the angle
+/// between the normal and the beam. Eq. (2.3)
 double normalVariance(double cosine, double range_sigma, double surface_sigma)
 {
   return range_sigma * range_sigma * cosine * cosine + surface_sigma * surface_sigma;
@@ -59,7 +60,7 @@ LineFit fitLine(const std::vector<TPoint2D>& points, std::size_t first, std::siz
   std::vector<double> weights(n, 1.0);
   WeightedMoments moments;
   double normal = 0;
-  // The weights depend on the normal only through the incidence angle: one repeat settles them.
+  // The weights depend on the normal only through the incidence angle, so one repeat is enough.
   for (int pass = 0; pass < 2; ++pass)
   {
     moments = momentsOf(points, first, last, weights);
@@ -109,7 +110,7 @@ CircleFit fitCircle(const std::vector<TPoint2D>& points, std::size_t first, std:
   const double mean_range = std::max((mean - viewpoint).norm(), 1e-6);
   const TPoint2D sight = (mean - viewpoint) * (1.0 / mean_range);
 
-  // Beams that just miss the rim hide on average half a beam spacing on each side of the chord.
+  // On average, half a beam spacing on each side of the chord is not seen. Eq. (2.2)
   const double chord = (points[last] - points[first]).norm();
   const double prior_radius =
       std::max(0.5 * chord * (1.0 + 1.0 / static_cast<double>(n - 1)), 0.02);
@@ -134,7 +135,7 @@ CircleFit fitCircle(const std::vector<TPoint2D>& points, std::size_t first, std:
     }
     hessian(2, 2) += prior_information;
     gradient[2] += prior_information * (state[2] - prior_radius);
-    // A chord of nearly straight returns leaves the system ill-conditioned: damp lightly.
+    // Nearly straight returns make the system ill-conditioned, so it is damped a little.
     hessian += 1e-3 * information * Eigen::Matrix3d::Identity();
     const Eigen::Vector3d step = hessian.ldlt().solve(gradient);
     state -= step;

@@ -21,9 +21,10 @@ struct LineFit
 };
 
 /// Returns the weighted total least squares line through points[first..last] as seen from
-/// `viewpoint`. A range error of sd `range_sigma` [m] moves a point off the line by its share along
-/// the normal, so grazing beams weigh more; `surface_sigma` [m] is the roughness that no beam
-/// undercuts. Throws std::invalid_argument for fewer than two points. \cite algorithm eq. (2.4)
+/// `viewpoint`. A range error of sd `range_sigma` [m] moves a point off the line by its component
+/// along the normal, so grazing beams have more weight. `surface_sigma` [m] is the roughness of the
+/// surface, a lower bound of the error. Throws std::invalid_argument for fewer than two points.
+/// \cite algorithm eq. (2.3), (2.4)
 LineFit fitLine(const std::vector<mrpt::math::TPoint2D>& points, std::size_t first,
                 std::size_t last, const mrpt::math::TPoint2D& viewpoint, double range_sigma,
                 double surface_sigma);
@@ -39,9 +40,10 @@ struct CircleFit
   double rms = 0;  ///< [m], root mean square distance of the points from the circle
 };
 
-/// Returns the circle through points[first..last] seen from `viewpoint`, with the radius held by a
-/// prior of half the chord plus the unseen rim and sd `radius_prior_sigma` [m]: a short arc alone
-/// says little of its radius. Throws std::invalid_argument for fewer than three points.
+/// Returns the circle through points[first..last] as seen from `viewpoint`. A short arc alone
+/// hardly fixes the radius, so the radius has a prior: half the chord plus the unseen rim, with sd
+/// `radius_prior_sigma` [m]. Throws std::invalid_argument for fewer than three points.
+/// \cite algorithm eq. (2.2)
 CircleFit fitCircle(const std::vector<mrpt::math::TPoint2D>& points, std::size_t first,
                     std::size_t last, const mrpt::math::TPoint2D& viewpoint, double range_sigma,
                     double radius_prior_sigma);

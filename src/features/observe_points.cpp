@@ -14,8 +14,8 @@ using mrpt::math::TPoint2D;
 
 namespace
 {
-constexpr double kFinestSpacing = 0.1 * M_PI / 180.0;  // [rad] of beams
-constexpr double kCoarsestSpacing = 2.0 * M_PI / 180.0;  // [rad]
+constexpr double kFinestSpacing = 0.1 * M_PI / 180.0;  // [rad] least angle between beams
+constexpr double kCoarsestSpacing = 2.0 * M_PI / 180.0;  // [rad] largest angle between beams
 constexpr double kTurn = 2 * M_PI;
 
 struct Bearing
@@ -41,7 +41,7 @@ std::vector<Bearing> bearingsOf(const std::vector<TPoint2D>& points, const TPoin
   return bearings;
 }
 
-/// The angle between neighbouring beams: what most neighbouring points are apart.
+/// Returns the angle [rad] between neighbouring beams: that between most neighbouring points.
 double spacingOf(const std::vector<Bearing>& bearings)
 {
   std::vector<double> steps;
@@ -56,7 +56,7 @@ double spacingOf(const std::vector<Bearing>& bearings)
   return std::clamp(*middle, kFinestSpacing, kCoarsestSpacing);
 }
 
-/// Starts behind the widest gap, where the seam cuts nothing.
+/// Rotates the order so that it starts behind the widest gap, where the seam cuts nothing.
 void startBehindGap(std::vector<Bearing>& bearings)
 {
   std::size_t start = 0;

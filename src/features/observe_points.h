@@ -11,9 +11,9 @@
 
 namespace sigloc
 {
-/// Returns the features and returns of points without order, in the robot frame, as a laser at
+/// Returns the features and returns of unordered points, in the robot frame [m], as a laser at
 /// `origin` would see them: of points in one direction the nearest. `range_sigma` [m] is the
-/// standard deviation of a range. Points that are not finite or lie on the origin are skipped.
+/// standard deviation of a range. Points that are not finite or are at the origin are skipped.
 ObservedScene observePoints(const std::vector<mrpt::math::TPoint2D>& points,
                             const mrpt::math::TPoint2D& origin = {0, 0}, double range_sigma = 0.02,
                             const FeatureExtractorOptions& options = {});

@@ -19,11 +19,11 @@ using mrpt::math::TPose2D;
 
 namespace
 {
-constexpr double kSurfaceSigma = 0.008;  // [m], roughness of walls and mixed pixels
-constexpr double kRadiusPriorSigma = 0.12;  // [m]
-constexpr double kMinCornerAngle = 0.35;  // [rad], flatter joints are no corners
+constexpr double kSurfaceSigma = 0.008;  // [m] roughness of walls and mixed pixels, eq. (2.3)
+constexpr double kRadiusPriorSigma = 0.12;  // [m] of the prior of a radius, eq. (2.2)
+constexpr double kMinCornerAngle = 0.35;  // [rad] below which a joint is no corner
 
-/// Recursive split: the farthest return off the chord divides the range. \cite algorithm section 2
+/// Splits a range recursively at the return farthest off its chord. \cite algorithm section 2
 void splitRange(const ScanPoints& scan, PointRange range, const FeatureExtractorOptions& options,
                 std::vector<PointRange>& pieces)
 {
@@ -31,7 +31,7 @@ void splitRange(const ScanPoints& scan, PointRange range, const FeatureExtractor
   const TPoint2D a = scan.points[range.first];
   const TPoint2D chord = scan.points[range.last] - a;
   const double length = chord.norm();
-  // An outline that closes on itself has no chord to speak of.
+  // A closed outline has no usable chord.
   const bool is_closed = length < options.split_distance;
   double farthest = 0;
   std::size_t at = range.first;
@@ -83,7 +83,7 @@ Feature makeSegment(const ScanPoints& scan, PointRange range, double range_sigma
   return segment;
 }
 
-/// Neighbouring pieces that lie on one line become one: the split point was noise.
+/// Joins neighbouring pieces on one line, because the split between them was noise.
 std::vector<PointRange> rejoined(const ScanPoints& scan, const std::vector<PointRange>& pieces,
                                  const FeatureExtractorOptions& options)
 {
@@ -113,7 +113,7 @@ std::vector<PointRange> rejoined(const ScanPoints& scan, const std::vector<Point
   return joined;
 }
 
-/// What a post may have behind it, to either side.
+/// What may be behind a post, on either side.
 enum class Background
 {
   farther,
@@ -168,7 +168,8 @@ std::optional<TPoint2D> intersectionOf(const Feature& a, const Feature& b)
                   (db * std::cos(a.direction) - da * std::cos(b.direction)) / determinant);
 }
 
-/// The corner where segment `a` ends and segment `b` begins, if their lines meet there.
+/// Returns the corner where segment `a` ends and segment `b` begins, if their lines meet there.
+/// Eq. (2.5)
 std::optional<Feature> makeCorner(const Feature& a, const Feature& b,
                                   const FeatureExtractorOptions& options)
 {
@@ -261,7 +262,7 @@ void addSegmentsOfCluster(const ScanPoints& scan, PointRange cluster, double ran
   }
 }
 
-/// Clusters are circles or made of segments.
+/// The circles and segments of the clusters of a scan.
 struct FittedClusters
 {
   std::vector<Feature> circles;
@@ -279,19 +280,20 @@ FittedClusters fitClusters(const ScanPoints& scan, double range_sigma, Backgroun
     {
       fitted.circles.push_back(*circle);
       fitted.has_sky |= !standsAlone(scan, cluster, Background::farther, options);
-      continue;  // never split into segments: its returns count once
+      continue;  // not split into segments, so that its returns count once
     }
     addSegmentsOfCluster(scan, cluster, range_sigma, options, fitted.segments);
   }
   return fitted;
 }
 
-/// All features of one scan in the sensor frame; derived ones point at their parent segments.
+/// Returns all features of one scan in the sensor frame. Derived ones have the indices of their
+/// parent segments.
 std::vector<Feature> featuresOfScan(const ScanPoints& scan, double range_sigma,
                                     const FeatureExtractorOptions& options)
 {
-  // In the open there is nothing but posts, with the sky between them. Beside buildings what stands
-  // before the sky is as well a bush or the end of what the laser reaches.
+  // In the open there are only posts with the sky between them. Beside buildings, something before
+  // the sky may also be a bush or the end of the laser's range.
   FittedClusters fitted = fitClusters(scan, range_sigma, Background::farther_or_sky, options);
   if (fitted.has_sky && !fitted.segments.features.empty())
   {
@@ -340,8 +342,8 @@ void checkScan(const LaserScan& scan)
     throw std::invalid_argument("observeScene: the angle step must be positive");
   }
 }
-/// The thresholds that noise must not cross by itself, for a laser as noisy as it says: 3 sigma off
-/// a line, 4.2 sigma (6 of one range) between two returns. Up to 2 cm they stay as configured.
+/// Returns the options with thresholds that noise alone does not exceed: 3 sigma from a line, 4.2
+/// sigma (6 of one range) between two returns. Up to 2 cm of noise they stay as configured.
 FeatureExtractorOptions thresholdsFor(double range_sigma, FeatureExtractorOptions options)
 {
   options.split_distance = std::max(options.split_distance, 3 * range_sigma);
@@ -355,13 +357,13 @@ void appendScan(ScanPoints scan, const TPose2D& robot_from_sensor, double range_
                 const FeatureExtractorOptions& configured, ObservedScene& scene)
 {
   const FeatureExtractorOptions options = thresholdsFor(range_sigma, configured);
-  // The second look sees what speckles had hidden from each other.
+  // The second pass finds speckles that others have hidden in the first.
   for (int look = 0; look < 2; ++look) dropSpeckles(scan, options);
   startAtBreak(scan, options);
 
   const auto origin = static_cast<std::uint32_t>(scene.sensor_origins.size());
   scene.sensor_origins.emplace_back(robot_from_sensor.x, robot_from_sensor.y);
-  // composePoint() would turn the heading into sine and cosine once a beam.
+  // composePoint() would compute the sine and cosine of the heading for every beam.
   const double c = std::cos(robot_from_sensor.phi);
   const double s = std::sin(robot_from_sensor.phi);
   scene.beams.reserve(scene.beams.size() + scan.points.size());

@@ -18,17 +18,17 @@ using mrpt::math::TPoint2Df;
 
 namespace
 {
-constexpr double kRidgeRadius = 0.05;  // [m] of wall cells whose hits make a wall's ridge
+constexpr double kRidgeRadius = 0.05;  // [m] within which hits belong to a wall's ridge, eq. (6.12)
 constexpr std::int32_t kNone = std::numeric_limits<std::int16_t>::max();
 
-/// The truncation radius [cells]: what fits both the distance byte and the offset bytes.
+/// Returns the truncation radius [cells], which fits both the distance byte and the offset bytes.
 std::int32_t truncationRadius(double resolution)
 {
   const double by_distance = 254.0 * DenseField::kDistanceUnit / resolution;
   return std::min(127, static_cast<std::int32_t>(std::floor(by_distance)));
 }
 
-/// Half the width [cells] of the window in which a wall's ridge is sought.
+/// Returns half the width [cells] of the window in which a wall's ridge is computed.
 std::int32_t ridgeRadius(double resolution)
 {
   return std::max(1, static_cast<std::int32_t>(std::lround(kRidgeRadius / resolution)));
@@ -60,7 +60,7 @@ std::int8_t offsetByte(double metres)
   return static_cast<std::int8_t>(std::clamp(units, -127.0, 127.0));
 }
 
-/// For every cell the signed offset to the nearest wall cell of its column, or kNone.
+/// Returns for every cell the signed offset to the nearest wall cell of its column, or kNone.
 std::vector<std::int16_t> columnOffsets(const OccupancyRaster& raster, std::int32_t radius)
 {
   const std::size_t width = raster.frame.width;
@@ -96,9 +96,9 @@ std::vector<std::int16_t> columnOffsets(const OccupancyRaster& raster, std::int3
   return offsets;
 }
 
-/// For every wall cell the vector [m] from its middle to the ridge of its wall, the mean of where
-/// the wall cells around were hit: noise makes mapped walls several cells thick, and returns belong
-/// where most were. Eq. (6.12)
+/// Returns for every wall cell the vector [m] from its middle to the ridge of its wall, which is
+/// the mean of the hits in the wall cells around. Noise makes mapped walls several cells thick, and
+/// the ridge is where most hits were. Eq. (6.12)
 std::vector<TPoint2Df> wallRidges(const OccupancyRaster& raster)
 {
   const double resolution = raster.frame.resolution;
@@ -133,7 +133,8 @@ std::vector<TPoint2Df> wallRidges(const OccupancyRaster& raster)
   return ridges;
 }
 
-/// Lower envelope of parabolas over one row: the exact nearest wall cell within the radius.
+/// The lower envelope of parabolas over one row, which gives the exact nearest wall cell within the
+/// radius.
 class RowEnvelope
 {
  public:

@@ -18,10 +18,10 @@ using mrpt::math::wrapToPi;
 
 namespace
 {
-constexpr double kLinkOffset = 0.15;  // [m], ends of a fragment off the line it is linked to
-constexpr double kLinkAngle = 0.08;  // [rad]
-constexpr double kLinkGap = 4.0;  // [m], a wider opening separates two walls
-constexpr std::size_t kAngleBins = 72;
+constexpr double kLinkOffset = 0.15;  // [m] of the ends of a fragment from the line of its wall
+constexpr double kLinkAngle = 0.08;  // [rad] between normals of fragments of one wall
+constexpr double kLinkGap = 4.0;  // [m] opening beyond which two walls are separate
+constexpr std::size_t kAngleBins = 72;  // of the hash over directions
 
 void checkFeature(const Feature& feature, std::size_t k)
 {
@@ -55,7 +55,7 @@ std::size_t angleBin(double direction)
   return std::min(kAngleBins - 1, static_cast<std::size_t>(share * kAngleBins));
 }
 
-/// True when both ends of `fragment` lie on the line of `wall` and face the same way.
+/// True when both ends of `fragment` are on the line of `wall` and both face the same way.
 bool onLine(const Feature& wall, const Feature& fragment)
 {
   if (std::abs(wrapToPi(wall.direction - fragment.direction)) > kLinkAngle) return false;
@@ -66,7 +66,7 @@ bool onLine(const Feature& wall, const Feature& fragment)
          std::abs(normal.x * b.x + normal.y * b.y) < kLinkOffset;
 }
 
-/// Cuts the collinear fragments, ordered along the tangent, where the opening is too wide.
+/// Separates collinear fragments, ordered along the tangent, where the opening is too wide.
 void appendLines(const std::vector<Feature>& features, const Feature& wall,
                  std::vector<std::uint32_t> members, std::vector<WallLine>& lines)
 {

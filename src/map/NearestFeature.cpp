@@ -14,10 +14,10 @@ using mrpt::math::TPoint2D;
 
 namespace
 {
-constexpr double kCell = 1.0;  // [m]
-// Features are entered by sample places this far apart at most, so that a query has to look this
+constexpr double kCell = 1.0;  // [m] of the hash
+// Features are entered by sample places at most this far apart [m], so a query has to search this
 // much farther than its radius.
-constexpr double kSpacing = 0.25;  // [m]
+constexpr double kSpacing = 0.25;
 
 std::int64_t cellIndex(double coordinate)
 {

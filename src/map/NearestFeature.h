@@ -14,7 +14,7 @@
 namespace sigloc
 {
 /// Returns the place on a feature that is nearest to a point: on the segment between its ends, on
-/// the full circle, else the feature's position. Both in the same frame [m].
+/// the full circle, else the feature's position. Both are in the same frame [m].
 mrpt::math::TPoint2D nearestPlaceOn(const Feature& feature, const mrpt::math::TPoint2D& point);
 
 /// Finds the feature nearest to a point through a spatial hash. Immutable after construction and
@@ -31,8 +31,8 @@ class NearestFeature
 
   explicit NearestFeature(std::vector<Feature> features);
 
-  /// Returns the nearest feature within `radius` [m], the one of lower index among equals. The cost
-  /// grows with the square of the radius.
+  /// Returns the nearest feature within `radius` [m], of equally near ones that of lower index. The
+  /// cost grows with the square of the radius.
   std::optional<Hit> find(const mrpt::math::TPoint2D& point, double radius) const;
 
   const std::vector<Feature>& features() const { return features_; }

@@ -28,7 +28,7 @@ std::optional<double> RayCaster::cast(const mrpt::math::TPoint2D& origin, double
     const auto iy = static_cast<std::size_t>(y);
     const DenseCell& cell = field_.cells[iy * frame.width + ix];
     if (isWall(cell.state)) return along * resolution;
-    // The distance is between cell centres: a ray may come nearer by up to two half diagonals, and
+    // The distance is between cell centres. A ray may be nearer by up to two half diagonals, and
     // the byte may have been rounded up.
     const double distance = std::min(far, (cell.distance - 0.5) * DenseField::kDistanceUnit);
     const double clear = distance / resolution - 1.42;

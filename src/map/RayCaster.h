@@ -10,7 +10,7 @@
 
 namespace sigloc
 {
-/// Casts rays through a dense field by stepping as far as the nearest wall is away.
+/// Casts rays through a dense field, in steps of the distance to the nearest wall.
 /// Keeps a reference to the field, which must outlive it.
 class RayCaster
 {
@@ -18,7 +18,7 @@ class RayCaster
   explicit RayCaster(const DenseField& field) : field_(field) {}
 
   /// Returns the range [m] at which a ray from `origin` [m, map frame] along `angle` [rad] meets a
-  /// wall, or nullopt when it leaves the raster or finds none within `max_range` [m].
+  /// wall. Returns nullopt when it leaves the raster or meets none within `max_range` [m].
   std::optional<double> cast(const mrpt::math::TPoint2D& origin, double angle,
                              double max_range) const;
 

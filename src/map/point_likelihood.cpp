@@ -14,10 +14,11 @@ using mrpt::math::TPose2D;
 
 namespace
 {
-constexpr double kFar = 1e9;  // [m], farther than anything counts
-constexpr double kReachInSigmas = 4.0;
+constexpr double kFar = 1e9;  // [m] stands for any distance that does not count
+constexpr double kReachInSigmas = 4.0;  // distance to a feature beyond which it does not count
 
-/// Distance to the nearest wall [m], kFar off the map or beyond what the field stores.
+/// Returns the distance [m] to the nearest wall; kFar outside the map or beyond what the field
+/// stores.
 double wallDistance(const DenseField& field, const TPoint2D& point)
 {
   const DenseCell* cell = cellAt(field, point);

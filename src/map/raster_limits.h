@@ -7,7 +7,7 @@
 
 namespace sigloc
 {
-/// Returns why a raster's cells of this size [m] are of no use, or nullopt: a dense field takes
-/// cells of 5 mm to 1 m.
+/// Returns why cells of this size [m] cannot be used, or nullopt where they can: a dense field
+/// needs cells of 5 mm to 1 m.
 std::optional<std::string> unusableCells(double resolution);
 }  // namespace sigloc

@@ -13,7 +13,7 @@ using mrpt::math::TPoint2D;
 namespace
 {
 constexpr std::size_t kBeams = 360;
-constexpr double kRange = 30.0;  // [m]
+constexpr double kRange = 30.0;  // [m] of the beams
 
 bool isFree(const DenseField& field, const TPoint2D& place)
 {

@@ -7,8 +7,8 @@
 
 namespace sigloc
 {
-/// Returns what a robot at the origin of a local map would see of it: its features, and a full
-/// circle of beams cast through its dense field. No beams where it has none, or where the origin is
-/// not in its free space.
+/// Returns what a robot at the origin of a local map would see: the features of the map, and a full
+/// circle of beams cast through its dense field. There are no beams where the map has no field, or
+/// where the origin is not in its free space.
 ObservedScene sceneOfMap(const FeatureMap& map);
 }  // namespace sigloc

@@ -13,11 +13,11 @@
 
 namespace sigloc
 {
-/// What a feature is. The numeric values are stored in `.sigmap` files. A new type is entered
+/// The type of a feature. The numeric values are stored in `.sigmap` files. A new type is entered
 /// before `count` and gets a row in kFeatureTraits.
 enum class FeatureType : std::uint8_t
 {
-  point = 0,  ///< landmark or reflector: a place, nothing else
+  point = 0,  ///< landmark or reflector: a place without direction and size
   segment = 1,  ///< directed piece of wall; the normal points into the free space
   circle = 2,  ///< pillar or trunk
   corner = 3,  ///< two walls that meet: vertex, bisector, opening
@@ -25,16 +25,16 @@ enum class FeatureType : std::uint8_t
   count  ///< the number of types; it stays last, and no feature has it
 };
 
-/// What the geometry of a feature is. Code that is not about one type asks for this.
+/// The geometry of a feature. Code that is not about one type uses this.
 enum class FeatureGeometry : std::uint8_t
 {
   place,  ///< a point of the plane without direction
-  viewed,  ///< a place whose direction only says where it was seen from
+  viewed,  ///< a place whose direction is only that from which it was seen
   directed,  ///< a place with a direction of its own, so that one feature fixes a pose
   wall,  ///< a directed piece of wall, which may be seen in several parts
 };
 
-/// What `Feature::size` is.
+/// The meaning of `Feature::size`.
 enum class FeatureSize : std::uint8_t
 {
   none,
@@ -43,7 +43,7 @@ enum class FeatureSize : std::uint8_t
   opening,  ///< [rad]
 };
 
-/// What code needs to know of a feature type.
+/// The properties of a feature type.
 struct FeatureTraits
 {
   FeatureType type = FeatureType::count;
@@ -95,7 +95,8 @@ constexpr const FeatureTraits& traitsOf(FeatureType type)
   return kFeatureTraits[typeIndex(type)];
 }
 
-/// Whether a trait of a type has a value. Tests a bit of a constant: cheap in inner loops.
+/// Returns whether a trait of a type has a value. It tests a bit of a constant, which is fast in
+/// inner loops.
 template <auto trait, auto value>
 constexpr bool hasTrait(FeatureType type)
 {
@@ -115,7 +116,7 @@ constexpr bool isSegment(FeatureType type)
 {
   return hasTrait<&FeatureTraits::geometry, FeatureGeometry::wall>(type);
 }
-/// Everything but a segment marks a place in the plane.
+/// True for every type but the segment: the feature has a place in the plane.
 constexpr bool isPointLike(FeatureType type)
 {
   return !isSegment(type);
@@ -124,8 +125,8 @@ constexpr bool hasDirection(FeatureType type)
 {
   return !hasTrait<&FeatureTraits::geometry, FeatureGeometry::place>(type);
 }
-/// A corner or wall end carries a direction besides its place; a circle's only says where it was
-/// seen from.
+/// True for a corner or wall end, which has a direction of its own besides its place. The direction
+/// of a circle is only that from which it was seen.
 constexpr bool hasBearing(FeatureType type)
 {
   return hasTrait<&FeatureTraits::geometry, FeatureGeometry::directed>(type);
@@ -134,7 +135,7 @@ constexpr bool hasSize(FeatureType type)
 {
   return !hasTrait<&FeatureTraits::size, FeatureSize::none>(type);
 }
-/// The size is a length, and an observed one may be less than the mapped one.
+/// True where the size is a length, and an observed one may be less than the mapped one.
 constexpr bool isSeenInPart(FeatureType type)
 {
   return hasTrait<&FeatureTraits::size, FeatureSize::length>(type);
@@ -144,7 +145,7 @@ constexpr bool isRound(FeatureType type)
   return hasTrait<&FeatureTraits::size, FeatureSize::radius>(type);
 }
 
-/// Which end of its directed segment a wall end is: a mirror image swaps the two.
+/// The end of a directed segment that a wall end is. A mirror image swaps the two.
 enum class WallSide : std::uint8_t
 {
   start = 0,
@@ -153,8 +154,8 @@ enum class WallSide : std::uint8_t
 
 /// One geometric feature, observed (robot frame) or mapped (map frame).
 ///
-/// All types share one layout, an oriented place with covariance, so that constraints between any
-/// two of them read the same way.
+/// All types share one layout, an oriented place with covariance, so that one code handles the
+/// constraints between any two of them.
 ///
 /// What position [m], direction [rad] and size mean for each type:
 ///
@@ -165,8 +166,8 @@ enum class WallSide : std::uint8_t
 ///   in (0, 2 pi)
 /// * wall end: the end; from the end along the wall; the length of the wall [m]
 ///
-/// A segment runs along its tangent = normal - pi/2 from `start` to `end`: the free space lies on
-/// its left, and a scanner in that free space with counter-clockwise beams sees `start` first.
+/// A segment runs along its tangent = normal - pi/2 from `start` to `end`. The free space is on its
+/// left. A scanner in that free space with counter-clockwise beams sees `start` first.
 struct Feature
 {
   FeatureType type = FeatureType::point;
@@ -179,29 +180,28 @@ struct Feature
   /// Covariance of the position [m^2]. For a segment only the part along the normal is
   /// meaningful (the mid-point of the *line*); along the tangent it is the end points' variance.
   mrpt::math::CMatrixDouble22 position_covariance;
-  double direction_variance =
-      0;  ///< [rad^2]; for a segment uncorrelated with the offset at the mid-point
+  /// [rad^2]; for a segment it is uncorrelated with the offset at the mid-point.
+  double direction_variance = 0;
   double size_variance = 0;  ///< [m^2] or, for a corner, [rad^2]
   std::int32_t label = -1;  ///< class, colour or intensity bin where given, else -1
   std::uint32_t sightings = 1;  ///< in how many scans a map feature was seen
-  std::int32_t parent = -1;  ///< corner, wall end: index of a segment it was made of, else -1
+  std::int32_t parent = -1;  ///< corner, wall end: index of a segment it is derived from, else -1
 };
 
-/// Unit vector along `direction`.
+/// Returns the unit vector along `direction`.
 mrpt::math::TPoint2D directionVector(const Feature& feature);
 
-/// Unit vector from start to end of a segment (direction - pi/2).
+/// Returns the unit vector from start to end of a segment (direction - pi/2).
 mrpt::math::TPoint2D tangentVector(const Feature& segment);
 
-/// End points of a segment [m], in the frame of the feature.
+/// Return the end points of a segment [m], in the frame of the feature.
 mrpt::math::TPoint2D segmentStart(const Feature& segment);
 mrpt::math::TPoint2D segmentEnd(const Feature& segment);
 
-/// Signed distance of the origin's line equation: n . p = d with n = (cos direction, sin
-/// direction).
+/// Returns d [m] of a segment's line n . p = d, with n = (cos direction, sin direction).
 double lineDistance(const Feature& segment);
 
-/// Returns the feature seen from another frame: `b_from_a` applied to a feature given in frame a.
-/// Covariances are rotated; the pose is taken as exact.
+/// Returns a feature of frame a in frame b, by `b_from_a`. Covariances are rotated; the pose is
+/// taken as exact.
 Feature transformed(const mrpt::math::TPose2D& b_from_a, const Feature& feature_in_a);
 }  // namespace sigloc

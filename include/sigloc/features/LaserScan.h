@@ -10,13 +10,13 @@
 
 namespace sigloc
 {
-/// What reads farther [m] is no return of a laser and says nothing.
+/// A range above this [m] is no return of a laser and is skipped.
 constexpr double kFarthestReturn = 1e4;
 
-/// One planar laser scan, framework-free. Beam i points along first_angle + i * angle_step
-/// (sensor frame, counter-clockwise positive; the bridge reverses clockwise or upside-down scans,
-/// so angle_step > 0). A beam with valid[i] == 0 says nothing: no return, clipped or broken; nor
-/// does one beyond max_range or kFarthestReturn.
+/// One planar laser scan, framework-free. Beam i points along first_angle + i * angle_step in the
+/// sensor frame, counter-clockwise positive. Readers reverse clockwise or upside-down scans, so
+/// that angle_step > 0. A beam with valid[i] == 0 (no return, clipped or broken) is skipped, and so
+/// is one beyond max_range or kFarthestReturn.
 struct LaserScan
 {
   std::vector<float> ranges;  ///< [m], finite and > 0 where valid
@@ -31,7 +31,7 @@ struct LaserScan
 /// One laser return in the robot frame.
 struct BeamEnd
 {
-  mrpt::math::TPoint2D point;  ///< [m], where the beam ended, within kFarthestReturn of it
+  mrpt::math::TPoint2D point;  ///< [m], end of the beam, within kFarthestReturn of its origin
   std::uint32_t origin = 0;  ///< index into ObservedScene::sensor_origins
 };
 }  // namespace sigloc

@@ -9,11 +9,12 @@
 
 namespace sigloc
 {
-/// Everything one step of the robot saw, in the robot frame: the input of `SignatureMatcher`.
+/// Everything that the robot observed in one step, in the robot frame: the input of
+/// `SignatureMatcher`.
 struct ObservedScene
 {
   std::vector<Feature> features;
   std::vector<BeamEnd> beams;  ///< all valid returns, ordered by scan and beam
-  std::vector<mrpt::math::TPoint2D> sensor_origins;
+  std::vector<mrpt::math::TPoint2D> sensor_origins;  ///< [m], one for each scan
 };
 }  // namespace sigloc

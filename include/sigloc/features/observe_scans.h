@@ -11,7 +11,8 @@
 
 namespace sigloc
 {
-/// How features are taken from a scan. The same values serve real and simulated scans.
+/// How features are extracted from a scan. The same values are used for real and simulated scans.
+/// Units, ranges and meanings are in `visitFields`. \cite algorithm section 2
 struct FeatureExtractorOptions
 {
   double min_range = 0.05;

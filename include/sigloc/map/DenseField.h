@@ -11,13 +11,14 @@
 
 namespace sigloc
 {
-/// What is known of a raster cell. The numeric values are stored in `.sigmap` files.
+/// The state of a raster cell. The numeric values are stored in `.sigmap` files.
+/// \cite algorithm eq. (6.1), (6.2)
 enum class CellState : std::uint8_t
 {
   unknown = 0,
   free = 1,
-  wall = 2,  ///< something was hit here
-  solid_wall = 3,  ///< hit more often than passed: no beam goes through
+  wall = 2,  ///< beams ended here
+  solid_wall = 3,  ///< at least as many beams ended here as passed: it stops beams
 };
 
 /// True for wall and solid wall.
@@ -36,14 +37,14 @@ struct RasterFrame
   std::uint32_t height = 0;  ///< [cells]
 };
 
-/// Where the returns of mapping scans hit a wall cell. \cite algorithm eq. (6.12)
+/// The mean position of the returns of mapping scans in a wall cell. \cite algorithm eq. (6.12)
 struct WallHits
 {
   static constexpr double kUnit = 0.125;  ///< [cells] per unit of x and y
   static constexpr std::uint8_t kMostWeight = 7;
-  std::int8_t x = 0;  ///< their mean, from the middle of the cell
-  std::int8_t y = 0;
-  std::uint8_t weight = 1;  ///< beside other wall cells; 1 to kMostWeight
+  std::int8_t x = 0;  ///< [kUnit] from the middle of the cell
+  std::int8_t y = 0;  ///< [kUnit] from the middle of the cell
+  std::uint8_t weight = 1;  ///< against other wall cells, 1 to kMostWeight
 };
 
 inline bool operator==(const WallHits& a, const WallHits& b)
@@ -51,30 +52,30 @@ inline bool operator==(const WallHits& a, const WallHits& b)
   return a.x == b.x && a.y == b.y && a.weight == b.weight;
 }
 
-/// Occupancy as the dense field needs it: built from the hit counts of mapping scans, or filled by
-/// the bridge from an occupancy grid map.
+/// Occupancy as the dense field needs it, from the hit counts of mapping scans or from an occupancy
+/// grid map.
 struct OccupancyRaster
 {
   RasterFrame frame;
   std::vector<CellState> cells;  ///< width * height
-  /// width * height, meaningful for wall cells; none: every wall is hit in the middle of its cells
+  /// width * height, used for wall cells. Where empty, walls are in the middle of their cells.
   std::vector<WallHits> hits;
 };
 
-/// One cell of the dense field, packed so that a look-up touches one cache line.
+/// One cell of the dense field, packed so that reading it takes one cache line.
 struct DenseCell
 {
-  std::uint8_t distance =
-      255;  ///< to the nearest wall cell, in units of DenseField::kDistanceUnit; 255: farther
+  /// To the nearest wall cell, in units of DenseField::kDistanceUnit; 255: farther away.
+  std::uint8_t distance = 255;
   /// From the middle of the cell to the ridge of the nearest wall, in units of
-  /// DenseField::kOffsetUnit; meaningful where distance < 255.
+  /// DenseField::kOffsetUnit. Used where distance < 255.
   std::int8_t dx = 0;
   std::int8_t dy = 0;
   CellState state = CellState::unknown;
 };
 
-/// Distance to, and direction of, the nearest wall everywhere on the map: what dense verification
-/// looks up. Plain data; see `buildDenseField`. \cite algorithm eq. (6.3)
+/// Distance to, and direction of, the nearest wall everywhere on the map, for dense verification.
+/// Plain data; see `buildDenseField`. \cite algorithm eq. (6.3)
 struct DenseField
 {
   static constexpr double kDistanceUnit = 0.005;  ///< [m] per unit of DenseCell::distance
@@ -85,7 +86,7 @@ struct DenseField
   std::uint32_t wall_cells = 0;
 };
 
-/// Returns the cell that a point of the map frame [m] falls into, or null outside of the field.
+/// Returns the cell with a point of the map frame [m], or null outside the field.
 inline const DenseCell* cellAt(const DenseField& field, const mrpt::math::TPoint2D& point)
 {
   const RasterFrame& frame = field.frame;
@@ -95,20 +96,21 @@ inline const DenseCell* cellAt(const DenseField& field, const mrpt::math::TPoint
   return &field.cells[static_cast<std::size_t>(y) * frame.width + static_cast<std::size_t>(x)];
 }
 
-/// Returns how far [m] a cell is at least from any wall when its distance is 255: the distance byte
-/// ends at 1.27 m, the offset bytes at 127 cells.
+/// Returns the least distance [m] to any wall of a cell whose distance byte is 255. The distance
+/// bytes end at 1.27 m, the offset bytes at 127 cells.
 double truncationDistance(double resolution);
 
-/// Returns how far [cells] a cell's state reaches: a cell of the dense field depends on none that
-/// is farther away along either axis.
+/// Returns the distance [cells] along either axis beyond which a cell's state has no effect on a
+/// cell of the dense field.
 std::int32_t fieldReach(double resolution);
 
-/// Returns the dense field of a raster. Throws std::invalid_argument when the number of cells, or
-/// of hits if there are any, disagrees with the frame, hits weigh nothing, the resolution is not
-/// within [0.005 m, 1 m] or the raster is empty. Eq. (6.3), (6.12)
+/// Returns the dense field of a raster. \cite algorithm eq. (6.3), (6.12)
+/// Throws std::invalid_argument when the raster is empty, or the resolution is not within
+/// [0.005 m, 1 m]. Also when the number of cells, or of hits if there are any, disagrees with the
+/// frame, or the weight of hits is 0.
 DenseField buildDenseField(const OccupancyRaster& raster);
 
-/// Returns the raster of a field, as far as the field tells: where the ridge of a wall cell lies
-/// stands for where it was hit.
+/// Returns the raster of a field. It has the ridge of a wall cell as the position of its hits,
+/// because a field does not store them.
 OccupancyRaster rasterOf(const DenseField& field);
 }  // namespace sigloc

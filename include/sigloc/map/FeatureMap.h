@@ -13,7 +13,7 @@
 
 namespace sigloc
 {
-/// A line that carries one or more mapped segments facing the same way: fragments of one wall.
+/// A line with one or more mapped segments that face the same way: fragments of one wall.
 struct WallLine
 {
   double direction = 0;  ///< [rad], normal into the free space
@@ -21,10 +21,11 @@ struct WallLine
   std::vector<std::uint32_t> members;  ///< indices of segments, by position along the tangent
 };
 
-/// Links collinear fragments that face the same way into walls; openings up to 4 m are bridged.
+/// Links collinear fragments that face the same way into walls. Openings up to 4 m do not separate
+/// them. \cite algorithm section 2, "From scans to a map"
 std::vector<WallLine> linkWalls(const std::vector<Feature>& features);
 
-/// Where a map came from; stored so that a `.sigmap` is rebuilt only when its source has changed.
+/// The source of a map, stored so that a `.sigmap` is rebuilt only when its source has changed.
 struct MapProvenance
 {
   std::string source_path;
@@ -32,8 +33,8 @@ struct MapProvenance
   std::string options_digest;  ///< hex digest of the options the map was built with
 };
 
-/// The known map: features in the map frame and, where a grid or scans back it, the dense field.
-/// Immutable after construction and safe to share between threads.
+/// The known map: features in the map frame and, where it was made from a grid or from scans, the
+/// dense field. Immutable after construction and safe to share between threads.
 class FeatureMap
 {
  public:
@@ -46,14 +47,14 @@ class FeatureMap
 
   const std::vector<Feature>& features() const { return features_; }
   const std::vector<WallLine>& lines() const { return lines_; }
-  /// For feature k: index into lines(), or -1 when it is not a segment.
+  /// Returns the index into lines() of feature k, or -1 when it is not a segment.
   std::int32_t lineOf(std::size_t k) const { return line_of_[k]; }
   const std::optional<DenseField>& field() const { return field_; }
   const MapErrorModel& error() const { return error_; }
   const MapProvenance& provenance() const { return provenance_; }
   bool empty() const { return features_.empty(); }
-  /// Area where the robot can be [m^2]: the field's free area, else the bounding box of the
-  /// features.
+  /// Returns the area [m^2] in which the robot can be: the field's free area, else the bounding box
+  /// of the features.
   double area() const;
 
  private:

@@ -11,13 +11,14 @@
 
 namespace sigloc
 {
-/// All laser scans of one step with the pose they were taken from.
+/// All laser scans of one step with the pose from which they were taken.
 struct PosedScans
 {
   mrpt::math::TPose2D map_from_robot;
   std::vector<LaserScan> scans;
 };
 
+/// How maps are made. Units, ranges and meanings are in `visitFields`. \cite algorithm section 2
 struct MapBuildingOptions
 {
   double raster_resolution = 0.05;
@@ -72,16 +73,17 @@ FeatureMap buildMapFromScans(const std::vector<PosedScans>& scans,
                              const MapProvenance& provenance = {},
                              const MapProgress& progress = {});
 
-/// Returns the map of an occupancy raster: scans are cast from its free cells, so that the features
-/// are those a laser sees. Throws std::invalid_argument for an inconsistent raster or one without
-/// any wall.
+/// Returns the map of an occupancy raster. Scans are cast from its free cells, so that the features
+/// are those that a laser sees. Throws std::invalid_argument for an inconsistent raster or one
+/// without any wall.
 FeatureMap buildMapFromRaster(const OccupancyRaster& raster, const MapBuildingOptions& options = {},
                               const FeatureExtractorOptions& extraction = {},
                               const MapProvenance& provenance = {},
                               const MapProgress& progress = {});
 
-/// Returns the raster of posed scans: a cell is wall when at least min_hits scans end in it, free
-/// when beams pass and it is not wall. \cite algorithm eq. (6.1), (6.2)
+/// Returns the raster of posed scans. A cell is wall when beams of at least min_hits scans end in
+/// it and its neighbours, and free when beams pass and it is not wall. \cite algorithm eq. (6.1),
+/// (6.2)
 OccupancyRaster rasterFromScans(const std::vector<PosedScans>& scans,
                                 const MapBuildingOptions& options = {});
 }  // namespace sigloc

@@ -14,7 +14,7 @@ namespace sigloc
 {
 class NearestFeature;
 
-/// How well points fit a map where a particle filter weighs a pose.
+/// How a particle filter weighs a pose by points. Units, ranges and meanings are in `visitFields`.
 struct PointLikelihoodOptions
 {
   double sigma = 0.20;
@@ -41,8 +41,8 @@ struct PointLikelihoodOptions
 std::vector<mrpt::math::TPoint2D> thinned(const std::vector<mrpt::math::TPoint2D>& points,
                                           std::size_t max_points);
 
-/// Returns the log-likelihood (<= 0) of points in the robot frame at a pose, each point an
-/// independent mixture of a Gaussian of its distance to the nearest wall and of an outlier.
+/// Returns the log-likelihood (<= 0) of points in the robot frame [m] at a pose. Each point is an
+/// independent mixture: a Gaussian of its distance to the nearest wall, and an outlier.
 double logLikelihood(const DenseField& field, const std::vector<mrpt::math::TPoint2D>& points,
                      const mrpt::math::TPose2D& map_from_robot,
                      const PointLikelihoodOptions& options = {});

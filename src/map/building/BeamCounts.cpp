@@ -15,10 +15,10 @@ using mrpt::math::TPose2D;
 
 namespace
 {
-constexpr std::uint16_t kSolidLooks = 2;  // that must have hit a solid wall
+constexpr std::uint16_t kSolidLooks = 2;  // least scans that hit a solid wall, eq. (6.2)
 constexpr double kBorder = 1.5;  // [m] around the outermost return
-constexpr double kMaxCells = 4e8;  // refuses absurd extents before allocating
-constexpr double kMaxIndex = 1e9;  // of a cell, in either direction
+constexpr double kMaxCells = 4e8;  // bound of the extent, checked before allocating
+constexpr double kMaxIndex = 1e9;  // bound of a cell's index, in either direction
 constexpr std::int32_t kTile = BeamCounts::kTileCells;
 
 /// Calls `visit(sensor origin, end point)` in the map frame for every valid return within range.
@@ -50,7 +50,7 @@ void increase(std::uint16_t& count)
   if (count < 65535) ++count;
 }
 
-/// Rounds down; for numbers that are known to fit, which spares a call a cell.
+/// Rounds down a number that is known to fit, which saves a function call for every cell.
 std::int32_t roundDown(double value)
 {
   const auto truncated = static_cast<std::int32_t>(value);
@@ -84,14 +84,16 @@ std::size_t indexInTile(const CellIndex& cell)
   return static_cast<std::size_t>((cell.y & (kTile - 1)) * kTile + (cell.x & (kTile - 1)));
 }
 
-/// Where `p` lies in a cell along one axis, from its middle, in BeamCounts::kPlaceUnit.
+/// Returns the position of `p` in a cell along one axis, from its middle, in
+/// BeamCounts::kPlaceUnit.
 std::int32_t placeInCell(double p, double anchor, double resolution, std::int32_t cell)
 {
   const double cells = (p - anchor) / resolution - cell - 0.5;
   return static_cast<std::int32_t>(std::lround(cells / BeamCounts::kPlaceUnit));
 }
 
-/// True for counts that looks can lead to: every look that hit did so with a beam, in the cell.
+/// True for counts that scans can cause: every scan that hit has at least one beam that ended in
+/// the cell.
 bool isPossible(const BeamCounts::Count& count)
 {
   const double most = 0.5 / BeamCounts::kPlaceUnit * count.hits;
@@ -99,7 +101,7 @@ bool isPossible(const BeamCounts::Count& count)
          std::abs(static_cast<double>(count.sum_y)) <= most;
 }
 
-/// Of a cell that was hit.
+/// Returns the mean position and the weight of the hits of a cell that was hit. Eq. (6.12)
 WallHits hitsOf(const BeamCounts::Count& count)
 {
   const auto mean = [&](std::int32_t sum)
@@ -171,7 +173,7 @@ void BeamCounts::markChanged(std::uint64_t key, Tile& tile)
   changed_.push_back(key);
 }
 
-/// A beam passes the cells up to one cell before its end, which it hits.
+/// A beam passes the cells up to one cell before its end, and hits the cell at its end.
 void BeamCounts::addBeam(const TPoint2D& origin, const TPoint2D& end, Cursor& cursor)
 {
   const TPoint2D beam = end - origin;
@@ -192,7 +194,7 @@ void BeamCounts::addBeam(const TPoint2D& origin, const TPoint2D& end, Cursor& cu
   cells_counted_ += static_cast<std::uint64_t>(std::max<std::int64_t>(steps, 0)) + 1;
   const CellIndex hit_cell = cellAt(end, anchor, resolution);
   Count& hit = count_of(hit_cell);
-  if (hit.hits < 65535)  // beyond, the mean stays
+  if (hit.hits < 65535)  // where the count saturates, the mean stays
   {
     hit.sum_x += placeInCell(end.x, anchor.x, resolution, hit_cell.x);
     hit.sum_y += placeInCell(end.y, anchor.y, resolution, hit_cell.y);
@@ -204,8 +206,8 @@ void BeamCounts::addBeam(const TPoint2D& origin, const TPoint2D& end, Cursor& cu
   touchNeighbours(hit_cell);
 }
 
-/// A hit may turn a neighbour into wall, eq. (6.1); only a cell that was hit itself, so that its
-/// tile is there.
+/// Marks the tiles of the neighbours as changed. A hit may turn a neighbour into wall, eq. (6.1),
+/// but only one that was hit itself, so its tile exists.
 void BeamCounts::touchNeighbours(const CellIndex& hit)
 {
   const auto at_border = [](std::int32_t i)
@@ -231,8 +233,8 @@ const BeamCounts::Count* BeamCounts::find(const CellIndex& cell) const
   return tile == tiles_.end() ? nullptr : &tile->second.counts[indexInTile(cell)];
 }
 
-/// A cell that was hit, but not often enough by itself, may be so together with its neighbours: a
-/// far wall spreads over two or three cells.
+/// True when a cell was hit often enough together with its neighbours, because a far wall spreads
+/// over two or three cells. Eq. (6.1)
 bool BeamCounts::hitOftenAround(const CellIndex& cell, std::uint32_t min_looks) const
 {
   std::uint32_t sum = 0;
@@ -305,7 +307,7 @@ OccupancyRaster BeamCounts::raster(const CellBox& box, std::uint32_t min_looks) 
     {
       const std::int64_t column = name.x - box.low.x + static_cast<std::int64_t>(i % kTile);
       const std::int64_t row = name.y - box.low.y + static_cast<std::int64_t>(i / kTile);
-      // The tiles at the border reach beyond the frame.
+      // The tiles at the border extend beyond the frame.
       if (column < 0 || row < 0 || column >= frame.width || row >= frame.height) continue;
       const auto k = static_cast<std::size_t>(row * frame.width + column);
       raster.cells[k] = tile.states[i];

@@ -14,7 +14,7 @@
 
 namespace sigloc
 {
-/// A cell of an unbounded raster: it covers [anchor + resolution * x, anchor + resolution * (x +
+/// A cell of an unbounded raster. It covers [anchor + resolution * x, anchor + resolution * (x +
 /// 1)).
 struct CellIndex
 {
@@ -31,9 +31,9 @@ struct CellBox
   std::int32_t height() const { return high.y - low.y; }
 };
 
-/// Counts, cell by cell, the looks that hit it and the beams that hit and passed it. Cells are kept
-/// in tiles that are made where beams go: memory grows with the area seen. \cite algorithm section
-/// 6.1
+/// Counts, for each cell, the scans that hit it and the beams that hit and passed it. All laser
+/// scans of one step count as one scan. Cells are kept in tiles that are made where beams go, so
+/// memory grows with the area seen. \cite algorithm eq. (6.1), (6.2)
 class BeamCounts
 {
  public:
@@ -41,11 +41,11 @@ class BeamCounts
 
   struct Count
   {
-    std::uint32_t last_look = 0;  ///< that hit it; 0: none, or one of an earlier session
+    std::uint32_t last_look = 0;  ///< last scan that hit it; 0: none, or one before restore()
     std::uint16_t hits = 0;  ///< beams that ended here; all counts saturate
-    std::uint16_t passes = 0;  ///< beams that went on
-    std::uint16_t looks = 0;  ///< that hit it
-    /// Of where the hits were, from the middle of the cell, in kPlaceUnit.
+    std::uint16_t passes = 0;  ///< beams that passed
+    std::uint16_t looks = 0;  ///< scans that hit it
+    /// Sums of the positions of the hits, from the middle of the cell, in kPlaceUnit.
     std::int32_t sum_x = 0, sum_y = 0;
   };
   static constexpr double kPlaceUnit = 1.0 / 64;  ///< [cells]
@@ -63,14 +63,14 @@ class BeamCounts
     bool empty() const { return low.x > high.x; }
   };
 
-  /// `resolution` in metres; a corner of some cell is at `anchor` [m].
+  /// `resolution` is in metres. One cell has its lower left corner at `anchor` [m].
   explicit BeamCounts(double resolution, const mrpt::math::TPoint2D& anchor = {0, 0});
 
-  /// Counts the beams of one look up to `max_range` [m]. Throws std::invalid_argument, with nothing
-  /// counted, for a pose that is not finite or when what was seen spreads over too large an area.
+  /// Counts the beams of one scan up to `max_range` [m]. Throws std::invalid_argument, with nothing
+  /// counted, for a pose that is not finite or where the area seen would become too large.
   void add(const PosedScans& look, double max_range);
 
-  /// What is known of each cell of a tile by now, row by row; unknown where no tile is.
+  /// The present state of each cell of a tile, row by row; unknown where there is no tile.
   /// Eq. (6.1), (6.2), (6.12)
   struct TileCells
   {
@@ -79,15 +79,15 @@ class BeamCounts
   };
   TileCells cellsOf(const CellIndex& name, std::uint32_t min_looks) const;
 
-  /// All that was counted, with a border. Not for an empty extent.
+  /// Returns the box of all that was counted, with a border. Must not be called on an empty extent.
   CellBox box() const;
   RasterFrame frameOf(const CellBox& box) const;
-  /// All cells of a box.
+  /// Returns all cells of a box.
   OccupancyRaster raster(const CellBox& box, std::uint32_t min_looks) const;
 
   /// True when cells may have changed since `takeChangedTiles` was called last.
   bool changed() const { return !changed_.empty(); }
-  /// Lower left cells of the tiles in which they may have, in order.
+  /// Returns the lower left cells of the tiles in which cells may have changed, in order.
   std::vector<CellIndex> takeChangedTiles();
 
   bool empty() const { return extent_.empty(); }
@@ -99,12 +99,12 @@ class BeamCounts
   const Extent& extent() const { return extent_; }
   std::vector<CellIndex> tileNames() const;  ///< in order
   const Tile& tile(const CellIndex& name) const;
-  /// Puts stored counts in place. Throws std::invalid_argument for a name that no tile has or
-  /// counts that no looks lead to.
+  /// Restores stored counts. Throws std::invalid_argument for a name that no tile can have, or for
+  /// counts that no scans can cause.
   void restore(const Extent& extent, const CellIndex& name, const Tile& tile);
 
  private:
-  /// A tile found last: beams stay in one for many cells.
+  /// The tile found last, because a beam stays in one for many cells.
   struct Cursor
   {
     std::uint64_t key = ~0ULL;

@@ -19,10 +19,10 @@ namespace
 {
 constexpr double kSegmentCell = 1.0;  // [m] of the hash over walls
 constexpr double kPlaceCell = 0.5;  // [m] of the hash over point-like features
-constexpr double kPoseSigma = 0.03;  // [m], of the poses the scans were taken from
-constexpr double kHeadingSigma = 0.01;  // [rad]
-constexpr double kMaxTurn = 0.4;  // [rad], between sightings of one corner or wall end
-constexpr double kEndNearCorner = 0.3;  // [m]
+constexpr double kPoseSigma = 0.03;  // [m] of the poses of the scans, eq. (2.7)
+constexpr double kHeadingSigma = 0.01;  // [rad] of the headings of the scans
+constexpr double kMaxTurn = 0.4;  // [rad] between sightings of one corner or wall end
+constexpr double kEndNearCorner = 0.3;  // [m] within which a wall end is that of a corner
 
 std::uint64_t keyAt(double x, double y, double size)
 {
@@ -115,7 +115,7 @@ void FeatureMerger::addSegment(const Feature& segment)
       }
     }
   };
-  // What may merge lies within these margins, perhaps across the border of a cell.
+  // Segments that may merge are within these margins, perhaps across the border of a cell.
   const TPoint2D aside = directionVector(segment) * options_.merge_offset;
   walkAlong(segment, 0.5 * kSegmentCell, options_.merge_gap,
             [&](double x, double y)
@@ -137,7 +137,7 @@ void FeatureMerger::addSegment(const Feature& segment)
 
 void FeatureMerger::absorb(MergedSegment& merged, const Feature& segment)
 {
-  // A piece of wall counts as its points do: length, middle and spread along itself.
+  // A piece of wall counts like evenly spread points, eq. (2.6): by its length, middle and spread.
   const TPoint2D tangent = tangentVector(segment);
   const double w = segment.size;
   const double spread = w * w * w / 12.0;
@@ -232,7 +232,7 @@ void FeatureMerger::addPlace(const Feature& place)
   }
   MergedPlace& merged = places_[static_cast<std::size_t>(best)];
   Feature& feature = merged.feature;
-  // Running means; the hash keeps the first place, from which the mean moves by less than a cell.
+  // Running means. The hash keeps the first place, from which the mean moves by less than a cell.
   const double n = merged.count++;
   feature.position = (feature.position * n + place.position) * (1.0 / (n + 1));
   feature.size = isSeenInPart(place.type) ? std::max(feature.size, place.size)
@@ -254,7 +254,8 @@ void FeatureMerger::addPlace(const Feature& place)
 
 namespace
 {
-/// Averaging shrinks what is independent between scans, the pose error included; a floor stays.
+/// Sets the covariance of a merged place. Averaging reduces the errors that are independent between
+/// scans, including those of the poses, down to a floor. Eq. (2.7)
 void setPlaceCovariance(Feature& feature)
 {
   const double n = std::min(feature.sightings, 9U);
@@ -283,8 +284,8 @@ void setSegmentCovariance(Feature& segment, std::uint32_t sightings)
   segment.sightings = sightings;
 }
 
-/// The end of one of the two walls that meet in a convex corner: from most places only one of the
-/// faces is seen, and it ends in a jump.
+/// Returns the end of one of the two walls that meet in a convex corner. Most scans see one of the
+/// faces only, which ends in a jump.
 Feature wallEndOfCorner(const Feature& corner, WallSide side)
 {
   const double turn = M_PI - corner.size;
@@ -312,7 +313,7 @@ std::vector<Feature> FeatureMerger::features() const
   }
   const std::size_t segment_count = out.size();
 
-  std::vector<Feature> completed;  // wall ends implied by convex corners, unless seen themselves
+  std::vector<Feature> completed;  // wall ends of convex corners, where none was seen
   for (const MergedPlace& merged : places_)
   {
     if (merged.feature.sightings < options_.min_sightings) continue;

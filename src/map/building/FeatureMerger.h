@@ -11,13 +11,13 @@
 
 namespace sigloc
 {
-/// Merges the features of many scans into those of a map, through spatial hashes: each insertion
-/// costs O(local density), memory grows with the number of distinct features. \cite algorithm
-/// section 2
+/// Merges the features of many scans into those of a map, through spatial hashes. Each insertion
+/// costs O(local density). Memory grows with the number of distinct features.
+/// \cite algorithm section 2, "From scans to a map"
 class FeatureMerger
 {
  public:
-  /// A wall piece as weighted second moments of all its sightings plus its extent.
+  /// A wall piece as weighted second moments of all its sightings, plus its extent. Eq. (2.6)
   struct MergedSegment
   {
     double weight = 0;  ///< [m], summed length of the sightings
@@ -27,7 +27,7 @@ class FeatureMerger
     std::uint32_t sightings = 0;
     std::uint32_t last_scan = 0;
   };
-  /// Sightings of anything else as running means.
+  /// Any other feature as running means of its sightings. Eq. (2.7)
   struct MergedPlace
   {
     Feature feature;
@@ -36,15 +36,15 @@ class FeatureMerger
     std::uint32_t last_scan = 0;
   };
   explicit FeatureMerger(const MapBuildingOptions& options) : options_(options) {}
-  /// Goes on from what another one has gathered.
+  /// Continues from the merged features of another merger.
   FeatureMerger(const MapBuildingOptions& options, std::vector<MergedSegment> segments,
                 std::vector<MergedPlace> places);
 
   /// Adds the features of one scan, given in the map frame.
   void add(const std::vector<Feature>& features_in_map);
 
-  /// Returns the merged features that were seen often enough, wall ends completed by the ends of
-  /// the walls that meet in convex corners.
+  /// Returns the merged features that were seen often enough. The ends of walls that meet in convex
+  /// corners are added to the wall ends.
   std::vector<Feature> features() const;
 
   const std::vector<MergedSegment>& segments() const { return segments_; }

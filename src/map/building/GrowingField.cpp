@@ -9,8 +9,8 @@ namespace sigloc
 {
 namespace
 {
-constexpr std::int32_t kLeastMargin = 64;  // [cells], of unknown cells to grow into
-constexpr std::int32_t kBlock = 32;  // [cells], what is solved at once at least
+constexpr std::int32_t kLeastMargin = 64;  // [cells] least margin of unknown cells to grow into
+constexpr std::int32_t kBlock = 32;  // [cells] side of the smallest box that is solved
 
 CellBox unionOf(const CellBox& a, const CellBox& b)
 {
@@ -53,8 +53,8 @@ std::int32_t blockOf(std::int32_t cell)
   return cell >= 0 ? cell / kBlock : -((kBlock - 1 - cell) / kBlock);
 }
 
-/// Covers cells, each once, by boxes: rows of neighbours, and rows of one width on top of each
-/// other.
+/// Returns boxes that cover the cells, each once: rows of neighbours, joined with equally wide rows
+/// above them.
 std::vector<CellBox> boxesOf(std::vector<CellIndex> cells)
 {
   const auto order = [](const CellIndex& c) { return std::make_pair(c.y, c.x); };
@@ -127,7 +127,7 @@ void GrowingField::update(BeamCounts& counts, std::uint32_t min_looks)
   field_.free_area = static_cast<double>(free_cells_) * r * r;
 }
 
-/// Makes room with a margin in proportion to what is there, so that copying stays cheap on average.
+/// Enlarges the field with a margin in proportion to its size, so that copying is cheap on average.
 void GrowingField::growTo(const CellBox& wanted, const BeamCounts& counts)
 {
   tight_ = unionOf(tight_, wanted);
@@ -168,7 +168,8 @@ void GrowingField::setState(DenseCell& cell, CellState state)
   cell.state = state;
 }
 
-/// Returns true, and the box of cells, when walls have come, gone or been hit elsewhere.
+/// Takes over the cells of a tile. Returns true, and the box of changed cells, when walls have
+/// come, gone or been hit at another position.
 bool GrowingField::takeCells(const CellIndex& first, const BeamCounts::TileCells& tile,
                              CellBox& changed)
 {
@@ -178,7 +179,7 @@ bool GrowingField::takeCells(const CellIndex& first, const BeamCounts::TileCells
   {
     for (std::int32_t x = first.x; x < first.x + BeamCounts::kTileCells; ++x, ++i)
     {
-      // The tiles at the border reach beyond the field.
+      // The tiles at the border extend beyond the field.
       if (tile.states[i] == CellState::unknown || !isWithin(box_, x, y)) continue;
       const std::size_t k = indexOf(x, y);
       DenseCell& cell = field_.cells[k];
@@ -196,8 +197,8 @@ bool GrowingField::takeCells(const CellIndex& first, const BeamCounts::TileCells
   return any;
 }
 
-/// Solves the blocks that a change reaches, those beside each other in one go: each box that is
-/// solved costs a margin around it, too.
+/// Solves the blocks that a change affects, neighbouring ones together, because each box that is
+/// solved also costs a margin around it.
 void GrowingField::solveAround(const std::vector<CellBox>& changed)
 {
   const std::int32_t reach = fieldReach(field_.frame.resolution);

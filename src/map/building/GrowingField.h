@@ -10,25 +10,26 @@
 
 namespace sigloc
 {
-/// The dense field over counts that grow, perhaps on top of a field that was there before: only the
-/// surroundings of walls that changed are solved again, so that a look costs what it saw, however
-/// large the map. Equal, cell by cell, to `buildDenseField` of the whole raster; on top of a field,
-/// that of its `rasterOf` where anything has changed, and the field itself elsewhere.
+/// The dense field over counts that grow, perhaps on top of an earlier field. Only the surroundings
+/// of walls that changed are solved again. So the cost of a scan depends on what it saw, not on the
+/// size of the map. The result equals `buildDenseField` of the whole raster, cell by cell. On top
+/// of a field, it equals that of its `rasterOf` where anything has changed, and the field
+/// elsewhere.
 class GrowingField
 {
  public:
   GrowingField() = default;
-  /// On top of `base`, which must not be empty. The counts must be of its resolution, anchored at
-  /// its origin.
+  /// Starts on top of `base`, which must not be empty. The counts must have its resolution and be
+  /// anchored at its origin.
   explicit GrowingField(DenseField base);
 
-  /// Takes over what has changed in `counts`, always the same ones; where they know nothing, the
-  /// field stays.
+  /// Updates the field by what has changed in `counts`, which must always be the same object. Where
+  /// a cell of the counts is unknown, the field stays.
   void update(BeamCounts& counts, std::uint32_t min_looks);
 
-  /// The field now, with some unknown cells around it to grow into.
+  /// Returns the present field, with some unknown cells around it to grow into.
   const DenseField& field() const { return field_; }
-  /// The field without those.
+  /// Returns the field without those unknown cells.
   DenseField cropped() const;
 
   std::uint64_t cellsSolved() const { return cells_solved_; }  ///< work done, in cells
@@ -39,7 +40,7 @@ class GrowingField
   void setState(DenseCell& cell, CellState state);
   void solveAround(const std::vector<CellBox>& changed);
   void solve(const CellBox& box);
-  /// Of a cell of the counts, in field_ and hits_.
+  /// Index in field_ and hits_ of a cell of the counts.
   std::size_t indexOf(std::int32_t x, std::int32_t y) const
   {
     return static_cast<std::size_t>(y - box_.low.y) * field_.frame.width +

@@ -14,18 +14,18 @@
 
 namespace sigloc
 {
-/// A map that is learnt look by look. Each costs what it sees, however many came before: its
-/// features are merged with those around, its beams counted, and nothing else of it is kept, so
-/// that memory grows with the map and not with the number of looks.
+/// Builds a map scan by scan; all laser scans of one step count as one. The features of a scan are
+/// merged with those around, its beams are counted, and nothing else is kept. So the cost of a scan
+/// depends on what it sees, and memory grows with the map, not with the number of scans.
 ///
 ///     MapBuilder builder;
-///     builder.add({map_from_robot, scans});   // as often as the robot looks
+///     builder.add({map_from_robot, scans});   // for every scan
 ///     const FeatureMap map = builder.map();   // whenever it is needed
 ///
-/// The map is the one that `buildMapFromScans` makes of the same looks in the same order. On top of
-/// a map that was there before, its features stay, new ones are added where it has none within the
-/// merge distances, and the looks overwrite its raster wherever they know a cell; a map without a
-/// field keeps having none. \cite algorithm sections 2 and 6
+/// The map equals that of `buildMapFromScans` for the same scans in the same order. Where there is
+/// a base map, its features stay, and new ones are added where it has none within the merge
+/// distances. The scans overwrite its raster in all cells that they know. A base without a field
+/// gets none. \cite algorithm sections 2 and 6
 class MapBuilder
 {
  public:
@@ -33,18 +33,18 @@ class MapBuilder
   explicit MapBuilder(const MapBuildingOptions& options = {},
                       std::shared_ptr<const FeatureMap> base = nullptr);
 
-  /// Takes in one look. Throws std::invalid_argument, with nothing taken in, for a pose that is not
-  /// finite or too far from the rest, or an inconsistent scan.
+  /// Adds one scan. Throws std::invalid_argument, with nothing added, for a pose that is not finite
+  /// or too far from the rest, or an inconsistent scan.
   void add(const PosedScans& look, const FeatureExtractorOptions& extraction = {});
 
   /// True before the first return of a laser.
   bool empty() const { return counts_.empty(); }
 
-  /// The features so far, the base's first.
+  /// Returns the features so far, those of the base first.
   std::vector<Feature> features() const;
 
-  /// Brings the dense field up to date and returns it, with some unknown cells around it; null
-  /// where the base has none or there was no return yet. Valid, and unchanged, until the next
+  /// Updates the dense field and returns it, with some unknown cells around it. It is null where
+  /// the base has none, or before the first return. It stays valid and unchanged until the next
   /// `add`.
   const DenseField* field();
 
@@ -52,13 +52,13 @@ class MapBuilder
   FeatureMap map(const MapProvenance& provenance = {});
 
   std::uint64_t cellsCounted() const { return counts_.cellsCounted(); }  ///< work done, in cells
-  std::uint64_t cellsSolved() const { return field_.cellsSolved(); }  ///< of the field, likewise
+  std::uint64_t cellsSolved() const { return field_.cellsSolved(); }  ///< the same for the field
 
   // For storing.
   const MapBuildingOptions& options() const { return options_; }
   const FeatureMerger& merger() const { return merger_; }
   const BeamCounts& counts() const { return counts_; }
-  /// Goes on where stored ones have ended; for an empty builder.
+  /// Continues from a stored merger and stored counts; for an empty builder.
   void restore(FeatureMerger merger, BeamCounts counts);
 
  private:

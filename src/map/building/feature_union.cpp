@@ -16,7 +16,7 @@ using mrpt::math::TPoint2D;
 
 namespace
 {
-/// Whether the mapped feature already stands for `feature`.
+/// True when the mapped feature and `feature` are within the merge distances.
 bool covers(const Feature& mapped, const Feature& feature, const MapBuildingOptions& options)
 {
   if (mapped.type != feature.type) return false;
@@ -38,7 +38,8 @@ bool covers(const Feature& mapped, const Feature& feature, const MapBuildingOpti
 std::vector<Feature> unionOf(const std::vector<Feature>& mapped, const std::vector<Feature>& seen,
                              const MapBuildingOptions& options)
 {
-  // One index for each type: the nearest feature of another type must not hide the right one.
+  // There is one index for each type, because the nearest feature of another type must not hide the
+  // right one.
   std::vector<std::vector<Feature>> by_type(kFeatureTypes);
   for (const Feature& feature : mapped)
   {

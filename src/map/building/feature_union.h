@@ -9,7 +9,7 @@
 
 namespace sigloc
 {
-/// Returns the features of a map and, behind them, those `seen` that it does not have within the
+/// Returns the features of a map and, after them, those `seen` that it does not have within the
 /// merge distances.
 std::vector<Feature> unionOf(const std::vector<Feature>& mapped, const std::vector<Feature>& seen,
                              const MapBuildingOptions& options);

@@ -19,11 +19,11 @@ using mrpt::math::TPoint2D;
 namespace
 {
 constexpr std::size_t kCastBeams = 360;
-constexpr double kCastClearance = 0.2;  // [m], a scanner does not stand nearer to a wall
-constexpr double kCastSigma = 0.02;  // [m], of a cast range: the raster's cells
-constexpr double kCellsOffLine = 1.2;  // [cells]
+constexpr double kCastClearance = 0.2;  // [m] least distance of a scanner from a wall
+constexpr double kCastSigma = 0.02;  // [m] of a cast range, because of the raster's cells
+constexpr double kCellsOffLine = 1.2;  // [cells] from a line, up to which returns count as straight
 
-/// The free place nearest to the middle of a block of the raster, with clearance to any wall.
+/// Returns the free place nearest to the middle of a block of the raster, with clearance to walls.
 std::optional<TPoint2D> standingPlace(const DenseField& field, std::uint32_t x0, std::uint32_t y0,
                                       std::uint32_t block)
 {
@@ -80,7 +80,7 @@ FeatureMap buildMapFromRaster(const OccupancyRaster& raster, const MapBuildingOp
   {
     throw std::invalid_argument("buildMapFromRaster: the raster has no wall");
   }
-  // A wall drawn in cells is a staircase: what counts as straight grows with the cell.
+  // A wall of cells is a staircase, so the limit of what counts as straight grows with the cell.
   FeatureExtractorOptions cast_extraction = extraction;
   cast_extraction.split_distance =
       std::max(extraction.split_distance, kCellsOffLine * raster.frame.resolution);

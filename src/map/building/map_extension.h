@@ -8,9 +8,9 @@
 
 namespace sigloc
 {
-/// Returns `map` extended by what posed scans saw: its features stay, features of the scans that it
-/// does not have within the merge distances are added, and the scans overwrite the raster wherever
-/// they know a cell. A map without a field keeps having none.
+/// Returns `map` extended by posed scans. Its features stay. Features of the scans that it does not
+/// have within the merge distances are added. The scans overwrite the raster in all cells that they
+/// know. A map without a field gets none.
 /// Throws std::invalid_argument when no scan has a valid return.
 FeatureMap extendMap(const FeatureMap& map, const std::vector<PosedScans>& scans,
                      const MapBuildingOptions& options = {},

@@ -15,7 +15,7 @@ using mrpt::math::TPoint2D;
 
 namespace
 {
-constexpr double kEndOnLine = 0.2;  // [m], distance of a wall end from the line it ends
+constexpr double kEndOnLine = 0.2;  // [m] of a wall end from the line of its wall
 }  // namespace
 
 void setWallEndLengths(std::vector<Feature>& features)
