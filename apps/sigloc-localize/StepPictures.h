@@ -14,15 +14,15 @@
 
 namespace sigloc
 {
-/// Draws the steps of a run worth looking at: the key moments (first relocation, first ambiguous
-/// and first localized step, the end) and every so many steps as the ini says.
+/// Draws the key steps of a run: the first relocation, the first ambiguous and the first localized
+/// step, and the last one. Draws every n-th step as well where the ini says so.
 class StepPictures
 {
  public:
   /// Throws std::runtime_error when pictures are wanted and off-screen rendering is impossible.
   explicit StepPictures(const LocalizationRun& run);
 
-  /// Takes the run's last step and draws it if it is worth it.
+  /// Takes the run's latest step and draws it if it is one of these.
   void take(const LocalizationRun& run, const RunWriter& writer);
 
  private:

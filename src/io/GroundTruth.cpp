@@ -83,8 +83,8 @@ bool isSimplemap(const std::filesystem::path& path)
 }
 }  // namespace
 
-/// The longest run of rows whose times grow: a path is written as it is driven, so a row whose
-/// time jumps out of that order has a wrong time and would be the truth of some other moment.
+/// The longest run of rows whose times grow. A path is written as it is driven, so a row that is
+/// out of this order has a wrong time. It would be the truth of some other moment.
 std::vector<GroundTruth::Entry> GroundTruth::inTimeOrder(const std::vector<Entry>& rows)
 {
   constexpr std::size_t kNone = static_cast<std::size_t>(-1);

@@ -15,10 +15,10 @@ namespace sigloc
 class GroundTruth
 {
  public:
-  /// Reads rows of 3 columns (x y phi, row = step), 4 (index or time, x y phi) or 7 (time, x y z
-  /// yaw pitch roll), or the key frames of a `.simplemap[.gz]` with their time stamps.
-  /// Every pose p becomes map_from_truth (+) p.
-  /// Throws std::runtime_error naming the path and the reason.
+  /// Reads rows of numbers, or the key frames of a `.simplemap[.gz]` with their time stamps. Rows
+  /// have 3 columns (x y phi, row = step), 4 (index or time, x y phi) or 7 (time, x y z yaw pitch
+  /// roll). Every pose p becomes map_from_truth (+) p. Throws std::runtime_error naming the path
+  /// and the reason.
   static GroundTruth read(const std::filesystem::path& path,
                           const mrpt::math::TPose2D& map_from_truth = {});
 

@@ -163,8 +163,8 @@ mrpt::serialization::CSerializable::Ptr RawlogReader::State::readObject()
   return nullptr;
 }
 
-// MRPT counts the pairs of an action and the frame after it: a frame before the first action is no
-// step of such a log, and ground truth by rows starts after it.
+// MRPT counts the pairs of an action and the frame after it. A frame before the first action is no
+// step of such a log. Ground truth by rows starts after it.
 void RawlogReader::State::skipFrameBeforeActions(
     const mrpt::serialization::CSerializable::Ptr& first_object)
 {

@@ -14,11 +14,12 @@
 
 namespace sigloc
 {
-/// Returns the scan in the core's form: counter-clockwise (clockwise and upside-down scans are
-/// reversed), NaN, infinite, non-positive and max-range beams invalid, those beyond kFarthestReturn
-/// too. A noise of none or more than a metre counts as not given. Returns nullopt for a scan whose
-/// plane is tilted by more than 10 degrees, that has fewer than two beams, or whose aperture or
-/// sensor pose is not finite or, the latter, more than 100 m from the robot.
+/// Returns the scan in the core's form, counter-clockwise: clockwise and upside-down scans are
+/// reversed. NaN, infinite, non-positive and max-range beams are invalid, and those beyond
+/// kFarthestReturn too. A noise of zero, or of more than a metre, counts as not given. Returns
+/// nullopt for a scan with fewer than two beams or whose plane is tilted by more than 10 degrees.
+/// Returns nullopt, too, where the aperture or the sensor pose is not finite, or the sensor is more
+/// than 100 m from the robot.
 std::optional<LaserScan> toLaserScan(const mrpt::obs::CObservation2DRangeScan& scan);
 
 /// Returns all usable 2D scans of a sensory frame.

@@ -104,8 +104,8 @@ void SignatureMonteCarlo2D::gatherModes()
   }
 }
 
-/// Without odometry only the particles tell whether the robot moves: one that stands still learns
-/// nothing from another look.
+/// Without odometry only the particles show whether the robot moves. A robot that stands still
+/// learns nothing from another scan.
 double SignatureMonteCarlo2D::travelSeen(double assumed)
 {
   if (motion_known_ || modes_.empty() || score_ < tracking_.lost_score) return assumed;

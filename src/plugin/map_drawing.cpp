@@ -58,8 +58,8 @@ std::uint8_t greyOf(CellState state)
   return 222;
 }
 
-/// The raster as a picture; blocks of cells shrink to one pixel where the raster is large, and a
-/// block with a wall in it stays a wall so that thin walls survive.
+/// The raster as a picture. Where the raster is large, blocks of cells shrink to one pixel. A block
+/// with a wall in it stays a wall, so that thin walls are kept.
 mrpt::opengl::CTexturedPlane::Ptr drawRaster(const DenseField& field)
 {
   const RasterFrame& frame = field.frame;

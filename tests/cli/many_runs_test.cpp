@@ -20,9 +20,9 @@ int shell(const TemporaryFolder& folder, const std::string& command)
   return std::system(line.c_str());
 }
 
-// docs/many-logs.md, with one machine playing two: its `ssh HOST -- COMMAND` runs the command here,
-// with the SHELL that a login sets and parallel's worker runs jobs in (a build robot may have
-// none).
+// The commands of docs/many-logs.md, with one machine in place of two. Its `ssh HOST -- COMMAND`
+// runs the command here, with the SHELL that a login sets. Parallel's worker runs jobs in that
+// shell; an automatic build may have none.
 TEST(ManyRuns, GnuParallelSpreadsThemAndMergePoolsThem)
 {
   const TemporaryFolder folder;

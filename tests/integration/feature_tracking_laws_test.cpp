@@ -34,8 +34,8 @@ MotionIncrement disturbed(const TPose2D& increment, Random& random)
 }
 
 /// The squared normalised error, 3 degrees of freedom, at the end of a drive through a random point
-/// field with known pairings, by the filter that knows the map's errors to stay or by one that
-/// takes them for fresh noise at every look.
+/// field with known pairings. One filter models the map's errors as constant, the other takes them
+/// for fresh noise at every scan.
 double errorAtTheEnd(std::uint64_t seed, bool errors_stay)
 {
   constexpr int kSteps = 40;
@@ -162,7 +162,7 @@ TEST(FeatureTracking, CovarianceIsHonestOnGatedDrives)
   EXPECT_LT(sum / static_cast<double>(count), 4.0);
 }
 
-/// Places of landmarks that tell where the robot is, around (0, 0).
+/// Positions of landmarks that fix the pose of the robot, around (0, 0).
 const std::vector<TPoint2D> kUnique = {{3, 1},     {-2, 4}, {4.5, -3}, {1, -5},
                                        {-4, -1.5}, {6, 3},  {-1, 2.2}, {2.4, 5.5}};
 /// As seen ahead, symmetric about the x axis.
@@ -185,7 +185,7 @@ ObservedScene sceneOf(const std::vector<TPoint2D>& places)
   return scene;
 }
 
-/// Unique places at x = 0 and, turned upside down, at x = 60; at x = 30 one pattern twice.
+/// A unique pattern at x = 0 and, turned upside down, at x = 60; at x = 30 one pattern twice.
 std::shared_ptr<const SignatureMatcher> ambiguousPlace()
 {
   std::vector<Feature> map;
@@ -202,7 +202,7 @@ std::shared_ptr<const SignatureMatcher> ambiguousPlace()
   return std::make_shared<const SignatureMatcher>(std::make_shared<const FeatureMap>(map));
 }
 
-/// A drive of 30 m that leaves open how far aside it went.
+/// A drive of 30 m whose lateral error is large.
 MotionIncrement drift()
 {
   MotionIncrement motion;

@@ -130,8 +130,8 @@ TEST(LookAlikes, IdenticalRastersGetIdenticalWeights)
   }
 }
 
-/// How many of fifty drives through one of two copies of the office end with both alive, where
-/// each relocation lists a single place, now in one copy, now in the other.
+/// How many of fifty drives through one of two copies of the office end with both tracks alive.
+/// Each relocation returns a single candidate, now in one copy, now in the other.
 int drivesWithBothAlive(const std::optional<MotionIncrement>& first_motion)
 {
   MatcherOptions one_place;
@@ -187,8 +187,8 @@ std::shared_ptr<const FeatureMap> oneFullOneStripped()
   return std::make_shared<FeatureMap>(copies->features(), buildDenseField(raster));
 }
 
-/// Log of the weight of the place in the full copy over the one in the stripped copy at the end of
-/// a drive; none where they aren't both alive.
+/// Log of the ratio of two weights at the end of a drive: of the track in the full copy to that in
+/// the stripped copy. None where they aren't both alive.
 std::optional<double> leadOfTheFullCopy(const std::shared_ptr<const SignatureMatcher>& matcher,
                                         const TrackerOptions& options, std::uint64_t seed,
                                         double metres, bool few_returns)

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-// A map that is learnt look by look, in a simulated office.
+// A map that is learnt scan by scan, in a simulated office.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -41,7 +41,8 @@ TEST(WakeupScoring, SettlesWhereItStaysConfidentToTheEnd)
   EXPECT_EQ(run.wrong_episodes, 2U);
 }
 
-// A claim off the mapped land is wrong wherever it is, but it is another fault than one on it.
+// A claim outside the mapped area is wrong wherever it is. It is another kind of error than a wrong
+// claim inside it.
 TEST(WakeupScoring, CountsWrongClaimsOffTheMappedLandApart)
 {
   Wakeup run;

@@ -144,7 +144,7 @@ TEST(DenseVerifier, CountsBeamsThatPassASolidWall)
   EXPECT_GT(verifier.evaluate(makeDenseScan(far, 400), {-3, 4, 0}).through_wall, 0.1);
 }
 
-// Read beyond the raster of the first look, when a proposal in its border was looked at.
+// A proposal in the border of the coarse field once made the verifier read beyond its cells.
 TEST(DenseVerifier, LooksAtNoProposalOffTheMap)
 {
   const Room room;

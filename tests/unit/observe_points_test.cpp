@@ -86,7 +86,7 @@ TEST(ObservePoints, SkipsWhatIsNoPoint)
   EXPECT_EQ(observePoints({{1, 1}, {1e30, 2}}).beams.size(), 1U);
 }
 
-// The first look counted their cells beyond what a whole number holds.
+// The cells of such returns once overflowed an integer in the coarse stage.
 TEST(ObserveScene, SeesNoReturnBeyondTheFarthest)
 {
   LaserScan scan = roomScan();

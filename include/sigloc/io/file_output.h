@@ -15,10 +15,9 @@ class CArchive;
 
 namespace sigloc
 {
-// How every file is written: the bytes go to a temporary file beside it, which takes the file's
-// name, or that of the file a link points to, once they are all on the disk. What cannot be written
-// leaves what was there as it was, and is told as std::runtime_error ("path: cannot be written:
-// reason").
+// How every file is written: the bytes go to a temporary file beside it. Once they are all on the
+// disk, it is renamed to the file, or to the file that a link points to. A failed write leaves the
+// earlier file as it was and throws std::runtime_error ("path: cannot be written: reason").
 
 /// Writes a file of these bytes.
 void writeFile(const std::filesystem::path& path, std::string_view bytes);
@@ -40,9 +39,10 @@ void finishOutput(std::ostream& out);
 
 // What a program asks before it writes, so that nothing is lost but what an earlier run of it left.
 
-/// Throws std::runtime_error ("output: reason") when writing `output`, a file or a folder that is
-/// replaced with all it holds, would destroy one of `inputs`: the same file, whatever path or link
-/// leads to it, or one below. Inputs that are empty or do not exist are passed over.
+/// Throws std::runtime_error ("output: reason") when writing `output` would destroy one of
+/// `inputs`. `output` is a file, or a folder that is replaced with all it holds. An input is
+/// destroyed when it is the same file, by whatever path or link, or lies below the folder. Inputs
+/// that are empty or do not exist are ignored.
 void refuseToReplaceInputs(const std::filesystem::path& output,
                            const std::vector<std::filesystem::path>& inputs);
 

@@ -19,17 +19,17 @@ namespace sigloc
 using MapSource = std::variant<std::vector<PosedScans>, OccupancyRaster, FeatureMap>;
 
 /// Reads `.simplemap[.gz]`, `.gridmap[.gz]`, a ROS map `.yaml` (pgm/png), a CARMEN log with
-/// corrected poses (`.log`, `.clf`, `.carmen`), a landmark file (`.csv`, `.txt`: rows
-/// `x y [radius] [sigma]`) or a ready `.sigmap`.
-/// Throws std::runtime_error naming the path and the reason for a missing, empty, truncated,
-/// foreign or unusable file, and for a map that reaches farther than 100 km from its origin.
+/// corrected poses (`.log`, `.clf`, `.carmen`), a landmark file (`.csv`, `.txt`: rows `x y [radius]
+/// [sigma]`) or a ready `.sigmap`. Throws std::runtime_error naming the path and the reason for a
+/// missing, empty, truncated, foreign or unusable file. Throws the same for a map that reaches
+/// farther than 100 km from its origin.
 MapSource readMapSource(const std::filesystem::path& path);
 
 /// Returns the kinds of map that readMapSource() knows, for people: "simplemap (.simplemap), ...".
 std::string mapFormatNames();
 
-/// Returns a line on the key frames of a simplemap that are not used as they are, left out or taken
-/// for being on one floor; empty for none, and for other map sources. The same errors.
+/// Returns a line on the key frames of a simplemap that are left out, or that are taken to be on
+/// one floor. The line is empty when there are none, and for other map sources. The same errors.
 std::string warningOfMapSource(const std::filesystem::path& path);
 
 /// Returns the files that a map source is read from: `path`, and the image that a ROS map names.

@@ -85,12 +85,15 @@ struct LocalizationSetup
   std::optional<mrpt::math::TPose2D> finalTruth() const;
 };
 
-/// Reads a pf-localization ini: [LocalizationExperiment] (map_file, rawlog_file, rawlog_offset,
+/// Reads a pf-localization ini: its section [LocalizationExperiment] and our [sigloc.*] sections.
+///
+/// Of [LocalizationExperiment] it reads map_file, rawlog_file, rawlog_offset,
 /// ground_truth_path_file, logOutput_dir, 3DSceneFrequency, experimentRepetitions,
-/// experimentTestConvergenceAtStep, STATS_CONF_INTERVAL, initial_odo_*, init_PDF_*, and `tracker`,
-/// gaussians or particles; with particles, particles_count too) and our [sigloc.*] sections. What
-/// else belongs to the particle filter is accepted and ignored; of other keys there is a warning. A
-/// file name is looked up in the ini's folder, then in the current one; logOutput_dir is relative
+/// experimentTestConvergenceAtStep, STATS_CONF_INTERVAL, initial_odo_* and init_PDF_*. It also
+/// reads `tracker`, gaussians or particles; with particles, particles_count too. Other keys of the
+/// particle filter are accepted and ignored. Unknown keys cause a warning.
+///
+/// A file name is looked up in the ini's folder, then in the current one. logOutput_dir is relative
 /// to the current folder. `rawlog` replaces rawlog_file when given. Throws std::runtime_error
 /// naming the ini and the reason: unreadable, no such section, a named file that does not exist, an
 /// unknown [sigloc.*] section or key, a bad value.

@@ -14,9 +14,9 @@
 
 namespace sigloc
 {
-/// The features of a scan as one of MRPT's observations, so that stock programs with the plug-in
-/// loaded keep, show and export them: RawLogViewer in its tree, text and 3D views, rawlog-edit
-/// through `--describe` and `--export-txt`.
+/// The features of a scan as one of MRPT's observations. Stock programs with the plug-in loaded
+/// keep, show and export them: RawLogViewer in its tree, text and 3D views, rawlog-edit through
+/// `--describe` and `--export-txt`.
 ///
 /// A program without the plug-in can't read a log beyond the first of these: take them out again
 /// with `rawlog-edit -p libsigloc-mrpt.so --remove-label LABEL`.

@@ -16,8 +16,9 @@
 
 namespace sigloc
 {
-/// A feature map as one of MRPT's metric maps, so that stock programs use it unknowingly: inside a
-/// `CMultiMetricMap`, for the likelihood of any particle filter, serialized and in the viewers.
+/// A feature map as one of MRPT's metric maps, so that stock programs use it without knowing it.
+/// They use it inside a `CMultiMetricMap`, take the likelihood of any particle filter from it,
+/// store it and show it.
 ///
 /// In an ini file: `signatureMap_count=1` and the sections
 /// `<name>_signatureMap_00_{creationOpts,insertOpts,likelihoodOpts}`, where `creationOpts` may
@@ -25,9 +26,9 @@ namespace sigloc
 /// insert its scans; a prepared map stays through that when its `enableObservationInsertion` is
 /// false.
 ///
-/// Inserted scans are learnt one by one, each at the cost of what it sees, and are not kept. The
-/// likelihood of scans follows at once; features are gathered from what was learnt when they are
-/// asked for.
+/// Inserted scans are added to the map one by one and are not kept. The cost of one grows with the
+/// area that it sees. The likelihood of scans is up to date at once; features are derived when they
+/// are asked for.
 ///
 /// Const member functions may be called from several threads at once.
 class SignatureMap : public mrpt::maps::CMetricMap
@@ -37,7 +38,7 @@ class SignatureMap : public mrpt::maps::CMetricMap
  public:
   SignatureMap();
   explicit SignatureMap(FeatureMap map);
-  /// A copy learns on by itself.
+  /// Scans inserted into a copy do not change the original.
   SignatureMap(const SignatureMap& other);
   SignatureMap& operator=(const SignatureMap& other);
   ~SignatureMap() override;
@@ -81,7 +82,7 @@ class SignatureMap : public mrpt::maps::CMetricMap
   void getVisualizationInto(mrpt::opengl::CSetOfObjects& scene) const override;
   /// Writes `<prefix>.sigmap`.
   void saveMetricMapRepresentationToFile(const std::string& prefix) const override;
-  /// Pairs every point of a points map with the nearest place on a feature.
+  /// Pairs every point of a points map with the nearest point on a feature.
   void determineMatching2D(const mrpt::maps::CMetricMap* other_map,
                            const mrpt::poses::CPose2D& other_map_pose,
                            mrpt::tfest::TMatchingPairList& correspondences,
@@ -102,9 +103,9 @@ class SignatureMap : public mrpt::maps::CMetricMap
   MAP_DEFINITION_END(SignatureMap)
 
  private:
-  struct Model;  // the map in the form that is looked up
+  struct Model;  // the map in the form used for look-ups
   struct PreparedObservation;
-  struct Learnt;  // what was inserted, and what is derived on demand
+  struct Learnt;  // the inserted scans' data, and what is derived from them on demand
 
   void internal_clear() override;
   bool internal_insertObservation(

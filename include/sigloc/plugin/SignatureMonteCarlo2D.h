@@ -43,19 +43,20 @@ struct ParticleOptions
   }
 };
 
-/// MRPT's particle filter with a start and a recovery of its own: while the robot is lost,
-/// particles are drawn where signatures say that it may be instead of all over the map, so that a
-/// few hundred do. Motion, weights and resampling are MRPT's. \cite algorithm section 9
+/// MRPT's particle filter with a start and a recovery of its own. While the robot is lost,
+/// particles are drawn around the candidate poses of a relocation instead of all over the map. So a
+/// few hundred particles are enough. Motion, weights and resampling are MRPT's. \cite algorithm
+/// section 9
 ///
 ///     SignatureMonteCarlo2D filter(500);
 ///     filter.options.metricMap = map;  // a SignatureMap, or a CMultiMetricMap with one in it
 ///     mrpt::bayes::CParticleFilter executor;
 ///     while (...) executor.executeOn(filter, &actions, &frame);
 ///
-/// It is lost at first. Setting its particles anew also tells it where it is: gathered within half
-/// a metre they are believed; spread (`resetUniform`, `resetUniformFreeSpace`) they mean that it is
-/// lost within their bounding box. A step throws std::invalid_argument when there is no
-/// SignatureMap.
+/// The robot is lost at first. Setting the particles anew also sets where the robot is. Particles
+/// gathered within half a metre are believed. Particles that are spread (`resetUniform`,
+/// `resetUniformFreeSpace`) mean that the robot is lost within their bounding box. A step throws
+/// std::invalid_argument when there is no SignatureMap.
 ///
 /// Draws from MRPT's random generator of the calling thread. Not thread-safe.
 class SignatureMonteCarlo2D : public mrpt::slam::CMonteCarloLocalization2D

@@ -40,9 +40,10 @@ struct StepDrawing
   double min_mark_size = 0.5;  ///< [m], marks are never smaller, so that an overview shows them
 };
 
-/// Returns the estimated path (green line), the returns (red) and observed features (orange), every
-/// hypothesis as its 3-sigma ellipse (light blue to magenta by weight) with its heading, the first
-/// pose as a green arrowhead, the truth as a black ring and proposed poses as violet dots.
+/// Returns the drawing of a step. The estimated path is a green line, the returns are red and the
+/// observed features orange. Every hypothesis is its 3-sigma ellipse, light blue to magenta by
+/// weight, with its heading. The first pose is a green arrowhead, the truth a black ring, and
+/// proposed poses are violet dots.
 mrpt::opengl::CSetOfObjects::Ptr drawStep(const StepDrawing& step);
 
 /// Axis-aligned box in the map frame [m].

@@ -7,10 +7,10 @@
 
 namespace sigloc
 {
-/// Makes a folder if need be and moves into it what `fill` writes into the folder that it is given,
-/// all of it or, throwing, nothing: then what was made is removed. A message that `fill` throws
-/// names the place the file was meant for. What a run that was killed has left is removed, too;
-/// those that still run hold a lock on theirs.
+/// Makes a folder if need be. `fill` writes into a temporary folder that it is given, whose files
+/// are moved into the real one when it returns. If it throws, nothing is moved and all that was
+/// made is removed. A message that `fill` throws names the path that the file was meant for. Files
+/// left by a run that was killed are removed, too. Runs that go on hold a lock on theirs.
 ///
 /// Throws std::runtime_error ("path: reason") where nothing can be made, and what `fill` throws.
 void fillFolder(const std::filesystem::path& folder,

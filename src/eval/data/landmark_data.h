@@ -38,9 +38,9 @@ struct LandmarkData
 LandmarkData readDlr(const std::filesystem::path& folder);
 
 /// Victoria Park (trees as circles, taken from the raw scans) from its folder. The truth is a
-/// filter's estimate: it is sure where its standard deviation is 0.5 m at most and it does not
-/// jump, by more than 0.5 m or 5 degrees against the odometry, from the step before or to the next.
-/// Throws std::runtime_error ("path: reason").
+/// filter's estimate. It is sure where its standard deviation is 0.5 m at most and it does not jump
+/// from the step before or to the next. A jump differs from the odometry by more than 0.5 m or 5
+/// degrees. Throws std::runtime_error ("path: reason").
 LandmarkData readVictoriaPark(const std::filesystem::path& folder);
 
 /// The map of what steps [0, count) saw, by true poses and identities. What has an identity is

@@ -22,21 +22,22 @@ struct ReferencePath
   double worst_goodness = 1;  ///< smallest share of a scan's points that ICP paired, in [0, 1]
 };
 
-/// Makes truth for a log of which only the last pose is known: back from there along the odometry,
-/// each scan aligned with the points of the map by MRPT's ICP (`mrpt::slam::CICP`). None of our own
-/// matching is in it. Good to the map's and the scans' errors, some centimetres, as long as
-/// `worst_goodness` stays well above a half.
+/// Makes truth for a log of which only the last pose is known. It goes back from there along the
+/// odometry and aligns each scan with the points of the map by MRPT's ICP (`mrpt::slam::CICP`). It
+/// uses none of our own matching. Its error is that of the map and the scans, some centimetres, as
+/// long as `worst_goodness` stays well above a half.
 ///
-/// Throws std::runtime_error ("path: reason") for files that cannot be used, a map without scans, a
-/// log without odometry, and where less than 0.3 of a scan finds its place on the map.
+/// Throws std::runtime_error ("path: reason") for files that cannot be used, a map without scans
+/// and a log without odometry. Throws the same where ICP pairs less than 0.3 of a scan's points
+/// with the map.
 ReferencePath referencePath(const std::filesystem::path& map, const std::filesystem::path& rawlog,
                             const mrpt::math::TPose2D& last);
 
-/// Throws std::runtime_error ("path: reason") where writeReferencePath() would replace anything but
-/// an earlier one's file, which its first line tells.
+/// Throws std::runtime_error ("path: reason") where writeReferencePath() would replace any file but
+/// one that it wrote earlier. The first line of a file shows that.
 void checkReferenceFile(const std::filesystem::path& path);
 
-/// Writes rows `time x y phi` below a line that tells what they are. Throws std::runtime_error
-/// ("path: reason").
+/// Writes rows `time x y phi` below a line that describes them. Throws std::runtime_error ("path:
+/// reason").
 void writeReferencePath(const ReferencePath& reference, const std::filesystem::path& path);
 }  // namespace sigloc

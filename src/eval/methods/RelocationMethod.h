@@ -12,8 +12,8 @@
 
 namespace sigloc
 {
-/// A way of finding a robot in a map from one look, ours or an opponent's. Made from map data, then
-/// asked with raw scans: extracting features is part of what it costs.
+/// A method that finds a robot in a map from one scan, ours or an opponent's. It is made from map
+/// data, then given raw scans: extracting features is part of its cost.
 class RelocationMethod
 {
  public:
@@ -58,11 +58,11 @@ std::unique_ptr<RelocationMethod> makeRelocationMethod(const std::string& name,
 
 namespace detail
 {
-/// MRPT's particle filter at its first look: particles drawn over the free cells of the whole map
-/// and weighed by the one scan, as many as `mcl` or `mcl-tuned` starts with. Candidates are the
-/// heaviest clusters. It claims nothing, since the filter's rule for that takes five steps; before
-/// the robot has moved KLD has nothing to adapt, so `mcl-fixed` would be `mcl` again. Repeated
-/// calls take turns: MRPT's grid keeps likelihoods in a cache without a lock.
+/// MRPT's particle filter after its first scan. Particles are drawn over the free cells of the
+/// whole map and weighted by the one scan, as many as `mcl` or `mcl-tuned` starts with. Candidates
+/// are the heaviest clusters. It claims nothing, since the filter's rule for that takes five steps.
+/// Before the robot has moved KLD has nothing to adapt, so `mcl-fixed` would be `mcl` again.
+/// Concurrent calls run one after another: MRPT's grid keeps likelihoods in a cache without a lock.
 std::unique_ptr<RelocationMethod> makeMonteCarloRelocation(const std::string& name,
                                                            const EvaluationMap& map,
                                                            const RelocationMethodOptions& options);

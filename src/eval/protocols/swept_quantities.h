@@ -20,9 +20,9 @@ struct SweepConditions
   WorldChangeOptions change;  ///< between mapping and asking
   double unmapped_items = 0;  ///< [1/(100 m^2)] pieces that appear between mapping and asking
   double map_sigma = 0;  ///< [m] of the position of every mapping scan, a degree an 0.05 m with it
-  LaserOptions laser;  ///< of the robot that is asked; mapping has its own
-  /// [m] height of the door thresholds that robots stand on, with the front or the rear wheels;
-  /// none: they stand anywhere.
+  LaserOptions laser;  ///< of the query; mapping has its own
+  /// [m] height of the door thresholds under the robots' front or rear wheels. None: robots are
+  /// anywhere.
   std::optional<double> threshold;
 
   SweepConditions() { world.jitter = 0.1; }

@@ -97,9 +97,9 @@ class LaserSimulator
   /// any beam of a tilted robot asks for.
   LaserScan exactScan(const mrpt::math::TPose2D& world_from_robot) const;
 
-  /// Returns the scan with noise and clutter: each beam is, with probability clutter_share,
-  /// replaced by a range uniform between 0.1 m and the true one (max_range where nothing is hit);
-  /// the others carry Gaussian noise.
+  /// Returns the scan with noise and clutter. With probability clutter_share a beam is replaced by
+  /// a range uniform between 0.1 m and the true one (max_range where nothing is hit). The other
+  /// beams carry Gaussian noise.
   LaserScan scan(const mrpt::math::TPose2D& world_from_robot, Random& random) const;
 
   const LaserOptions& options() const { return options_; }

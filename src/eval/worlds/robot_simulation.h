@@ -82,9 +82,10 @@ struct DriveStep
 /// no whole number, because pf-localization takes a truth file whose first one is for step indices.
 constexpr double kSimulationEpoch = 1.0e9 + 0.25;
 
-/// Returns the true poses of a drive between random places, one every step_time: along shortest
-/// paths at constant speed, looking ahead along the path, turning on the spot where it bends
-/// faster than the turn rate. Throws std::invalid_argument for options out of range.
+/// Returns the true poses of a drive between random positions, one every step_time. The robot
+/// drives along shortest paths at constant speed, towards a point ahead on the path. It turns on
+/// the spot where the path bends faster than the turn rate. Throws std::invalid_argument for
+/// options out of range.
 std::vector<mrpt::math::TPose2D> simulateTruth(const FreeSpace& space, const DriveOptions& options,
                                                std::uint64_t seed);
 
@@ -110,9 +111,9 @@ std::vector<DriveStep> simulateLandmarkDrive(const World& world, const DriveOpti
                                              const LandmarkSensorOptions& sensor,
                                              std::uint64_t seed);
 
-/// Returns scans from places all over a world with their exact poses, as a mapping run takes them:
-/// one place each `spacing` [m], headings random, and a second scan backwards for lasers that see
-/// less than 300 degrees.
+/// Returns scans from all over a world with their exact poses, as a mapping run takes them. There
+/// is one position each `spacing` [m], with a random heading. Lasers that see less than 300 degrees
+/// take a second scan backwards.
 std::vector<PosedScans> simulateMapping(const World& world, double spacing, double clearance,
                                         const LaserOptions& laser, std::uint64_t seed);
 }  // namespace sigloc

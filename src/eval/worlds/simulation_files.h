@@ -45,8 +45,9 @@ void writeTruth(const std::vector<DriveStep>& steps, const std::filesystem::path
 /// Writes a landmark file: rows `x y radius sigma`.
 void writeLandmarks(const std::vector<Feature>& landmarks, const std::filesystem::path& path);
 
-/// Throws std::runtime_error ("folder: reason") where a simulation could replace a file that none
-/// wrote: a folder that holds one of its names, but not the note of an earlier one.
+/// Throws std::runtime_error ("folder: reason") where a simulation could replace a file that no
+/// simulation wrote. That is a folder that holds a file of such a name, but not the note of an
+/// earlier simulation.
 void checkSimulationFolder(const std::filesystem::path& folder);
 
 /// Writes the note that goes with a simulation's files, `README.md` in their folder: `command`

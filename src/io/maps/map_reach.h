@@ -9,8 +9,8 @@
 
 namespace sigloc::detail
 {
-/// Returns why a map cannot hold what is at (x, y) [m], or nullopt: places are kept as single
-/// floats, which so far from the origin are no longer good to a centimetre.
+/// Returns why a map cannot hold the position (x, y) [m], or nullopt where it can. Positions are
+/// kept as single floats. Far from the origin these are no longer good to a centimetre.
 std::optional<std::string> beyondReach(double x, double y);
 
 /// Throws std::runtime_error ("path: reason") for a map with a pose, a corner or a feature beyond.

@@ -25,7 +25,7 @@ namespace
 constexpr char kMagic[] = "sigloc-map\n";
 constexpr std::size_t kMagicSize = sizeof(kMagic) - 1;
 constexpr std::uint8_t kBodyVersion = 3;
-constexpr std::uint8_t kOldestBodyVersion = 2;  // it says nothing of the map's turn
+constexpr std::uint8_t kOldestBodyVersion = 2;  // it lacks the error of the map's turn
 constexpr std::size_t kBlockCells = 1U << 16U;
 constexpr std::size_t kFirstReserve = 1U << 14U;
 constexpr std::uint64_t kMostCells = 1ULL << 31U;
@@ -35,8 +35,9 @@ constexpr std::uint64_t kMostCells = 1ULL << 31U;
   throw std::runtime_error(path.string() + ": " + reason);
 }
 
-// Cells go out in blocks of four planes: equal bytes stand together, so that the lowest level of
-// compression is both quick and small; and a reader never allocates more than what the file backs.
+// Cells are written in blocks of four planes. Equal bytes are next to each other, so that the
+// lowest level of compression is both quick and small. A reader allocates no more than the file has
+// data for.
 void writeField(const DenseField& field, CArchive& out)
 {
   out << field.frame.origin.x << field.frame.origin.y << field.frame.resolution << field.frame.width
@@ -69,7 +70,7 @@ DenseField readField(CArchive& in)
   {
     const std::size_t n = std::min<std::size_t>(kBlockCells, count - first);
     if (in.ReadBuffer(planes.data(), 4 * n) != 4 * n) throw std::runtime_error("raster cut off");
-    // After the first block the file has shown that there is something to it.
+    // After the first block it is known that the file holds data.
     if (first == kBlockCells) field.cells.reserve(count);
     field.cells.resize(first + n);
     for (std::size_t i = 0; i < n; ++i)

@@ -6,11 +6,12 @@
 
 namespace sigloc
 {
-/// Combined constraint data association after Bailey: the nodes of the correspondence graph are
-/// unary-compatible pairings, its edges join pairings that are compatible by their binary
-/// constraints, and the answer is its maximum clique. Finds all largest cliques with Boost's
-/// Bron-Kerbosch, one neighbourhood after the other: a clique pairs each observed feature once,
-/// so it is found from its pairing of the first of them, among what that one leaves possible.
+/// Combined constraint data association after Bailey. The nodes of the correspondence graph are
+/// unary-compatible pairings. Its edges join pairings that are compatible by their binary
+/// constraints. The answer is its maximum clique. Finds all largest cliques with Boost's
+/// Bron-Kerbosch, one neighbourhood after the other. A clique pairs each observed feature once. So
+/// it is found from its pairing of the first of them, among the pairings that are compatible with
+/// that one.
 class CliqueAssociation : public FeatureOpponent
 {
  public:

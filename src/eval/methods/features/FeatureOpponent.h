@@ -12,10 +12,10 @@
 
 namespace sigloc
 {
-/// What the opponents on features alone have in common: the map with its sorted binary
-/// constraints, the pose that pairings fix with its joint chi-square test, a budget of operations,
-/// and a ranking by the number of pairings. They share the constraints of the signatures, so that
-/// all see the same evidence, but no part of our search or verification.
+/// The common part of the opponents that use features alone. It has the map with its sorted binary
+/// constraints, and the pose that pairings fix with its joint chi-square test. It has a budget of
+/// operations, and ranks by the number of pairings. The opponents share the constraints of the
+/// signatures, so that all use the same evidence. They share no part of our search or verification.
 class FeatureOpponent : public FeatureHypothesisGenerator
 {
  public:

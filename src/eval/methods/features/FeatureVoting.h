@@ -22,11 +22,11 @@ struct FeatureVotingOptions
   std::optional<PoseRegion> region;
 };
 
-/// Relocation by voting: every pairing of an observed with a mapped feature of its kind votes for
-/// the poses it allows on a grid of places and headings; the fullest neighbourhoods win. Linear in
-/// the number of observed and of mapped features; accuracy is tied to the grid. After
-/// \cite Paz, Pinies, Tardos, Neira, "Large-scale 6-DOF SLAM with stereo-in-hand" and "bilinear
-/// time" voting; no binary constraints, no refinement.
+/// Relocation by voting. Every pairing of an observed with a mapped feature of its kind votes for
+/// the poses it allows, on a grid of positions and headings. The neighbourhoods with the most votes
+/// win. The cost is linear in the number of observed and of mapped features; the grid limits the
+/// accuracy. After \cite Paz, Pinies, Tardos, Neira, "Large-scale 6-DOF SLAM with stereo-in-hand"
+/// and "bilinear time" voting; no binary constraints, no refinement.
 class FeatureVoting
 {
  public:
@@ -35,7 +35,7 @@ class FeatureVoting
 
   struct Result
   {
-    std::vector<Candidate> candidates;  ///< score: votes in the 3 x 3 cells around the place
+    std::vector<Candidate> candidates;  ///< score: votes in the 3 x 3 cells around the position
     std::uint64_t votes = 0;
   };
   Result vote(const std::vector<Feature>& observed) const;
@@ -54,7 +54,7 @@ class FeatureVoting
 
   const FeatureMap& map_;
   FeatureVotingOptions options_;
-  mrpt::math::TPoint2D low_;  // corner of the grid of places
+  mrpt::math::TPoint2D low_;  // corner of the grid of positions
   std::int32_t columns_ = 0;
   std::int32_t rows_ = 0;
   std::vector<double> wall_length_;  // of a segment's linked line; 0 for other features

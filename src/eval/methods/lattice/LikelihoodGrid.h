@@ -11,7 +11,7 @@
 namespace sigloc
 {
 /// Likelihood values exp(-d^2 / 2 sigma^2) of the distance d to the nearest wall, as 0..255, row by
-/// row with a border of zeros, so that a look-up anywhere within the border needs no test.
+/// row. The grid has a border of zeros, so that a look-up anywhere within the border needs no test.
 class LikelihoodGrid
 {
  public:
@@ -31,7 +31,7 @@ class LikelihoodGrid
   }
   const std::vector<std::uint8_t>& values() const { return values_; }
 
-  /// Returns the value at a place of the map frame, linear between cell centres, in [0, 255].
+  /// Returns the value at a position in the map frame, linear between cell centres, in [0, 255].
   /// Zero outside the bordered grid.
   float interpolated(double x, double y) const;
 

@@ -54,9 +54,9 @@ std::string toIni(const MonteCarloSettings& settings);
 /// Returns the bounds in which particles start, all of the plane without a region.
 PoseRegion startRegionOf(const MonteCarloSettings& settings);
 
-/// Returns the map that pf-localization makes of the same file with the configuration `ini`; for
-/// kinds of files that it does not read, and maps without a file, the raster's cells. A grid file's
-/// own likelihood options, which the stock program takes over unasked, don't count.
+/// Returns the map that pf-localization makes of the same file with the configuration `ini`. For
+/// kinds of files that it does not read, and for maps without a file, returns the raster's cells. A
+/// grid file's own likelihood options, which the stock program would use, are ignored.
 mrpt::maps::CMultiMetricMap::Ptr localizationMapOf(const EvaluationMap& map,
                                                    const std::string& ini);
 
