@@ -10,8 +10,7 @@
 
 namespace sigloc
 {
-/// One line on a terminal that is written over and over, to show how work is getting on. Elsewhere,
-/// or when quiet, nothing is written.
+/// A progress line on a terminal, rewritten in place. Nothing is written elsewhere, or when quiet.
 class ProgressLine
 {
  public:

@@ -15,14 +15,14 @@
 
 namespace sigloc
 {
-/// Prints one line about a file on stderr, unless there is nothing to tell.
+/// Prints one line about a file on stderr, unless the line is empty.
 inline void warn(const char* program, const std::filesystem::path& file, const std::string& message)
 {
   if (!message.empty()) std::cerr << program << ": " << file.string() << ": " << message << '\n';
 }
 
-/// What every program does: parses the command line, works, and tells in one line what went wrong,
-/// output that got lost included. Returns the exit code: that of `work`, 0 after --help, else 1.
+/// What every program does: parses the command line, runs `work`, and reports an error in one line.
+/// Lost output is an error, too. Returns the exit code: that of `work`, 0 after --help, else 1.
 inline int runApp(CLI::App& app, int argc, char** argv, const std::function<int()>& work)
 {
   try

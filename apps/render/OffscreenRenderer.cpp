@@ -41,9 +41,10 @@ OSMesaContext makeContext()
 struct OffscreenRenderer::Context
 {
   OSMesaContext handle = makeContext();
-  // OSMesa wants a colour buffer to make a context current; the pictures are drawn elsewhere.
+  // OSMesa needs a colour buffer to make a context current. The pictures are drawn into other
+  // buffers.
   std::vector<unsigned char> dummy = std::vector<unsigned char>(4 * kDummySide * kDummySide);
-  // One a picture size.
+  // One for each picture size.
   std::map<std::pair<unsigned, unsigned>, std::unique_ptr<mrpt::opengl::CFBORender>> targets;
 
   Context()

@@ -27,8 +27,8 @@ struct PictureSize
 /// Renders scenes from straight above without a display, through OSMesa. Linked by executables
 /// only: a plug-in must not bring a second GL into a viewer.
 ///
-/// One object a process, used from one thread. It must outlive every scene it has rendered, because
-/// those keep GL buffers of its context.
+/// Use one object in a process, from one thread. It must outlive every scene it has rendered,
+/// because scenes keep GL buffers of its context.
 class OffscreenRenderer
 {
  public:

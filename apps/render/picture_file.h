@@ -8,7 +8,7 @@
 
 namespace sigloc
 {
-/// Writes a picture of three channels as a PNG. Throws as writeFile() does: MRPT's own writer tells
-/// no reason, prints on its own, and spoils the picture that was there.
+/// Writes a picture of three channels as a PNG. Throws as writeFile() does: MRPT's own writer gives
+/// no reason, prints messages, and destroys the earlier picture.
 void savePicture(const mrpt::img::CImage& picture, const std::filesystem::path& path);
 }  // namespace sigloc

@@ -24,7 +24,7 @@ constexpr double kCharacterPixels = 15.5;  // width, about
 
 constexpr double kSmallFeatureScale = 0.06;  // [m/pixel], corners and wall ends clutter above it
 
-// Overview and close-up stand side by side, or, for a wide map, one above the other.
+// Overview and close-up are side by side or, for a wide map, one above the other.
 constexpr PictureSize kBesideSize{960, 1080};
 constexpr PictureSize kAboveSize{1600, 640};
 constexpr PictureSize kBelowSize{1600, 900};

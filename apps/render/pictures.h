@@ -29,14 +29,14 @@ class PictureMaker
   /// here.
   mrpt::img::CImage stepPicture(const StepDrawing& step, const std::vector<std::string>& title);
 
-  /// A place to look at closely.
+  /// A pose to draw a close-up of.
   struct CloseUp
   {
     mrpt::math::TPose2D scan_at;  ///< where the step's scan is drawn
     std::string title;
   };
 
-  /// Returns the overview without the scan, and one close-up a place with the scan drawn there.
+  /// Returns the overview without the scan, and a close-up of each pose with the scan drawn there.
   mrpt::img::CImage comparison(const StepDrawing& step, const std::vector<std::string>& title,
                                const std::vector<CloseUp>& places);
 

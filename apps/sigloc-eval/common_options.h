@@ -38,20 +38,20 @@ struct CommonOptions
   /// Declares --seed, --threads, --quiet and --out alone, for commands without methods to choose.
   void declareRunning(CLI::App& command);
 
-  /// Throws std::invalid_argument when --region or --heading is given to a command that asks in
-  /// many maps or knows none.
+  /// Throws std::invalid_argument when --region or --heading is given to a command that uses many
+  /// maps or none.
   void refusePrior(const std::string& command) const;
 
   /// Throws std::invalid_argument when --no-dense is given to a run in which no method could use a
-  /// dense field: `has_field` tells whether its maps have one.
+  /// dense field: `has_field` is whether its maps have one.
   void checkDense(const std::vector<std::string>& methods_run, bool has_field) const;
 
   /// The prior that --region and --heading give together.
   std::optional<PoseRegion> poseRegion() const;
 };
 
-/// Returns the check of an option that must be a number from `low` to `high`. Unlike CLI11's own it
-/// lets no "nan" through, nor a negative count that wraps around.
+/// Returns the check of an option that must be a number from `low` to `high`. Unlike CLI11's own
+/// check it refuses "nan", and a negative count that wraps around.
 CLI::Validator numberFrom(double low, double high);
 
 /// Adds an option "x,y,deg", a pose whose numbers are bounded.
@@ -66,7 +66,8 @@ mrpt::math::TPose2D poseOfFlag(const std::vector<double>& values);
 std::vector<std::filesystem::path> inputFiles(const std::filesystem::path& map,
                                               std::vector<std::filesystem::path> others);
 
-/// Returns 0, or 2 after a line on stderr when the rawlog was truncated: what it held was used.
+/// Returns 0. When the rawlog was truncated, writes a line to stderr and returns 2: its readable
+/// part was used.
 int exitCode(bool complete, const std::filesystem::path& rawlog);
 
 /// Returns a progress bar on stderr, or an empty function when it is no terminal or `quiet`.

@@ -17,7 +17,7 @@ namespace sigloc
 {
 namespace
 {
-/// The candidates as the hypotheses of a belief, which is what pictures know how to draw.
+/// The candidates as the hypotheses of a belief, because pictures are drawn from a belief.
 Belief beliefOf(const RelocationResult& answer)
 {
   Belief belief;

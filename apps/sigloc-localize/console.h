@@ -9,7 +9,7 @@
 
 namespace sigloc
 {
-/// Shows how a run is getting on: one line rewritten in place on a terminal, a line now and then
+/// Shows the progress of a run: one line rewritten in place on a terminal, a line now and then
 /// elsewhere, nothing when quiet.
 class Progress
 {

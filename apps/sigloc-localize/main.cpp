@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// sigloc-localize: finds and follows a lost robot in a known map, from a recorded log.
+// sigloc-localize: finds and tracks a lost robot in a known map, from a recorded log.
 
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
@@ -104,7 +104,8 @@ std::vector<Experiment> experimentsOf(const sigloc::LocalizationSetup& setup)
   return experiments;
 }
 
-/// Throws where a run would replace an input or what is not its own: before any has begun.
+/// Throws where a run would replace an input or a file of another origin. Called before any run
+/// begins.
 void checkOutputs(const sigloc::LocalizationSetup& setup,
                   const std::vector<Experiment>& experiments)
 {

@@ -55,8 +55,8 @@ ordered_json describe(const sigloc::FeatureMap& map, const std::filesystem::path
   return info;
 }
 
-/// Throws std::runtime_error where the map would replace what it is made from, or a file that its
-/// name tells to be something else.
+/// Throws std::runtime_error where the map would replace its own source, or a file whose name is
+/// not that of a map.
 void checkBuildOutput(const std::filesystem::path& input, const std::filesystem::path& output,
                       const std::filesystem::path& config)
 {
@@ -103,7 +103,7 @@ void info(const std::filesystem::path& path, bool as_json)
   }
 }
 
-/// The map, and what it was made from where that is still there.
+/// The map, and its source where that still exists.
 std::vector<std::filesystem::path> filesBehind(const std::filesystem::path& path,
                                                const sigloc::FeatureMap& map)
 {
@@ -114,7 +114,7 @@ std::vector<std::filesystem::path> filesBehind(const std::filesystem::path& path
   }
   catch (const std::runtime_error&)
   {
-    // The source is gone or has changed: the map is all there is.
+    // The source is gone or has changed, so only the map can be used.
   }
   files.push_back(path);
   return files;

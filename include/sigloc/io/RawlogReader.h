@@ -18,7 +18,7 @@
 
 namespace sigloc
 {
-/// One step of a log: how the robot moved since the step before, and what it saw then.
+/// One step of a log: the robot's motion since the step before, and its observations then.
 struct RawlogStep
 {
   double time = 0;  ///< [s] since the epoch of the log's clock
@@ -26,9 +26,9 @@ struct RawlogStep
   std::vector<LaserScan> scans;
   std::vector<Feature> landmarks;  ///< from CObservationBearingRange, without identities
   std::size_t entry = 0;  ///< index of the log's object that completed the step, from 0
-  mrpt::obs::CSensoryFrame::Ptr frame;  ///< the observations themselves, for exporters
-  /// What the log itself says of the motion, for MRPT's own filter; null unless exactly one action
-  /// collection led here.
+  mrpt::obs::CSensoryFrame::Ptr frame;  ///< the original observations, for exporters
+  /// The log's own motion, for MRPT's filter. Null unless exactly one action collection led to this
+  /// step.
   mrpt::obs::CActionCollection::Ptr actions;
 };
 
@@ -36,16 +36,17 @@ struct RawlogStep
 /// the input of SignatureMatcher and HypothesisTracker. The same errors as observeScene().
 ObservedScene observe(const RawlogStep& step, const FeatureExtractorOptions& extraction = {});
 
-/// What of a log makes no sense and was taken for not being there.
+/// How many entries of a log were invalid and were ignored.
 struct LeftOutOfLog
 {
   std::size_t observations = 0;  ///< scans that toLaserScan() refuses, landmarks of such a sensor
   std::size_t motions = 0;  ///< not finite, or farther than any robot drives between two steps
 };
 
-/// Reads a rawlog step by step, both kinds: action/sensory-frame pairs, and observations only as
-/// rawlog-grabber writes them (odometry is then differenced between scans). Steps are those that
-/// MRPT counts: a frame before the first action of a log of pairs is not one.
+/// Reads a rawlog step by step. Both kinds can be read: action/sensory-frame pairs, and
+/// observations only, as rawlog-grabber writes them. Of the latter, odometry is differenced between
+/// scans. Steps are those that MRPT counts: in a log of pairs, a frame before the first action is
+/// none.
 class RawlogReader
 {
  public:

@@ -37,7 +37,8 @@ std::string withoutTemporaryEnding(const std::string& name);
 /// Throws std::runtime_error when anything printed to `out`, the standard output, got lost.
 void finishOutput(std::ostream& out);
 
-// What a program asks before it writes, so that nothing is lost but what an earlier run of it left.
+// Checks that a program makes before it writes. They ensure that it replaces only what an earlier
+// run of it left.
 
 /// Throws std::runtime_error ("output: reason") when writing `output` would destroy one of
 /// `inputs`. `output` is a file, or a folder that is replaced with all it holds. An input is
@@ -46,7 +47,7 @@ void finishOutput(std::ostream& out);
 void refuseToReplaceInputs(const std::filesystem::path& output,
                            const std::vector<std::filesystem::path>& inputs);
 
-/// How a program knows what it may replace in an output folder that it shares with other files.
+/// Which files a program may replace in an output folder that it shares with other files.
 struct OutputFolderRule
 {
   /// Whether a run may write an entry of this name.

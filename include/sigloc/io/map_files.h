@@ -25,7 +25,8 @@ using MapSource = std::variant<std::vector<PosedScans>, OccupancyRaster, Feature
 /// farther than 100 km from its origin.
 MapSource readMapSource(const std::filesystem::path& path);
 
-/// Returns the kinds of map that readMapSource() knows, for people: "simplemap (.simplemap), ...".
+/// Returns the kinds of map that readMapSource() reads, for messages: "simplemap (.simplemap),
+/// ...".
 std::string mapFormatNames();
 
 /// Returns a line on the key frames of a simplemap that are left out, or that are taken to be on
@@ -42,8 +43,8 @@ FeatureMap buildMapFromFile(const std::filesystem::path& path, const MapBuilding
                             const MapProgress& progress = {});
 
 /// Returns the map of `source`, reusing `cache` (a `.sigmap`) when its provenance shows that
-/// neither the source's bytes nor the options have changed; otherwise builds it and rewrites
-/// `cache`. `reused` tells which. An unreadable cache is rebuilt, never an error.
+/// neither the source's bytes nor the options have changed. Otherwise builds it and rewrites
+/// `cache`. `reused` is set accordingly. An unreadable cache is rebuilt, never an error.
 struct CachedMap
 {
   FeatureMap map;

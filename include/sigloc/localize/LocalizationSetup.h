@@ -51,7 +51,7 @@ struct ReportOptions
   }
 };
 
-/// Everything a localization run is told, from an ini file in the manner of pf-localization.
+/// All settings of a localization run, from an ini file like that of pf-localization.
 struct LocalizationSetup
 {
   std::filesystem::path config_file;  ///< the ini
@@ -62,10 +62,9 @@ struct LocalizationSetup
   std::uint32_t rawlog_offset = 0;  ///< steps skipped at the start of the log
   std::uint32_t scene_frequency = 0;  ///< a scene and a picture every so many steps; 0: key moments
   std::uint32_t repetitions = 1;
-  /// Whether the run converged is tested at this step of the log, counted from 0, which is its
-  /// last.
+  /// The step of the log, counted from 0, at which convergence is tested and the run ends.
   std::optional<std::uint32_t> convergence_test_step;
-  double confidence_share = 0.2;  ///< error quantiles told: this one, and one minus it
+  double confidence_share = 0.2;  ///< the error quantiles reported: this and one minus it
   mrpt::math::TPose2D initial_odometry;  ///< where dead reckoning starts
   std::vector<std::uint32_t> particle_counts;  ///< with particles, one experiment each; empty: one
   std::optional<PoseRegion> prior;
@@ -76,7 +75,7 @@ struct LocalizationSetup
   FeatureExtractorOptions features;
   MapBuildingOptions map;
   ReportOptions report;
-  /// On the ini: keys of [LocalizationExperiment] that nothing reads, and keys given repeatedly.
+  /// About the ini: keys of [LocalizationExperiment] that nothing reads, and keys given repeatedly.
   std::vector<std::string> warnings;
 
   /// Every file that a run reads. Throws as filesOfMapSource() does.

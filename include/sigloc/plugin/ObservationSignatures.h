@@ -37,9 +37,9 @@ class ObservationSignatures : public mrpt::obs::CObservation, public mrpt::openg
 
   std::vector<Signature> signatures() const { return signaturesOf(features); }
 
-  // What mrpt::obs::CObservation asks for.
+  // Overrides of mrpt::obs::CObservation.
   void getSensorPose(mrpt::poses::CPose3D& pose) const override;
-  /// Takes the features along, in the plane.
+  /// Moves the features with the sensor, in the plane.
   void setSensorPose(const mrpt::poses::CPose3D& pose) override;
   void getDescriptionAsText(std::ostream& out) const override;
   bool exportTxtSupported() const override { return true; }
@@ -47,7 +47,7 @@ class ObservationSignatures : public mrpt::obs::CObservation, public mrpt::openg
   /// The number of features, then for each: type, x [m], y [m], direction [rad], size [m or rad].
   std::string exportTxtDataRow() const override;
 
-  // What mrpt::opengl::Visualizable asks for.
+  // Overrides of mrpt::opengl::Visualizable.
   void getVisualizationInto(mrpt::opengl::CSetOfObjects& scene) const override;
 
  private:

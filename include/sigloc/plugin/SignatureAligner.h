@@ -19,16 +19,16 @@ namespace sigloc
 ///     const auto pdf = algorithm.AlignPDF(&map, &local_view, {});   // a CPosePDFSOG
 ///
 /// * m1, the map: a `SignatureMap` or a `COccupancyGridMap2D`, by itself or inside a
-///   `CMultiMetricMap` (the first kind is preferred). Of a grid map features are found anew at each
-///   call.
-/// * m2, what the robot sees around the origin of its own frame: a points map, such as one scan
-///   gives, or a `SignatureMap`, by itself or inside a `CMultiMetricMap`.
+///   `CMultiMetricMap` (the first kind is preferred). The features of a grid map are found anew at
+///   each call.
+/// * m2, the robot's observation around the origin of its own frame: a points map, such as one made
+///   from a scan, or a `SignatureMap`, by itself or inside a `CMultiMetricMap`.
 ///
 /// Anything else throws std::invalid_argument. Not thread-safe.
 class SignatureAligner : public mrpt::slam::CMetricMapsAlignmentAlgorithm
 {
  public:
-  /// What an alignment can tell besides the poses: pass one as the last argument.
+  /// What an alignment returns besides the poses: pass one as the last argument.
   struct TReturnInfo : public mrpt::slam::TMetricMapAlignmentResult
   {
     RelocationResult relocation;
@@ -48,8 +48,8 @@ class SignatureAligner : public mrpt::slam::CMetricMapsAlignmentAlgorithm
   std::optional<SearchLimits> search_limits;
 
   /// Returns every pose of m2 in m1 that is possible as a `CPosePDFSOG`, with weights and
-  /// covariances, heaviest first; a sum without modes when there is none. Whether the first one may
-  /// be trusted is told by the verdict in `TReturnInfo`.
+  /// covariances, heaviest first; a sum without modes when there is none. The verdict in
+  /// `TReturnInfo` says whether the first one can be trusted.
   mrpt::poses::CPosePDF::Ptr AlignPDF(
       const mrpt::maps::CMetricMap* m1, const mrpt::maps::CMetricMap* m2,
       const mrpt::poses::CPosePDFGaussian& initial_estimate,

@@ -21,10 +21,9 @@ namespace sigloc
 /// store it and show it.
 ///
 /// In an ini file: `signatureMap_count=1` and the sections
-/// `<name>_signatureMap_00_{creationOpts,insertOpts,likelihoodOpts}`, where `creationOpts` may
-/// name a prepared map, `sigmap_file`. Stock programs that read a simplemap clear all maps and
-/// insert its scans; a prepared map stays through that when its `enableObservationInsertion` is
-/// false.
+/// `<name>_signatureMap_00_{creationOpts,insertOpts,likelihoodOpts}`, where `creationOpts` may name
+/// a prepared map, `sigmap_file`. Stock programs that read a simplemap clear all maps and insert
+/// its scans. They leave a prepared map as it is when its `enableObservationInsertion` is false.
 ///
 /// Inserted scans are added to the map one by one and are not kept. The cost of one grows with the
 /// area that it sees. The likelihood of scans is up to date at once; features are derived when they
@@ -72,11 +71,11 @@ class SignatureMap : public mrpt::maps::CMetricMap
   TInsertionOptions insertion_options;
   TLikelihoodOptions likelihood_options;
 
-  /// The map, with every scan inserted so far; built on demand, never null. What is inserted later
-  /// makes a new one.
+  /// The map, with every scan inserted so far; built on demand, never null. A later insertion makes
+  /// a new one.
   std::shared_ptr<const FeatureMap> featureMap() const;
 
-  // What mrpt::maps::CMetricMap asks for.
+  // Overrides of mrpt::maps::CMetricMap.
   bool isEmpty() const override;
   std::string asString() const override;
   void getVisualizationInto(mrpt::opengl::CSetOfObjects& scene) const override;

@@ -69,19 +69,19 @@ class SignatureMonteCarlo2D : public mrpt::slam::CMonteCarloLocalization2D
   /// Uses a matcher made before instead of making one of the SignatureMap at the first step.
   void useMatcher(std::shared_ptr<const SignatureMatcher> matcher);
 
-  /// Sees features in scans with these options instead of the defaults; throws
+  /// Extracts features from scans with these options instead of the defaults. Throws
   /// std::invalid_argument for options outside their ranges.
   void useExtraction(const FeatureExtractorOptions& extraction);
 
   /// Declares the robot lost, anywhere or within a region.
   void forget(const std::optional<PoseRegion>& region = std::nullopt);
 
-  /// What is known after the last step: the places where particles have gathered, and the verdict.
+  /// The belief after the last step: the poses where particles have gathered, and the verdict.
   const Belief& belief() const { return belief_; }
   /// True when the last step ran a relocation.
   bool relocated() const { return relocated_; }
 
-  // What mrpt::bayes::CParticleFilter calls.
+  // Overrides that mrpt::bayes::CParticleFilter calls.
   void prediction_and_update_pfStandardProposal(
       const mrpt::obs::CActionCollection* action, const mrpt::obs::CSensoryFrame* observation,
       const mrpt::bayes::CParticleFilter::TParticleFilterOptions& filtering) override;
@@ -93,7 +93,7 @@ class SignatureMonteCarlo2D : public mrpt::slam::CMonteCarloLocalization2D
       const mrpt::bayes::CParticleFilter::TParticleFilterOptions& filtering) override;
 
  private:
-  /// A place where particles have gathered, with what relocations have said of it.
+  /// A pose where particles have gathered, with its log-odds from relocations.
   struct Mode
   {
     TrackedHypothesis hypothesis;  // its weight: share of the particles
@@ -125,7 +125,7 @@ class SignatureMonteCarlo2D : public mrpt::slam::CMonteCarloLocalization2D
   bool own_matcher_ = true;
   bool lost_ = true;
   bool looked_ = false;  // a relocation has run since it is lost
-  std::optional<PoseRegion> region_;  // where it is lost
+  std::optional<PoseRegion> region_;  // the region that a lost robot is in
   double elsewhere_ = 1;
   std::vector<Mode> modes_;  // heaviest first
   std::uint64_t next_id_ = 1;
@@ -135,7 +135,7 @@ class SignatureMonteCarlo2D : public mrpt::slam::CMonteCarloLocalization2D
   std::optional<mrpt::math::TPose2D> seen_;  // heaviest mode when the robot last moved
   bool motion_known_ = true;
   double travel_since_relocation_ = 0;  // [m]
-  std::vector<double> known_x_;  // sorted, of the particles that the last step left
+  std::vector<double> known_x_;  // sorted, of the particles after the last step
   bool relocated_ = false;
   Belief belief_;
 };

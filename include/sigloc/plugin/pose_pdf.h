@@ -18,8 +18,8 @@ namespace sigloc
 /// The candidates of one relocation as hypotheses, weighted by their probabilities.
 Belief toBelief(const RelocationResult& result);
 
-/// The hypotheses as a sum of Gaussians: log-weights normalised over the hypotheses (MRPT has no
-/// place for "somewhere else"), headings wrapped. Empty belief: no mode.
+/// The hypotheses as a sum of Gaussians: log-weights normalised over the hypotheses (MRPT cannot
+/// represent "somewhere else"), headings wrapped. Empty belief: no mode.
 mrpt::poses::CPosePDFSOG toSumOfGaussians(const Belief& belief);
 
 /// The first hypothesis. Throws std::invalid_argument for an empty belief.

@@ -16,7 +16,7 @@ namespace sigloc::detail
 {
 namespace
 {
-/// The cells of the next row; a quoted one may run over lines.
+/// The cells of the next row. A quoted cell may span several lines.
 std::vector<std::string> readRow(std::istream& file)
 {
   std::vector<std::string> cells(1);

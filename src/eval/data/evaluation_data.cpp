@@ -13,8 +13,8 @@ namespace sigloc
 {
 namespace
 {
-// Fixed for the reference search. A cell hit once is wall: places that few scans saw are lost
-// otherwise (aces revisit: recall@1 0.86 instead of 1.00).
+// Fixed for the reference search. A cell hit once is wall: otherwise areas that few scans saw are
+// lost (aces revisit: recall@1 0.86 instead of 1.00).
 constexpr double kSearchResolution = 0.1;  // [m]
 constexpr std::uint32_t kSearchMinHits = 1;
 

@@ -15,19 +15,19 @@
 
 namespace sigloc
 {
-/// The map data of a run: every method is made from this and nothing else.
+/// The map data of a run. Every method is made from this alone.
 struct EvaluationMap
 {
   std::shared_ptr<const FeatureMap> features;  ///< what `sigloc-map build` makes of the input
-  /// What dense baselines search: 0.1 m cells from the mapping scans, or the grid as given. None
-  /// for a map of landmarks.
+  /// The raster that dense baselines search: 0.1 m cells from the mapping scans, or the given grid.
+  /// None for a map of landmarks.
   std::optional<OccupancyRaster> raster;
   std::vector<mrpt::math::TPose2D> mapped_poses;  ///< of the mapping scans; empty for a grid
   double build_seconds = 0;  ///< CPU time of building `features`
   std::filesystem::path file;  ///< that all of it was read from; empty when made of parts of one
 };
 
-/// One place to be found: what the laser saw there, and the truth, which no method is shown.
+/// One pose to be found: the scans taken there, and the truth, which no method is given.
 struct EvaluationQuery
 {
   std::string name;  ///< index in its file
@@ -44,7 +44,7 @@ struct EvaluationSources
   std::filesystem::path ground_truth;
   std::uint32_t interleave = 0;  ///< > 0: every k-th scan of the map is a query, the rest map
   mrpt::math::TPose2D map_from_queries;
-  bool foreign = false;  ///< the queries are of another place: no truth
+  bool foreign = false;  ///< the queries are of another building: no truth
   std::uint32_t max_queries = 0;  ///< evenly spaced ones are kept, 0: all
 };
 
@@ -52,7 +52,7 @@ struct EvaluationData
 {
   EvaluationMap map;
   std::vector<EvaluationQuery> queries;
-  std::size_t without_truth = 0;  ///< steps of a rawlog that were left out for want of truth
+  std::size_t without_truth = 0;  ///< steps of a rawlog left out because they have no truth
   bool complete = true;  ///< false when a rawlog was truncated
 };
 

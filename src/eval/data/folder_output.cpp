@@ -39,7 +39,8 @@ std::vector<fs::path> missingFolders(const fs::path& folder)
   return missing;
 }
 
-/// A file that is locked while the object lives, by whose lock others know that a run goes on.
+/// A file that is locked as long as the object exists. The lock shows other runs that this one goes
+/// on.
 class Lock
 {
  public:
@@ -62,7 +63,8 @@ class Lock
   bool held_;
 };
 
-/// Removes the parts within a folder whose runs were killed. Without a lock's file it is no part.
+/// Removes the parts within a folder whose runs were killed. A folder without a lock file is no
+/// part.
 void removeAbandonedParts(const fs::path& folder)
 {
   std::error_code ignored;
@@ -78,8 +80,8 @@ void removeAbandonedParts(const fs::path& folder)
   }
 }
 
-/// A folder, made if need be, and a new one within it for files that are not yet complete. What was
-/// made is gone with the object unless it was kept.
+/// A folder, made if need be, and a new one within it for files that are not yet complete. The
+/// destructor removes what was made, unless keep() was called.
 class FolderInProgress
 {
  public:
@@ -131,7 +133,7 @@ class FolderInProgress
 
   void removeWhatWasMade() const
   {
-    // A folder that holds something stays.
+    // A folder that holds something is kept.
     std::error_code ignored;
     for (const fs::path& folder : made_) fs::remove(folder, ignored);
   }
@@ -141,7 +143,7 @@ class FolderInProgress
   std::vector<fs::path> made_;  // deepest first
 };
 
-/// A message about a file in `part`, about the same file in `folder`.
+/// Turns a message about a file in `part` into one about the same file in `folder`.
 std::string atPlace(std::string message, const fs::path& part, const fs::path& folder)
 {
   const std::size_t at = message.find(part.string());
@@ -153,7 +155,7 @@ std::string atPlace(std::string message, const fs::path& part, const fs::path& f
 void fillFolder(const fs::path& folder, const std::function<void(const fs::path& part)>& fill)
 {
   const FolderInProgress files(folder);
-  // It gets its name when it is locked, so that no other run finds it without.
+  // It gets its name after it is locked, so that no other run finds it without a lock.
   const fs::path unnamed = files.part() / (std::string(kLock) + "-new");
   const Lock lock(unnamed, O_CREAT | O_EXCL);
   std::error_code ignored;

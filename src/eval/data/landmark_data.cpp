@@ -84,8 +84,8 @@ MotionIncrement motionAt(const mrpt::math::TPoint2D& lever, const MotionIncremen
   return {moved.mean, moved.covariance};
 }
 
-/// Marks steps whose truth is uncertain by its own account, or jumps against the odometry: there
-/// the filter that gave it was lost.
+/// Marks steps whose truth has a large covariance or jumps against the odometry. There the filter
+/// that estimated it was lost.
 void doubtTruth(const std::vector<Row>& truth, std::vector<LandmarkStep>& steps)
 {
   constexpr double kMostSigma = 0.5;  // [m]
@@ -106,8 +106,8 @@ void doubtTruth(const std::vector<Row>& truth, std::vector<LandmarkStep>& steps)
   }
 }
 
-/// The relative part of a map's full covariance: standard deviation of the distance between two
-/// features against that distance, a straight line through near and far pairs.
+/// The relative part of a map's full covariance. It is a straight line, fitted to near and far
+/// pairs: the standard deviation of the distance between two features against that distance.
 MapErrorModel relativeError(const std::vector<Feature>& map, const std::vector<Row>& covariance)
 {
   constexpr double kNear = 40;  // [m], pairs that are seen together
@@ -149,8 +149,9 @@ MapErrorModel relativeError(const std::vector<Feature>& map, const std::vector<R
   error.relative_constant = std::max(0.01, (sy - error.relative_slope * sx) / n);
   return error;
 }
-/// The steps of a log of circles: lines `STEP image x y phi covariance[6]`, each followed by what
-/// was seen then, `LANDMARK_C x y quality covariance[3] [identity]`; other lines say nothing here.
+/// The steps of a log of circles: lines `STEP image x y phi covariance[6]`, each followed by the
+/// observations of that step, `LANDMARK_C x y quality covariance[3] [identity]`; other lines are
+/// ignored.
 std::vector<LandmarkStep> readCircles(const std::filesystem::path& path)
 {
   const std::vector<std::string> lines = detail::readLines(path);
@@ -215,8 +216,8 @@ LandmarkData readVictoriaPark(const std::filesystem::path& folder)
   {
     Feature tree =
         placeAt(FeatureType::circle, row[1], row[2], kSurvey * kSurvey, 0, kSurvey * kSurvey);
-    // The column called radius holds diameters: of trunks near by, whose width is seen best, it is
-    // 1.9 times half that width.
+    // The column called radius holds diameters. For nearby trunks, whose width is measured best, it
+    // is 1.9 times half that width.
     tree.size = 0.5 * row[3];
     tree.size_variance = 0.25 * row[4];
     data.map.push_back(tree);
@@ -230,8 +231,8 @@ LandmarkData readVictoriaPark(const std::filesystem::path& folder)
   }
   data.map_error = relativeError(data.map, covariance);
 
-  // The motion is that of a point behind the laser, scans and truth are the laser's. Where the
-  // laser is was found by laying 800 scans on the ones before; no truth was needed.
+  // The motion is that of a point behind the laser, scans and truth are the laser's. The laser's
+  // position was found by aligning 800 scans with the ones before; no truth was needed.
   const mrpt::math::TPoint2D laser_from_odometry{2.73, -0.67};  // [m]
   constexpr std::size_t kBeams = 361;
   const std::vector<Row> scans = readCsv(data.files[2], kBeams);
@@ -247,8 +248,9 @@ LandmarkData readVictoriaPark(const std::filesystem::path& folder)
     scan.max_range = 100;
     for (std::size_t beam = 0; beam < kBeams; ++beam)
     {
-      // The log writes 8187 and 8191 for no return. In the open that means free sight, and a trunk
-      // is told from what stands in front of something by having farther returns on both sides.
+      // The log writes 8187 and 8191 for no return. In the open that means free sight. Without it,
+      // a trunk has no farther returns on both sides, which distinguish it from part of something
+      // larger.
       constexpr double kFreeSight = 80;  // [m]
       const double range = std::min(0.01 * scans[k][beam], kFreeSight);
       scan.ranges.push_back(static_cast<float>(range));

@@ -13,15 +13,15 @@
 
 namespace sigloc
 {
-/// One step of a landmark log: the motion since the step before, what was seen after it, and, for
-/// scoring and map making only, the true pose and identities.
+/// One step of a landmark log: the motion since the step before and the observations after it. The
+/// true pose and identities are for scoring and map making only.
 struct LandmarkStep
 {
   MotionIncrement motion;
   std::vector<Feature> observed;  ///< robot frame
   std::vector<int> identities;  ///< of `observed`, -1 for none; empty where the log has none
   mrpt::math::TPose2D truth;  ///< map_from_robot
-  /// False where the truth may itself be too far off to call an answer wrong by it.
+  /// False where the truth may be too inaccurate to judge an answer by it.
   bool truth_sure = true;
 };
 
@@ -43,7 +43,7 @@ LandmarkData readDlr(const std::filesystem::path& folder);
 /// degrees. Throws std::runtime_error ("path: reason").
 LandmarkData readVictoriaPark(const std::filesystem::path& folder);
 
-/// The map of what steps [0, count) saw, by true poses and identities. What has an identity is
-/// real, so one sighting is enough.
+/// The map of the features that steps [0, count) observed, by true poses and identities. A feature
+/// with an identity is real, so one sighting is enough.
 std::vector<Feature> mapFromSteps(const LandmarkData& data, std::size_t count);
 }  // namespace sigloc

@@ -8,7 +8,7 @@
 
 namespace sigloc::detail
 {
-/// Returns a raster as MRPT's grid map, with the likelihood that pf-localization ships: for methods
-/// of MRPT's to see the map that ours see.
+/// Returns a raster as MRPT's grid map, with pf-localization's default likelihood options. So
+/// MRPT's methods use the same map as ours.
 mrpt::maps::COccupancyGridMap2D::Ptr occupancyGridOf(const OccupancyRaster& raster);
 }  // namespace sigloc::detail

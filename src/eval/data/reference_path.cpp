@@ -91,7 +91,7 @@ ReferencePath referencePath(const std::filesystem::path& map, const std::filesys
   ReferencePath reference;
   reference.poses.resize(steps.size());
   TPose2D guess = last;
-  // Less, and the scan was laid where nothing of it is mapped, or where it does not belong.
+  // With less, the scan was aligned outside the mapped area, or at a wrong pose.
   constexpr double kLeastPaired = 0.3;
   for (std::size_t i = steps.size(); i-- > 0;)
   {

@@ -23,8 +23,8 @@ class RelocationMethod
   /// scans, the map and the seed only.
   virtual RelocationResult localize(const std::vector<LaserScan>& scans) const = 0;
 
-  /// Returns all poses that the method considers one by one before ranking them, or nullopt when it
-  /// searches instead of proposing.
+  /// Returns all poses that the method considers one by one before ranking them. Returns nullopt
+  /// for a method that searches instead of proposing.
   virtual std::optional<std::vector<mrpt::math::TPose2D>> propose(
       const std::vector<LaserScan>& /*scans*/) const
   {
@@ -38,7 +38,7 @@ class RelocationMethod
   virtual double lookupsPerPose() const { return 0; }
 };
 
-/// What a run may prescribe to every method.
+/// Options that a run gives to every method.
 struct RelocationMethodOptions
 {
   std::optional<PoseRegion> region;
@@ -47,7 +47,7 @@ struct RelocationMethodOptions
   std::optional<std::uint32_t> particles;  ///< of the particle filters, instead of their own number
 };
 
-/// Names that `makeRelocationMethod` knows, in the order of the documentation.
+/// Names that `makeRelocationMethod` accepts, in the order of the documentation.
 std::vector<std::string> relocationMethodNames();
 
 /// Builds a method's own structures from the map data. Throws std::invalid_argument for an unknown

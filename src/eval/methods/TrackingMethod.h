@@ -23,7 +23,7 @@ struct TrackingClaim
   bool confident = false;
   bool has_pose = false;
   mrpt::math::TPose2D pose;  ///< map_from_robot, where has_pose
-  bool belief = false;  ///< the method tells weighted Gaussians: the fields below are filled
+  bool belief = false;  ///< the method returns weighted Gaussians: the fields below are filled
   Verdict verdict = Verdict::too_little_seen;
   std::uint32_t hypotheses = 0;  ///< alive
   std::array<double, kWeights> weights{};  ///< of the heaviest hypotheses, heaviest first
@@ -38,14 +38,14 @@ GaussianPose poseOf(const TrackingClaim& claim);
 /// (3 degrees of freedom); NaN where the claim has no covariance.
 double squaredNormalisedError(const TrackingClaim& claim, const mrpt::math::TPose2D& truth);
 
-/// A claim and what it took, one thread.
+/// A claim and its cost on one thread.
 struct TimedClaim
 {
   TrackingClaim claim;
   double time_ms = 0;
 };
 
-/// A way of finding and following a robot, lost at first. One object a run.
+/// A method that finds and tracks a robot, lost at first. Each run has its own object.
 class TrackingMethod
 {
  public:
@@ -54,7 +54,7 @@ class TrackingMethod
   virtual std::vector<TimedClaim> drive(const std::vector<RawlogStep>& steps) = 0;
 };
 
-/// A method that takes step by step.
+/// A method that processes a drive step by step.
 class SteppedTracking : public TrackingMethod
 {
  public:
@@ -63,22 +63,25 @@ class SteppedTracking : public TrackingMethod
   std::vector<TimedClaim> drive(const std::vector<RawlogStep>& steps) final;
 };
 
-/// What all runs of a method share: built once from the map, then asked for one run after another.
+/// The common part of all runs of a method: built once from the map, then used for one run after
+/// another.
 class TrackingMethodFactory
 {
  public:
   virtual ~TrackingMethodFactory() = default;
-  /// A run lost anywhere in the map. Deterministic in the seed.
+  /// Returns a run that is lost anywhere in the map. The seed determines it.
   virtual std::unique_ptr<TrackingMethod> start(std::uint32_t seed) const = 0;
-  /// True when runs draw on a generator that the process shares, so that each needs its own.
+  /// True when runs use a random generator that the process shares, so that each run needs its own
+  /// process.
   virtual bool needsOwnProcess() const { return false; }
 };
 
-/// Names that `makeTrackingMethod` knows: `signature`, `signature-mcl` (MRPT's filter, started and
-/// recovered by signatures), `mcl` in three settings, and `mcl-stock`, the pf-localization program.
+/// Names that `makeTrackingMethod` accepts: `signature`, `signature-mcl` (MRPT's filter, started
+/// and recovered by signatures), `mcl` in three settings, and `mcl-stock`, the pf-localization
+/// program.
 std::vector<std::string> trackingMethodNames();
 
-/// Throws std::invalid_argument for a name that `makeTrackingMethod` does not know.
+/// Throws std::invalid_argument for a name that `makeTrackingMethod` does not accept.
 void checkTrackingMethods(const std::vector<std::string>& names);
 
 /// Throws std::invalid_argument for an unknown name or a map without what the method needs.
@@ -89,13 +92,15 @@ std::unique_ptr<TrackingMethodFactory> makeTrackingMethod(const std::string& nam
 namespace detail
 {
 /// MRPT's filter: `mcl` with the options that pf-localization ships, `mcl-fixed` with 40 000
-/// particles throughout, `mcl-tuned` with as many particles as the place needs, up to 200 000.
+/// particles throughout, `mcl-tuned` with as many particles as the map's free area needs, up to 200
+/// 000.
 std::unique_ptr<TrackingMethodFactory> makeMonteCarlo(const std::string& name,
                                                       const EvaluationMap& map,
                                                       const RelocationMethodOptions& options);
 
-/// The stock program pf-localization with the options of `mcl`, a process a run. It seeds itself:
-/// its claims differ from run to run, and its times are those that it tells, by the clock.
+/// The stock program pf-localization with the options of `mcl`, one process for each run. It seeds
+/// itself, so its claims differ from run to run. Its times are those that it prints, by the wall
+/// clock.
 std::unique_ptr<TrackingMethodFactory> makeStockMonteCarlo(const EvaluationMap& map,
                                                            const RelocationMethodOptions& options);
 }  // namespace detail

@@ -19,10 +19,11 @@ std::unique_ptr<FeatureHypothesisGenerator> makeFeatureMethod(const std::string&
                                                               const FeatureMap& map,
                                                               const GeneratorOptions& options);
 
-/// Names that `makeFeatureMethod` knows.
+/// Names that `makeFeatureMethod` accepts.
 std::vector<std::string> featureMethodNames();
 
-/// Throws std::invalid_argument for an empty list or a name that `makeFeatureMethod` does not know.
+/// Throws std::invalid_argument for an empty list or a name that `makeFeatureMethod` does not
+/// accept.
 void checkFeatureMethods(const std::vector<std::string>& names);
 
 /// True for methods whose cost is linear in the map by a large constant.

@@ -92,8 +92,7 @@ class DenseRelocation : public RelocationMethod
   std::optional<BranchAndBoundSearch> pruned_search_;
 };
 
-/// Free poses on a coarse lattice into our own dense cascade: what is left of our method when the
-/// features are taken away.
+/// Scores free poses on a coarse lattice by our own dense cascade: our method without the features.
 class LatticeRelocation : public RelocationMethod
 {
  public:
@@ -172,7 +171,7 @@ class VotingRelocation : public RelocationMethod
   FeatureVoting voting_;
 };
 
-/// An opponent that looks at features alone.
+/// An opponent that uses features alone.
 class FeatureOpponentRelocation : public RelocationMethod
 {
  public:

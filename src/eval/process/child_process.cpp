@@ -16,7 +16,7 @@ namespace
 {
 constexpr const char* kNothing = "/dev/null";
 
-/// The files that a program starts with: nothing to read.
+/// The files that a program starts with; its standard input is empty.
 class ChildFiles
 {
  public:

@@ -4,7 +4,7 @@
 
 namespace sigloc
 {
-/// CPU time that the calling thread has used [s]: what a method costs, whatever else the machine
+/// CPU time that the calling thread has used [s]: the cost of a method, whatever else the machine
 /// does meanwhile.
 double threadCpuSeconds();
 

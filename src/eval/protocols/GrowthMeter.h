@@ -13,7 +13,7 @@
 
 namespace sigloc::detail
 {
-/// One place asked for, and what is seen there, robot frame.
+/// One query: its pose, and the features seen there, robot frame.
 struct GrowthScene
 {
   std::string name;
@@ -22,7 +22,7 @@ struct GrowthScene
   std::vector<Feature> observed;
 };
 
-/// Throws std::invalid_argument for a count of 0, or above the `most` features seen at a place.
+/// Throws std::invalid_argument for a count of 0, or above `most`, the features seen at one pose.
 void checkThinning(const std::vector<std::size_t>& counts, std::size_t most);
 
 /// Measures one method over the scenes of one row of a growth study.
@@ -32,16 +32,16 @@ class GrowthMeter
   /// `wanted`: see ScaleRow; `keep_failures`: how many failed scenes the row keeps.
   GrowthMeter(std::string method, std::size_t wanted, std::size_t keep_failures);
 
-  /// Builds the method's index of a map and takes its time and memory; asked for more than one map,
-  /// the row has their means. The map must outlive what is returned.
+  /// Builds the method's index of a map and measures its time and memory. When called for several
+  /// maps, the row has their means. The map must outlive the returned object.
   std::unique_ptr<FeatureHypothesisGenerator> build(const FeatureMap& map,
                                                     const GeneratorOptions& options);
 
-  /// Asks for one scene; `is_right` judges the first hypothesis.
+  /// Matches one scene; `is_right` judges the first hypothesis.
   void ask(const FeatureHypothesisGenerator& generator, const GrowthScene& scene,
            const std::function<bool(const FeatureHypothesis& first)>& is_right);
 
-  /// The row of all that was asked.
+  /// The row of all scenes so far.
   ScaleRow row() const;
 
  private:
@@ -55,6 +55,6 @@ class GrowthMeter
   double maps_ = 0;
 };
 
-/// Returns what a row says while others are still being measured.
+/// Returns the progress text of a row, shown while others are still being measured.
 std::string progressLine(const ScaleRow& row);
 }  // namespace sigloc::detail

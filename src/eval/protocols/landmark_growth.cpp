@@ -20,7 +20,7 @@ namespace
 {
 using mrpt::math::TPose2D;
 
-/// One place asked for, and the map's discs by their distance from it.
+/// One query, and the map's discs by their distance from it.
 struct Place
 {
   std::size_t step = 0;
@@ -51,7 +51,7 @@ std::vector<Place> placesOf(const LandmarkData& data, const ScaleOptions& option
   return places;
 }
 
-/// Returns `count` of the features, drawn without regard to what they are; all for 0.
+/// Returns `count` of the features, drawn at random; all for 0.
 std::vector<Feature> thinned(std::vector<Feature> features, std::size_t count, Random& random)
 {
   if (count == 0 || count >= features.size()) return features;
@@ -83,7 +83,7 @@ ScaleRow runRow(const std::string& method, const std::vector<Place>& places, std
   }
   return meter.row();
 }
-/// The sizes asked for, or those of the study; throws std::invalid_argument for more than `whole`.
+/// The sizes given, or those of the study; throws std::invalid_argument for more than `whole`.
 std::vector<std::size_t> mapSizes(std::vector<std::size_t> wanted, std::size_t whole)
 {
   for (const std::size_t size : wanted)

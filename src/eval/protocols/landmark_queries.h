@@ -14,6 +14,6 @@ namespace sigloc::detail
 /// Returns the local map of the last `count` steps up to `step`.
 LocalMap localMapAt(const LandmarkData& data, std::size_t step, std::size_t count);
 
-/// DLR: returns steps of the second half of the path at places that the first half has been to.
+/// DLR: returns steps of the second half of the path at positions that the first half has visited.
 std::vector<std::size_t> laterVisits(const LandmarkData& data, const LandmarksOptions& options);
 }  // namespace sigloc::detail

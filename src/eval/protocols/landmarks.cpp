@@ -17,7 +17,7 @@ namespace sigloc
 {
 namespace
 {
-/// What counts as right, by data set: the truth of the park is itself off by up to 0.3 m.
+/// The tolerances of a right answer, by data set. The truth of the park has errors of up to 0.3 m.
 AccuracyGates gatesOf(const std::string& dataset)
 {
   AccuracyGates gates;
@@ -29,7 +29,7 @@ AccuracyGates gatesOf(const std::string& dataset)
   return gates;
 }
 
-/// Significant, and so far ahead of the second that it holds 99 % between the two.
+/// Significant, and with a probability of 99 % between it and the second.
 bool isFirm(const std::vector<FeatureHypothesis>& found, const GeneratorOptions& options)
 {
   const double ahead = std::log(99.0);
@@ -44,7 +44,7 @@ struct Asked
   std::vector<FeatureHypothesis> found;
 };
 
-/// One method on one data set, and where its answers go.
+/// One method on one data set, and the storage of its answers.
 struct MethodRun
 {
   const FeatureHypothesisGenerator& method;
@@ -134,7 +134,7 @@ Asked askGrowing(const MethodRun& run, std::size_t start)
     const double before_travel = local.travelled();
     const std::size_t before_features = local.features().size();
     local.add(steps[k].motion, steps[k].observed);
-    // Standing still shows nothing new.
+    // A robot that stands still observes nothing new.
     const bool news = k == start || local.features().size() != before_features ||
                       local.travelled() > before_travel + 0.1;
     if (!news) continue;

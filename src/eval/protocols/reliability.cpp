@@ -33,13 +33,13 @@ using mrpt::math::TPose2D;
 
 constexpr double kClearance = 0.35;  // [m]
 constexpr double kMapSpacing = 1.2;  // [m] between the mapping scans
-constexpr std::size_t kBeams = 180;  // that a tracker judges a pose by
+constexpr std::size_t kBeams = 180;  // that a tracker scores a pose with
 constexpr double kTrackSigma = 0.05;  // [m] of a pose that a tracker predicts
 constexpr double kTrackTurnSigma = 0.02;  // [rad]
 constexpr int kRefineSteps = 6;
 constexpr std::uint64_t kPoseStream = 600;  // of the random numbers, see Random
 
-/// One simulated building, mapped, and what asks about scans in it.
+/// One simulated building with its map, and the queries of scans in it.
 class MappedWorld
 {
  public:
@@ -54,7 +54,7 @@ class MappedWorld
   {
   }
 
-  /// A scan asked about at its own pose and at a look-alike; none where there is no look-alike.
+  /// A scan judged at its own pose and at a look-alike; none where there is no look-alike.
   std::optional<std::pair<ReliabilityCase, ReliabilityCase>> ask(double clutter);
 
  private:

@@ -13,21 +13,21 @@
 
 namespace sigloc
 {
-/// "Am I lost?": how well a figure of one scan at one pose tells right poses from wrong ones.
-/// Simulated scans, each asked about at its true pose, as a tracker would hold it, and at a
-/// plausible wrong one: a look-alike that relocation proposes for that very scan.
+/// "Am I lost?": how well a figure of one scan at one pose separates right poses from wrong ones.
+/// Each simulated scan is judged at two poses. One is the true pose with a tracker's errors. The
+/// other is plausible but wrong: a look-alike that relocation proposes for the same scan.
 struct ReliabilityOptions
 {
   std::uint32_t worlds = 30;  ///< offices, corridors and halls in turn
   std::uint32_t poses = 20;  ///< a world
-  std::vector<double> clutter = {0, 0.15, 0.3};  ///< share of beams that end on something nearer
+  std::vector<double> clutter = {0, 0.15, 0.3};  ///< share of beams that end on nearer clutter
   std::uint32_t seed = 1;
   std::uint32_t threads = 1;  ///< worlds at a time
   std::string command;
   std::function<void(const std::string& what, double share)> progress;
 };
 
-/// One scan asked about at one pose.
+/// One scan judged at one pose.
 struct ReliabilityCase
 {
   std::size_t world = 0;

@@ -44,7 +44,7 @@ ScaleRow runRow(const std::string& method, const FeatureWorld& world,
   return meter.row();
 }
 
-/// Throws std::invalid_argument where scenes are to hold more than is seen anywhere.
+/// Throws std::invalid_argument where scenes are to hold more features than are seen from any pose.
 void checkObserved(const FeatureWorld& world, const ScaleOptions& options)
 {
   constexpr int kPlaces = 50;

@@ -79,8 +79,8 @@ double distanceToSegment(const WallSegment& segment, const TPoint2D& p)
   return std::hypot(off.x, off.y);
 }
 
-/// True when what may have changed since mapping leaves room for a robot. Unlike FreeSpace, it does
-/// not ask for a way there: a robot may wake up behind a door that was shut.
+/// True when the changes since mapping leave room for a robot. Unlike FreeSpace, it does not
+/// require a path there: a robot may wake up behind a door that was shut.
 bool hasRoom(const World& world, const TPoint2D& p)
 {
   for (const Furniture& item : world.furniture)
@@ -109,7 +109,7 @@ TPose2D randomPose(const FreeSpace& mapped, const World& asked, Random& random)
   throw std::invalid_argument("sweep: no room left for a robot");
 }
 
-/// A robot on its way through an open door, either way.
+/// A robot that drives through an open door, in either direction.
 TPose2D poseInDoor(const World& asked, Random& random)
 {
   std::vector<const Door*> open;
@@ -126,7 +126,7 @@ TPose2D poseInDoor(const World& asked, Random& random)
   return {place.x, place.y, mrpt::math::wrapToPi(across + random.uniform(-kMostAskew, kMostAskew))};
 }
 
-/// The robot's laser when its rear (+1) or front (-1) wheels stand that high.
+/// The robot's laser when its rear (+1) or front (-1) wheels are raised by that height.
 LaserOptions tiltedLaser(LaserOptions laser, double threshold, double side)
 {
   constexpr double kWheelBase = 0.4;  // [m]
@@ -152,8 +152,8 @@ std::vector<EvaluationQuery> queriesInDoors(const World& asked, const SweepCondi
   return queries;
 }
 
-/// The scans of robots at random places. Places and noise come from streams that no value of the
-/// swept quantity touches, so that values are compared on like queries.
+/// The scans of robots at random poses. Poses and noise come from random streams that do not depend
+/// on the swept quantity. So its values are compared on the same queries.
 std::vector<EvaluationQuery> queriesIn(const World& mapped, const World& asked,
                                        const SweepConditions& conditions, const WorldName& name,
                                        std::uint32_t count)

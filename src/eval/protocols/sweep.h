@@ -16,22 +16,22 @@
 
 namespace sigloc
 {
-/// One-shot relocation in simulated worlds under conditions of which one is varied, method by
-/// method over the same queries. \cite evaluation protocol 8
+/// One-shot relocation in simulated worlds while one condition is varied. All methods get the same
+/// queries. \cite evaluation protocol 8
 struct SweepOptions
 {
   std::string over = "noise";  ///< name of a SweptQuantity
   std::vector<double> values;  ///< empty: the quantity's own
   std::vector<WorldKind> worlds;  ///< empty: the quantity's own
   std::uint32_t worlds_per_kind = 3;  ///< each from its own seed, at most 1000
-  std::uint32_t queries_per_world = 30;  ///< at the same places for every value, where free
+  std::uint32_t queries_per_world = 30;  ///< at the same poses for every value, where free
   std::vector<std::string> methods = {"signature", "exhaustive", "lattice"};
   bool use_dense_field = true;  ///< for the signature methods
   std::uint32_t seed = 1;
   std::uint32_t threads = 1;  ///< queries asked at a time; each query is timed on its own thread
   std::size_t keep_failures = 0;  ///< of each method at each value
   std::string command;  ///< for the report
-  /// Called now and then with what is being done and the share of the run that is done.
+  /// Called now and then with a text about the current work and the share of the run that is done.
   std::function<void(const std::string& what, double share)> progress;
 };
 
@@ -64,7 +64,7 @@ struct SweepReport
 /// Throws std::invalid_argument for options that make no sense.
 SweepReport runSweep(const SweepOptions& options);
 
-/// A swept value as tables show it, with as many digits as tell it from any other: "0.05".
+/// A swept value as tables show it, with as many digits as distinguish it from any other: "0.05".
 std::string sweptValueText(double value);
 
 /// The table of the report, a line a value and method.

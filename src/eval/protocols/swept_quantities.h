@@ -13,12 +13,12 @@
 
 namespace sigloc
 {
-/// The conditions a simulated robot is asked under. A sweep varies one of them.
+/// The conditions of a simulated query. A sweep varies one of them.
 struct SweepConditions
 {
-  WorldOptions world;  ///< corridors: copies differ by 0.1 m, or no method could tell them apart
-  WorldChangeOptions change;  ///< between mapping and asking
-  double unmapped_items = 0;  ///< [1/(100 m^2)] pieces that appear between mapping and asking
+  WorldOptions world;  ///< corridors: copies differ by 0.1 m, else no method could distinguish them
+  WorldChangeOptions change;  ///< between mapping and query
+  double unmapped_items = 0;  ///< [1/(100 m^2)] pieces that appear between mapping and query
   double map_sigma = 0;  ///< [m] of the position of every mapping scan, a degree an 0.05 m with it
   LaserOptions laser;  ///< of the query; mapping has its own
   /// [m] height of the door thresholds under the robots' front or rear wheels. None: robots are
@@ -41,9 +41,9 @@ struct SweptQuantity
 {
   std::string name;
   std::string label;  ///< with its unit
-  std::vector<double> values;  ///< in a run that states none
+  std::vector<double> values;  ///< in a run that gives none
   SweptRange range;
-  std::vector<WorldKind> worlds;  ///< kinds that it makes a difference in
+  std::vector<WorldKind> worlds;  ///< kinds that depend on it
   bool changes_map;  ///< false: one map serves all values
   std::function<void(double value, SweepConditions& conditions)> set;
 };
@@ -55,6 +55,6 @@ const std::vector<SweptQuantity>& sweptQuantities();
 /// Throws std::invalid_argument for a value that is out of range or given twice.
 void checkSweptValues(const SweptQuantity& quantity, const std::vector<double>& values);
 
-/// Throws std::invalid_argument naming the known ones when there is none of that name.
+/// Throws std::invalid_argument naming the known quantities when there is none of that name.
 const SweptQuantity& sweptQuantity(const std::string& name);
 }  // namespace sigloc

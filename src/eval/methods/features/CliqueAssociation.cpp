@@ -36,13 +36,14 @@ struct LargestCliques
 };
 }  // namespace
 
-/// What may go along with one pairing, and who of them goes along with whom.
+/// The pairings that are compatible with one pairing, and which of them are compatible with each
+/// other.
 struct CliqueAssociation::Neighbourhood
 {
   std::vector<FeaturePairing> pairings;
   std::vector<std::vector<std::size_t>> compatible;
 
-  /// Takes out, again and again, what has too few neighbours to be in a clique of `wanted`.
+  /// Repeatedly removes the nodes that have too few neighbours to be in a clique of `wanted`.
   void peel(std::size_t wanted);
 };
 
@@ -139,7 +140,7 @@ void CliqueAssociation::searchCliques(Query& query, const FeaturePairing& first,
     for (const std::size_t a : clique) pairings.push_back(neighbourhood.pairings[a]);
     ++query.counters.hypotheses;
     const auto pose = fit(query, pairings);
-    // Distances can't tell mirror images, the joint fit can.
+    // Distances can't exclude mirror images, the joint fit can.
     if (!pose || !jointlyCompatible(pose->distance, pose->degrees)) continue;
     most = std::max(most, pairings.size());
     add(query, pairings, *pose);

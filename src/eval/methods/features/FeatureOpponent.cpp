@@ -15,8 +15,8 @@ namespace
 {
 constexpr int kTabulatedDegrees = 200;
 
-/// Their locality: twice the neighbours our own index keeps, enough to hold whatever is seen
-/// together.
+/// Their locality: twice the neighbours that our own index keeps. That is enough for all features
+/// that are seen together.
 double localityOf(const PreparedMap& map, GeneratorOptions options)
 {
   options.max_neighbours *= 2;

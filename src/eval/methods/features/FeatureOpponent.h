@@ -26,9 +26,9 @@ class FeatureOpponent : public FeatureHypothesisGenerator
   FeatureOpponent(const FeatureMap& map, const GeneratorOptions& options,
                   std::uint64_t budget = kBudget);
 
-  /// Hypotheses with the most pairings come first, of as many those that fit better; `log_odds`
-  /// holds that rank: pairings less the share of the joint gate that the residual takes. A search
-  /// that its budget ended counts in `MatchingCounters::cut_short`.
+  /// Hypotheses with the most pairings come first; of equally many, those that fit better.
+  /// `log_odds` holds that rank: the pairings less the residual's share of the joint gate. A search
+  /// that ran out of its budget counts in `MatchingCounters::cut_short`.
   std::vector<FeatureHypothesis> generate(const std::vector<Feature>& observed,
                                           MatchingCounters& counters) const final;
 

@@ -19,7 +19,7 @@ namespace
 {
 constexpr std::size_t kKeptPeaks = 200;  // over all headings, before look-alikes are merged
 
-// Ties are broken by the pose, so that the order is one whatever sorts.
+// Ties are broken by the pose, so that the order does not depend on the sorting algorithm.
 bool higherScore(const Candidate& a, const Candidate& b)
 {
   const auto& p = a.pose.mean;
@@ -47,7 +47,7 @@ struct FeatureVoting::Pairings
   std::vector<Pairing> at_any_heading;
 };
 
-/// Votes for the places at one heading. A feature votes for a place once.
+/// Votes for the positions at one heading. A feature votes for a position once.
 struct FeatureVoting::Votes
 {
   std::vector<std::uint16_t> count;
@@ -109,7 +109,8 @@ void FeatureVoting::voteForPlaces(const Feature& observed, std::size_t mapped, d
   const double s = std::sin(heading);
   const TPoint2D& p = observed.position;
   const TPoint2D place = feature.position - TPoint2D(c * p.x - s * p.y, s * p.x + c * p.y) - low_;
-  // A wall leaves the place along it open: the observed piece may lie anywhere on the mapped one.
+  // A wall does not fix the position along it: the observed piece may lie anywhere on the mapped
+  // one.
   const bool wall = isSegment(observed.type);
   const double slide = wall ? 0.5 * std::max(0.0, feature.size - observed.size) : 0;
   const TPoint2D along = wall ? tangentVector(feature) : TPoint2D(0, 0);

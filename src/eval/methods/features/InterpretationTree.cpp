@@ -42,7 +42,8 @@ void InterpretationTree::descend(Query& query, Branch& branch, std::uint32_t lev
   }
   else
   {
-    // The first pairing's constraints are sorted, so what they exclude is never looked at.
+    // The first pairing's constraints are sorted, so the features that they exclude are never
+    // visited.
     std::vector<std::uint32_t> candidates;
     gather(query, branch.pairings.front(), level, candidates);
     for (const std::uint32_t l : candidates)

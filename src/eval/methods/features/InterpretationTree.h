@@ -6,11 +6,11 @@
 
 namespace sigloc
 {
-/// Grimson's interpretation tree: one level an observed feature, on each a branch for every map
+/// Grimson's interpretation tree. Each observed feature has a level, with a branch for every map
 /// feature it may be and one for "none of them" (the star). A branch is cut by unary and binary
-/// constraints, and when it can't reach the most pairings found so far; a leaf counts when its
-/// pairings are jointly compatible. Finds every largest interpretation, in time exponential in the
-/// number of observed features that fit nothing; the budget ends it before.
+/// constraints, and when it can't reach the most pairings found so far. A leaf counts when its
+/// pairings are jointly compatible. Finds every largest interpretation. The time is exponential in
+/// the number of observed features that fit nothing; the budget limits it.
 class InterpretationTree : public FeatureOpponent
 {
  public:

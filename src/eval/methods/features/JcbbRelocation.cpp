@@ -133,7 +133,7 @@ void JcbbRelocation::search(Query& query) const
       }
       if (complete) extend(query, draw, 1);
     }
-    // The best so far tells how many of the features are good.
+    // The best pairings so far estimate how many of the features are good.
     good = std::max(good, static_cast<double>(query.found.bestSupport()) / n);
     draws = std::min(draws, drawsNeeded(kFailure, std::pow(good, size)));
   }

@@ -7,11 +7,11 @@
 namespace sigloc
 {
 /// The opponent for landmark maps: relocation by random sampling with locality, a variant of Neira,
-/// Tardos and Castellanos (2003). Draws p = 4 observed features; with each map feature as the first
-/// pairing, the others are sought by unary and binary constraints in its locality, without a star
-/// branch. A full set that passes the joint chi-square test gives a pose; the other features are
-/// paired with their nearest neighbours, each only where the whole set stays jointly compatible.
-/// The number of draws follows P_good = 0.5, P_fail = 0.05 and the best so far.
+/// Tardos and Castellanos (2003). Draws p = 4 observed features. Each map feature is tried as the
+/// first pairing. The others are searched by unary and binary constraints in its locality, without
+/// a star branch. A full set that passes the joint chi-square test gives a pose. The other features
+/// are then paired with their nearest neighbours, each only where the whole set stays jointly
+/// compatible. The number of draws follows P_good = 0.5, P_fail = 0.05 and the best so far.
 class JcbbRelocation : public FeatureOpponent
 {
  public:

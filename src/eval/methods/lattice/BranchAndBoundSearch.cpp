@@ -15,7 +15,7 @@ using mrpt::math::TPoint2D;
 
 namespace
 {
-constexpr std::uint32_t kTopLevel = 6;  // blocks of 64 x 64 places: 12.8 m
+constexpr std::uint32_t kTopLevel = 6;  // blocks of 64 x 64 positions: 12.8 m
 
 // Maximum over `window` values from each position on, one line of a grid, in place of the line;
 // a monotonic queue makes it linear whatever the window.
@@ -38,7 +38,7 @@ void slideMaximum(std::uint8_t* line, std::int32_t count, std::ptrdiff_t step, s
   }
 }
 
-// The widest span, in cells, of 2^level neighbouring places.
+// The widest span, in cells, of 2^level neighbouring positions.
 std::int32_t spanOf(const std::vector<std::int32_t>& cells, std::uint32_t level)
 {
   const std::size_t block = std::size_t{1} << level;
@@ -91,7 +91,7 @@ BranchAndBoundSearch::BranchAndBoundSearch(const DenseSearchSpace& space) : spac
   }
 }
 
-/// One search: the headings' offsets, the best so far, the count of what was looked up.
+/// One search: the headings' offsets, the best so far and the number of look-ups.
 struct BranchAndBoundSearch::Run
 {
   struct Block

@@ -34,7 +34,7 @@ struct LatticePose
 {
   std::uint32_t score = 0;
   std::uint32_t heading = 0;  ///< index
-  std::uint32_t row = 0;  ///< lattice indices of the place
+  std::uint32_t row = 0;  ///< lattice indices of the position
   std::uint32_t column = 0;
 };
 
@@ -48,7 +48,7 @@ struct CellOffset
   std::int32_t dy = 0;
 };
 
-/// The poses of a map that dense baselines search, and how they judge them. Immutable.
+/// The poses of a map that dense baselines search, and how these are scored. Immutable.
 class DenseSearchSpace
 {
  public:
@@ -96,7 +96,7 @@ class DenseSearchSpace
   std::vector<std::uint32_t> headings_;
 };
 
-/// Returns every free pose of a raster's lattice: places `lattice_step` apart, `headings` each.
+/// Returns every free pose of a raster's lattice: positions `lattice_step` apart, `headings` each.
 std::vector<mrpt::math::TPose2D> freeLatticePoses(const OccupancyRaster& raster,
                                                   const DenseSearchOptions& options);
 

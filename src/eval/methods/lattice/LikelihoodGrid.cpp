@@ -19,7 +19,7 @@ LikelihoodGrid::LikelihoodGrid(const DenseField& field, double sigma, std::uint3
   values_.assign(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(rows_), 0);
 
   std::array<std::uint8_t, 256> value_of_distance{};
-  for (std::size_t d = 0; d < 255; ++d)  // 255 means farther than the field knows: zero
+  for (std::size_t d = 0; d < 255; ++d)  // 255 means beyond the field's largest distance: zero
   {
     const double ratio = static_cast<double>(d) * DenseField::kDistanceUnit / sigma;
     value_of_distance[d] =

@@ -16,8 +16,8 @@ struct LatticeSearchResult
   std::uint64_t poses_scored = 0;  ///< lattice poses, or blocks of them, that were looked up
 };
 
-/// Scores every free pose of the lattice and returns the best `options().refined` ones. The recall
-/// reference: nothing is pruned.
+/// Scores every free pose of the lattice and returns the best `options().refined` ones. It is the
+/// reference for recall: nothing is pruned.
 LatticeSearchResult searchExhaustively(const DenseSearchSpace& space,
                                        const std::vector<mrpt::math::TPoint2D>& points);
 
@@ -36,13 +36,13 @@ class BranchAndBoundSearch
   struct Level
   {
     std::vector<std::uint8_t> maxima;  ///< the likelihood's maximum over the window from each cell
-    std::vector<std::uint8_t> any_free;  ///< per block of places, row by row
+    std::vector<std::uint8_t> any_free;  ///< per block of positions, row by row
     std::uint32_t block_columns = 0;
     std::uint32_t block_rows = 0;
   };
   struct Run;
 
   const DenseSearchSpace& space_;
-  std::vector<Level> levels_;  ///< level h: blocks of 2^h x 2^h places
+  std::vector<Level> levels_;  ///< level h: blocks of 2^h x 2^h positions
 };
 }  // namespace sigloc

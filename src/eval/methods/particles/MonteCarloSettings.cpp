@@ -25,8 +25,8 @@ using mrpt::obs::CActionRobotMovement2D;
 
 namespace
 {
-// About 200 particles a square metre give 80-90 % success. The most of them is what a robot's
-// processor can bear at all: a step of 200 000 takes a quarter of a second.
+// About 200 particles a square metre give 80-90 % success. The maximum is the most that a robot's
+// processor can handle: a step of 200 000 takes a quarter of a second.
 constexpr double kTunedDensity = 200;  // [1/m^2]
 constexpr double kTunedLeast = 40000;
 constexpr double kTunedMost = 200000;
@@ -184,7 +184,8 @@ mrpt::obs::CActionCollection actionsOf(const RawlogStep& step, const MonteCarloS
   if (logged && !settings.own_odometry)
   {
     if (logged->estimationMethod != CActionRobotMovement2D::emOdometry) return *step.actions;
-    // Drawn anew: samples of a log's motion model come from whatever generator read the log.
+    // Drawn anew: samples of a log's motion model depend on the random generator at the time of
+    // reading.
     increment = logged->rawOdometryIncrementReading;
     model = logged->motionModelConfiguration;
   }

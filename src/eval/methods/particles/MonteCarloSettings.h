@@ -23,8 +23,8 @@ struct OdometryNoise
   double angle_deg = 2.0;
 };
 
-/// What the settings of MRPT's filter differ in. The defaults are those of the configuration that
-/// pf-localization ships, localization_demo.ini.
+/// The settings that differ between the variants of MRPT's filter. The defaults are those of
+/// localization_demo.ini, which comes with pf-localization.
 struct MonteCarloSettings
 {
   std::uint32_t particles = 40000;  ///< at the start
@@ -33,14 +33,13 @@ struct MonteCarloSettings
   std::uint32_t kld_maximum = 40000;
   double kld_bin = 0.10;  ///< [m]
   OdometryNoise dummy_odometry;  ///< of logs of observations only
-  /// Takes the place of what a log says of its motion; none: the log's own model, as the stock
-  /// program does.
+  /// Replaces the log's motion model. None: the log's own is used, as the stock program does.
   std::optional<OdometryNoise> own_odometry;
   std::optional<PoseRegion> region;
 };
 
 /// Returns the settings of `mcl` and `mcl-stock` (shipped), `mcl-fixed` or `mcl-tuned`, the latter
-/// for a place with that much free area [m^2]. Throws std::invalid_argument for another name.
+/// for a map with that much free area [m^2]. Throws std::invalid_argument for another name.
 MonteCarloSettings monteCarloSettings(const std::string& name, double free_area,
                                       const RelocationMethodOptions& options);
 
@@ -67,7 +66,7 @@ bool isSimplemap(const std::filesystem::path& file);
 /// increment with the settings' noise.
 mrpt::obs::CActionCollection actionsOf(const RawlogStep& step, const MonteCarloSettings& settings);
 
-/// Judges when MRPT's filter is sure of itself, the same for every setting.
+/// The rule for when MRPT's filter claims a pose, the same for every setting.
 class TightCloud
 {
  public:

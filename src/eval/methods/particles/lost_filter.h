@@ -15,11 +15,11 @@ namespace sigloc::detail
 class LostFilter
 {
  public:
-  /// Seeds MRPT's random generator, which a thread has one of: nobody else may draw meanwhile.
+  /// Seeds MRPT's random generator of the thread. Nothing else may draw from it meanwhile.
   LostFilter(const mrpt::maps::CMultiMetricMap::Ptr& map, const MonteCarloSettings& settings,
              std::uint32_t seed);
 
-  /// One step of the filter. Without `actions` the particles stay and are weighed only.
+  /// One step of the filter. Without `actions` the particles are only weighted, not moved.
   void update(const mrpt::obs::CActionCollection* actions, const mrpt::obs::CSensoryFrame& frame);
 
   const mrpt::slam::CMonteCarloLocalization2D& particles() const { return filter_; }

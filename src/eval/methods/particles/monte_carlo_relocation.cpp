@@ -23,8 +23,7 @@ using mrpt::poses::CPosePDFParticles;
 
 constexpr std::size_t kMaxRanked = 10;
 
-/// A number that tells scans apart (FNV-1a over their ranges), so that no two are looked at with
-/// the same particles.
+/// A hash of the scans (FNV-1a over their ranges), so that each is matched with other particles.
 std::uint32_t fingerprint(const std::vector<LaserScan>& scans)
 {
   std::uint32_t hash = 2166136261U;

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 constexpr const char* kProgram = "pf-localization";
 constexpr const char* kPackage = "mrpt-apps";
 
-/// A folder that is gone with the object.
+/// A folder that the destructor removes.
 class TemporaryFolder
 {
  public:
@@ -62,8 +62,8 @@ void writeDrive(const std::vector<RawlogStep>& steps, const MonteCarloSettings& 
   writeObjects(path, write);
 }
 
-/// The options of `mcl`, and the section that names files. Particles are written every step: it is
-/// the only way to learn what the program believes.
+/// The options of `mcl`, and the section that names files. Particles are written every step. This
+/// is the only way to get the program's estimate.
 std::string configurationOf(const MonteCarloSettings& settings, const fs::path& map,
                             const fs::path& drive, const fs::path& out)
 {
@@ -82,8 +82,8 @@ std::string configurationOf(const MonteCarloSettings& settings, const fs::path& 
              kDegrees * (region.heading + region.heading_tolerance));
 }
 
-/// Runs the program, everything it prints into `log`. It has nothing to read: at errors it waits
-/// for a key.
+/// Runs the program and writes all its output to `log`. Its standard input is empty, because at
+/// errors it waits for a key.
 void runStock(const fs::path& ini, const fs::path& log)
 {
   const auto status = detail::runProgram(kProgram, ini.string(), log);
@@ -116,8 +116,8 @@ mrpt::poses::CPosePDFParticles readParticles(const fs::path& path)
   return particles;
 }
 
-/// Returns the times [ms] that the program tells for its steps, drawing the particles before the
-/// first one; the first step is not executed.
+/// Returns the times [ms] that the program prints for its steps. Before the first one it draws the
+/// particles; the first step is not executed.
 std::vector<double> toldTimes(const fs::path& folder, const fs::path& log)
 {
   std::ifstream printed(log);
@@ -196,7 +196,7 @@ class StockFactory : public TrackingMethodFactory
       : settings_(settings), map_(map.file)
   {
     if (isSimplemap(map.file)) return;
-    // A grid with the right likelihood options in it, which the program takes over.
+    // A grid that holds the right likelihood options, which the program reads from it.
     map_ = folder_.path() / "map.gridmap.gz";
     const auto maps = localizationMapOf(map, toIni(settings_));
     const auto grid = maps->mapByClass<mrpt::maps::COccupancyGridMap2D>();
