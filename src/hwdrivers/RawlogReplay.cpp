@@ -61,7 +61,7 @@ bool RawlogReplay::playNext()
   }
   const auto label = [&](const CObservation::Ptr& seen)
   {
-    // What has no label can't be exported or removed by stock programs.
+    // Stock programs can't export or remove observations without a label.
     if (seen->sensorLabel.empty()) seen->sensorLabel = m_sensorLabel;
     return seen;
   };

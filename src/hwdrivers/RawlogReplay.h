@@ -12,14 +12,14 @@
 namespace sigloc
 {
 /// A sensor that plays a rawlog of either kind, one entry each time it is asked; the motion of
-/// action/frame pairs comes out as odometry. Times stay those of the log; what has no label gets
-/// the sensor's.
+/// action/frame pairs comes out as odometry. Times are those of the log. Observations without a
+/// label get the sensor's.
 ///
 /// Keys of its ini section:
 ///
 /// * `rawlog`: the file
-/// * `stop_after_end_s`: rawlog-grabber writes half of what waits at a time; so long [s] after the
-///   log's end it is told to stop (10; 0: never)
+/// * `stop_after_end_s`: how long [s] after the log's end rawlog-grabber is stopped (10; 0: never).
+///   The delay lets it write all observations, because it writes half of the waiting ones at a time
 class RawlogReplay : public mrpt::hwdrivers::CGenericSensor
 {
   DEFINE_GENERIC_SENSOR(RawlogReplay)

@@ -10,10 +10,10 @@
 
 namespace sigloc
 {
-/// A laser with an eye for features, for `rawlog-grabber -p libsigloc-hwdrivers.so`: another sensor
-/// whose observations it forwards, each scan followed by its `ObservationSignatures`.
+/// A laser that also extracts features, for `rawlog-grabber -p libsigloc-hwdrivers.so`. It runs
+/// another sensor and forwards its observations, each scan followed by its `ObservationSignatures`.
 ///
-/// Its ini section holds, besides what rawlog-grabber asks of every sensor:
+/// Its ini section holds, besides the keys that rawlog-grabber needs for every sensor:
 ///
 /// * `laser_driver`: the class of the sensor, such as CHokuyoURG, which finds its own keys here
 /// too;
@@ -25,13 +25,13 @@ class SignatureSensor : public mrpt::hwdrivers::CGenericSensor
 
  public:
   void initialize() override;
-  /// Lets the sensor work, and takes over what it has observed.
+  /// Runs the sensor once and takes over its observations.
   void doProcess() override;
   void setPathForExternalImages(const std::string& directory) override;
 
  private:
-  /// Throws std::exception naming the section for an unknown driver, an unknown option or whatever
-  /// the sensor itself does not like.
+  /// Throws std::exception naming the section for an unknown driver, an unknown option or an error
+  /// of the sensor itself.
   void loadConfig_sensorSpecific(const mrpt::config::CConfigFileBase& source,
                                  const std::string& section) override;
 

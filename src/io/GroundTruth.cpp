@@ -63,7 +63,7 @@ std::vector<Row> readRows(const std::filesystem::path& path)
   return rows;
 }
 
-/// Whole numbers that grow from row to row and are too small for a clock are steps.
+/// Whole numbers that grow from row to row and are too small for times are step indices.
 bool countsSteps(const std::vector<Row>& rows)
 {
   double previous = -1;
@@ -177,7 +177,7 @@ std::optional<TPose2D> GroundTruth::at(std::size_t step, double time, double max
   const TPose2D& a = before->pose;
   const TPose2D& b = after->pose;
   const double turn = mrpt::math::wrapToPi(b.phi - a.phi);
-  // Where the robot turned or drove far between two rows, nobody knows how it went.
+  // Where the robot turned or drove far between two rows, its path between them is unknown.
   if (std::abs(turn) > kMaxTurn || std::hypot(b.x - a.x, b.y - a.y) > kMaxStep) return std::nullopt;
   return TPose2D{a.x + share * (b.x - a.x), a.y + share * (b.y - a.y),
                  mrpt::math::wrapToPi(a.phi + share * turn)};

@@ -4,8 +4,9 @@
 
 namespace sigloc::detail
 {
-/// While it lives, what the process writes to standard output and standard error is dropped:
-/// some readers of MRPT, and the parsers beneath them, print what they also throw.
+/// While an object exists, the output of the process to standard output and standard error is
+/// dropped. Some readers of MRPT, and the parsers that they use, print the errors that they also
+/// throw.
 class QuietOutput
 {
  public:

@@ -29,7 +29,7 @@ using mrpt::poses::CPose2D;
 
 namespace
 {
-constexpr double kGroupWindow = 0.05;  // [s], sensors that fire this close together see one step
+constexpr double kGroupWindow = 0.05;  // [s], observations this close together make one step
 constexpr double kMaxInterpolationGap = 1.0;  // [s] between two odometry readings
 // A larger change between two steps is a reset of the odometry, not a motion.
 constexpr double kMaxJump = 5.0;  // [m]
@@ -41,7 +41,7 @@ struct OdometryReading
   CPose2D pose;
 };
 
-/// Observations of an observations-only log that will make one step.
+/// Observations of an observations-only log that make one step.
 struct Group
 {
   CSensoryFrame::Ptr frame = CSensoryFrame::Create();
@@ -65,7 +65,8 @@ std::size_t countRanges(const CSensoryFrame& frame)
                                                 { return isRange(*observation); }));
 }
 
-/// Returns how many landmark observations of a frame are of a sensor that can be where it is.
+/// Returns how many landmark observations of a frame are from a sensor with a valid pose on the
+/// robot.
 std::size_t countUsableLandmarkLooks(const CSensoryFrame& frame)
 {
   return static_cast<std::size_t>(std::count_if(
@@ -119,7 +120,7 @@ struct RawlogReader::State
   bool truncated = false;
   bool ended = false;
   LeftOutOfLog left_out;
-  double latest_time = 0;  // [s], stands in where an entry has none
+  double latest_time = 0;  // [s], used where an entry has none
 
   std::optional<double> time_of_step;  // of the last one
 
@@ -309,7 +310,7 @@ std::optional<MotionIncrement> RawlogReader::State::takeMotion(
   return believed(detail::motionFromOdometry(*odometry_now - before), seconds);
 }
 
-/// Returns the motion, none for what is none but a reset of the odometry or a broken reading.
+/// Returns the motion; none for a reset of the odometry or a broken reading.
 std::optional<MotionIncrement> RawlogReader::State::believed(
     const mrpt::poses::CPosePDFGaussian& motion, double seconds)
 {

@@ -28,13 +28,13 @@ constexpr const char* kTemporaryEnding = ".part-";
   throw std::runtime_error(name + ": cannot be written: " + std::generic_category().message(code));
 }
 
-/// The code of the last error, where the system or zlib gives one at all.
+/// The code of the last error, where the system or zlib gives one.
 int lastError()
 {
   return errno != 0 ? errno : EIO;
 }
 
-/// The temporary file beside a file, removed with the object unless it got the file's name.
+/// The temporary file beside a file. The destructor removes it unless it was renamed to the file.
 class TemporaryFile
 {
  public:
@@ -43,7 +43,7 @@ class TemporaryFile
     std::error_code unnameable;
     const bool is_link = fs::is_symlink(path, unnameable) && fs::exists(path, unnameable);
     target_ = is_link ? fs::canonical(path) : path;
-    // A name as long as names may be leaves no room for the ending.
+    // A name of the greatest length leaves no room for the ending.
     constexpr std::size_t kLongestStem = 200;
     const std::string stem = target_.filename().string().substr(0, kLongestStem);
     temporary_ = target_.parent_path() / fmt::format("{}{}{}", stem, kTemporaryEnding, getpid());
@@ -87,8 +87,9 @@ int writeBytes(int file, std::string_view bytes)
   return 0;
 }
 
-/// A gz-compressed file. An error is kept until close(): thrown into MRPT's serialization, it would
-/// come out wrapped in a call stack, and MRPT's own stream loses those of closing.
+/// A gz-compressed file. An error is kept until close(). If it were thrown into MRPT's
+/// serialization, a call stack would be added to its message. MRPT's own stream loses the errors of
+/// closing.
 class GzipOutput final : public mrpt::io::CStream
 {
  public:

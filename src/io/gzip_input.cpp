@@ -70,7 +70,7 @@ void requireIntact(const std::filesystem::path& path)
   gzbuffer(file.get(), kBufferBytes);
   std::vector<char> content(kBufferBytes);
   int got = gzread(file.get(), content.data(), kBufferBytes);
-  if (gzdirect(file.get()) != 0) return;  // not compressed: nothing to check it by
+  if (gzdirect(file.get()) != 0) return;  // not compressed: it has no checksum
   while (got > 0) got = gzread(file.get(), content.data(), kBufferBytes);
   int code = Z_OK;
   gzerror(file.get(), &code);

@@ -15,8 +15,8 @@ struct gzFile_s;
 
 namespace sigloc::detail
 {
-/// Reads a file, gz-compressed or plain, front to back. Unlike MRPT's own reader it tells the end
-/// of the file from a damaged or truncated one.
+/// Reads a file, gz-compressed or plain, front to back. Unlike MRPT's own reader it distinguishes
+/// the end of the file from damaged or truncated data.
 class GzipInput final : public mrpt::io::CStream
 {
  public:
@@ -58,7 +58,7 @@ class GzipInput final : public mrpt::io::CStream
 
 /// Throws std::runtime_error "path: damaged" for a gz-compressed file whose content fails gzip's
 /// own check; one that is merely cut off passes. MRPT's readers may crash on objects with wrong
-/// bytes in them, so this comes before they see any. Costs one decompression of the file.
+/// bytes in them, so this is called before them. Costs one decompression of the file.
 void requireIntact(const std::filesystem::path& path);
 
 /// Fills `object` from a file that holds one object of its class.

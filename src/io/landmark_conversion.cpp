@@ -15,7 +15,7 @@ using mrpt::obs::CObservationBearingRange;
 constexpr double kMinSigmaRange = 0.01;  // [m], where the log gives none
 constexpr double kMinSigmaBearing = 0.1 * M_PI / 180.0;  // [rad]
 
-/// What a log says of a variance, where that makes sense, and at least the square of `least`.
+/// The variance that a log gives, where it is valid, and at least the square of `least`.
 double varianceOr(double given, double least)
 {
   return std::isfinite(given) ? std::max(given, least * least) : least * least;

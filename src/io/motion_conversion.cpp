@@ -22,7 +22,7 @@ namespace
 {
 constexpr double kMinSigmaXy = 0.001;  // [m]
 constexpr double kMinSigmaPhi = 0.05 * M_PI / 180.0;  // [rad]
-constexpr double kMaxVariance = 1e4;  // [m^2, rad^2], what claims more tells nothing
+constexpr double kMaxVariance = 1e4;  // [m^2, rad^2], a greater one carries no information
 
 bool isFinite(const CPose2D& pose)
 {
@@ -53,8 +53,8 @@ bool hasMoments(const mrpt::obs::CActionRobotMovement2D& movement)
   if (!change) return false;
   // MRPT does not wrap the headings of a sum of Gaussians.
   if (IS_CLASS(*change, mrpt::poses::CPosePDFSOG)) return false;
-  // From a log, odometry's particles are drawn anew on reading, from a generator seeded by the
-  // clock: results would differ from run to run.
+  // When a log is read, odometry's particles are drawn anew from a generator seeded by the clock.
+  // So results would differ from run to run.
   return movement.estimationMethod != mrpt::obs::CActionRobotMovement2D::emOdometry ||
          IS_CLASS(*change, CPosePDFGaussian);
 }

@@ -11,7 +11,7 @@
 
 namespace sigloc::detail
 {
-/// What one action collection says of the robot's motion.
+/// The robot's motion according to one action collection.
 struct ActionMotion
 {
   bool present = false;  ///< the collection holds a movement at all
@@ -22,8 +22,8 @@ struct ActionMotion
 /// 1 mm and 0.05 degrees in standard deviation.
 ActionMotion motionOf(const mrpt::obs::CActionCollection& actions);
 
-/// Returns a motion known from odometry alone, with the covariance of MRPT's Gaussian odometry
-/// model at its default parameters.
+/// Returns a motion from odometry alone, with the covariance of MRPT's Gaussian odometry model at
+/// its default parameters.
 mrpt::poses::CPosePDFGaussian motionFromOdometry(const mrpt::poses::CPose2D& increment);
 
 MotionIncrement toMotionIncrement(const mrpt::poses::CPosePDFGaussian& motion);

@@ -12,7 +12,7 @@ namespace
 {
 namespace fs = std::filesystem;
 
-/// Whether a file is `whole`, by a link perhaps, or lies below it. Both must exist.
+/// Whether a file is `whole`, perhaps by a link, or is inside it. Both must exist.
 bool isPartOf(const fs::path& file, const fs::path& whole)
 {
   std::error_code error;

@@ -13,7 +13,7 @@ namespace
 {
 constexpr double kMaxTilt = 10.0 * M_PI / 180.0;  // [rad]
 constexpr double kDefaultRangeSigma = 0.01;  // [m], where the log gives none
-constexpr double kMaxRangeSigma = 1.0;  // [m], what claims more is taken to give none
+constexpr double kMaxRangeSigma = 1.0;  // [m], a greater one counts as not given
 
 double rangeSigmaOf(const mrpt::obs::CObservation2DRangeScan& scan)
 {

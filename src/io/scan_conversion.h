@@ -27,7 +27,7 @@ std::vector<LaserScan> laserScansOf(const mrpt::obs::CSensoryFrame& frame);
 
 /// Returns the landmarks of an observation as points in the robot frame with their covariances,
 /// without identities. Non-finite and non-positive ranges and those beyond kFarthestReturn are
-/// skipped, as is all of an observation with such a sensor pose as toLaserScan() refuses.
+/// skipped. So is a whole observation with a sensor pose that toLaserScan() refuses.
 std::vector<Feature> landmarksOf(const mrpt::obs::CObservationBearingRange& observation);
 
 /// Returns the landmarks of all CObservationBearingRange of a sensory frame.

@@ -8,7 +8,7 @@
 
 namespace sigloc::detail
 {
-/// Returns whether a sensor can be there on a robot: the pose is finite and no more than 100 m off.
+/// Returns whether a sensor's pose on a robot is valid: finite and no more than 100 m off.
 inline bool isSensorMount(const mrpt::poses::CPose3D& robot_from_sensor)
 {
   constexpr double kReach = 100.0;  // [m]

@@ -19,10 +19,10 @@ namespace sigloc
 using MapSource = std::variant<std::vector<PosedScans>, OccupancyRaster, FeatureMap>;
 
 /// Reads `.simplemap[.gz]`, `.gridmap[.gz]`, a ROS map `.yaml` (pgm/png), a CARMEN log with
-/// corrected poses (`.log`, `.clf`, `.carmen`), a landmark file (`.csv`, `.txt`: rows `x y [radius]
-/// [sigma]`) or a ready `.sigmap`. Throws std::runtime_error naming the path and the reason for a
-/// missing, empty, truncated, foreign or unusable file. Throws the same for a map that reaches
-/// farther than 100 km from its origin.
+/// corrected poses (`.log`, `.clf`, `.carmen`), a ready `.sigmap`, or a landmark file (`.csv`,
+/// `.txt`) with rows `x y [radius] [sigma]`. Throws std::runtime_error naming the path and the
+/// reason for a missing, empty, truncated, foreign or unusable file. Throws the same for a map that
+/// reaches farther than 100 km from its origin.
 MapSource readMapSource(const std::filesystem::path& path);
 
 /// Returns the kinds of map that readMapSource() reads, for messages: "simplemap (.simplemap),

@@ -65,6 +65,6 @@ class SignatureAligner : public mrpt::slam::CMetricMapsAlignmentAlgorithm
   const SignatureMatcher& matcherFor(const mrpt::maps::CMetricMap* m1);
 
   MatcherOptions options_;
-  std::shared_ptr<const SignatureMatcher> matcher_;  // of the map asked for last
+  std::shared_ptr<const SignatureMatcher> matcher_;  // of the last map
 };
 }  // namespace sigloc

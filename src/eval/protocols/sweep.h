@@ -28,14 +28,14 @@ struct SweepOptions
   std::vector<std::string> methods = {"signature", "exhaustive", "lattice"};
   bool use_dense_field = true;  ///< for the signature methods
   std::uint32_t seed = 1;
-  std::uint32_t threads = 1;  ///< queries asked at a time; each query is timed on its own thread
+  std::uint32_t threads = 1;  ///< queries run at a time; each query is timed on its own thread
   std::size_t keep_failures = 0;  ///< of each method at each value
   std::string command;  ///< for the report
   /// Called now and then with a text about the current work and the share of the run that is done.
   std::function<void(const std::string& what, double share)> progress;
 };
 
-/// A query's answer, judged, and the world it was asked in.
+/// A query's answer, judged, and its world.
 struct SweepRecord
 {
   std::string world;  ///< kind and seed, "office-1001"

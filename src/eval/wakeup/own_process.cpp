@@ -25,7 +25,7 @@ struct Header
   std::size_t start;
   std::size_t kidnapped_at;
   std::size_t steps;
-  std::size_t reason;  // characters that say why there is no run, 0: there is one
+  std::size_t reason;  // length of the message why there is no run, 0: there is one
 };
 
 bool writeAll(int file, const void* data, std::size_t bytes)
@@ -67,7 +67,7 @@ void sendFailure(int out, const std::string& reason)
   if (writeAll(out, &header, sizeof(header))) writeAll(out, reason.data(), reason.size());
 }
 
-// The worker: never returns, so that nothing of the parent is run or flushed twice.
+// The worker process. It never returns, so that nothing of the parent is run or flushed twice.
 [[noreturn]] void work(int out, const std::function<Wakeup()>& job)
 {
   try
@@ -80,7 +80,7 @@ void sendFailure(int out, const std::string& reason)
   }
   catch (...)
   {
-    // The parent says that it failed.
+    // The parent reports that it failed.
   }
   _exit(1);
 }

@@ -8,13 +8,13 @@
 
 namespace sigloc::detail
 {
-/// Returns what `work` returns, run in a process of its own: for methods whose random generator is
-/// one for all. Only start, kidnapped_at and steps come back. Throws std::runtime_error when the
-/// process fails, with what `work` threw.
+/// Runs `work` in a process of its own and returns its result. It is for methods that share one
+/// random generator. Only start, kidnapped_at and steps are returned. Throws std::runtime_error
+/// when the process fails, with the message that `work` threw.
 ///
-/// Forks while other threads run, whose locks the process would inherit closed. glibc opens those
-/// of malloc and stdio again. What remains are statics of functions that another thread is filling
-/// at that very moment, and locks inside MRPT: the process would wait for ever. That has not been
-/// seen; with one thread (`--threads 1`) it cannot happen.
+/// Forks while other threads run, whose held locks the process inherits. glibc releases those of
+/// malloc and stdio. Two cases remain in which the process would wait for ever: locks inside MRPT,
+/// and static variables that another thread initializes at that moment. That has not been seen.
+/// With one thread (`--threads 1`) it cannot happen.
 Wakeup runInOwnProcess(const std::function<Wakeup()>& work);
 }  // namespace sigloc::detail

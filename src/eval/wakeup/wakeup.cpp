@@ -25,7 +25,8 @@ using detail::WakeupDriveStep;
 using detail::WakeupLeg;
 using mrpt::math::TPose2D;
 
-/// A drive in another place than the map: any step may start, and distance is what odometry says.
+/// A drive in another building than the map: any step may start, and distance is that of the
+/// odometry.
 WakeupDrive readForeignDrive(const std::filesystem::path& rawlog)
 {
   RawlogReader reader(rawlog);
@@ -46,8 +47,9 @@ WakeupDrive readForeignDrive(const std::filesystem::path& rawlog)
   return drive;
 }
 
-// Stamped earlier than a step before it: steps were delayed, and the truth of this one's time is
-// that of another's. Far earlier the clock was set anew.
+// Whether a step's time is earlier than that of a step before it. Then steps were delayed, and the
+// truth of its time is that of another step. A time that is far earlier means that the clock was
+// set anew.
 bool isStampedLate(double time, double& latest)
 {
   constexpr double kClockSet = 10.0;  // [s]
@@ -105,20 +107,20 @@ detail::LoggedDrive readLog(const WakeupOptions& options)
   return log;
 }
 
-// Summed in another order, the same way has another last digit.
+// Summed in another order, the same distance may differ in its last digit.
 constexpr double kRounding = 1e-6;  // [m]
 
-constexpr double kLongestStep = 1.0;  // [m] that the way between two allowed starts counts at most
+constexpr double kLongestStep = 1.0;  // [m] longest distance counted between two allowed starts
 
-/// A step that the robot may wake up at, and how far along the allowed steps it is.
+/// A step that the robot may wake up at, and its distance along the allowed steps.
 struct Place
 {
   std::size_t step;
   double way;  // [m]
 };
 
-// Where the log leaves the places that are allowed, the way counts no more: else the last place
-// before would be asked again and again. A robot that stands still is at one place only.
+// Where the log leaves the allowed area, the distance does not count. Else the last pose before
+// would be chosen again and again. A robot that stands still has one pose only.
 std::vector<Place> placesOf(const WakeupDrive& drive, double travel)
 {
   std::vector<Place> places;
@@ -136,8 +138,8 @@ std::vector<Place> placesOf(const WakeupDrive& drive, double travel)
   return places;
 }
 
-// Equally spaced in the distance travelled, so that no luck is chosen; none twice, for what is
-// asked again tells nothing new.
+// Equally spaced in the distance travelled, so that the choice favours no method. No step is chosen
+// twice, because a repeated query gives no new result.
 std::vector<std::size_t> spacedStarts(const std::vector<Place>& places, std::size_t count)
 {
   std::vector<std::size_t> starts;
@@ -148,7 +150,7 @@ std::vector<std::size_t> spacedStarts(const std::vector<Place>& places, std::siz
                           static_cast<double>(std::max<std::size_t>(1, count - 1));
     const auto nearer = [&](const Place& a, const Place& b)
     { return std::abs(a.way - wanted) < std::abs(b.way - wanted); };
-    // Enough are left over for those to come.
+    // Enough steps remain for the next starts.
     const auto first = places.begin() + static_cast<std::ptrdiff_t>(next);
     const auto end = places.end() - static_cast<std::ptrdiff_t>(count - 1 - k);
     const auto chosen = std::min_element(first, end, nearer);
@@ -187,7 +189,8 @@ WakeupLeg legFrom(const WakeupDrive& drive, std::size_t start, double travel)
   return {&drive, start, last};
 }
 
-/// The way of one wake-up; with `kidnap` carried half-way to the start half the list away.
+/// The legs of one wake-up. With `kidnap`, half-way the robot is carried to the start half the list
+/// away.
 std::vector<WakeupLeg> legsOf(const WakeupDrive& drive, const std::vector<std::size_t>& starts,
                               std::size_t which, const WakeupOptions& options)
 {

@@ -28,7 +28,7 @@ void judge(const WakeupDriveStep& step, bool foreign, const AccuracyGates& gates
   if (claim.belief) record.nees = squaredNormalisedError(claim, *step.truth);
 }
 
-/// What a run's method is shown: the steps of all legs, one after another.
+/// The input of a run's method: the steps of all legs, one after another.
 std::vector<RawlogStep> shownSteps(const std::vector<WakeupLeg>& legs)
 {
   std::vector<RawlogStep> shown;
@@ -38,7 +38,7 @@ std::vector<RawlogStep> shownSteps(const std::vector<WakeupLeg>& legs)
     {
       shown.push_back(leg.drive->steps[i].step);
       if (i > leg.first) continue;
-      // Whoever wakes up, or is carried, has not driven the way before.
+      // A robot that wakes up, or was carried, has not driven the distance before.
       if (shown.back().motion) shown.back().motion = MotionIncrement{};
       shown.back().actions = nullptr;
     }
@@ -86,7 +86,7 @@ Wakeup runLegs(const TrackingMethodFactory& factory, const std::vector<WakeupLeg
   {
     Wakeup run;
     run.start = legs.front().first;
-    // Building the filter is part of what waking up costs.
+    // Building the filter is part of the cost of waking up.
     const double before = threadCpuSeconds();
     const auto method = factory.start(seed);
     const double set_up_ms = 1e3 * (threadCpuSeconds() - before);

@@ -16,7 +16,7 @@
 
 namespace sigloc::detail
 {
-/// A step of a drive with what it is judged by.
+/// A step of a drive with its truth.
 struct WakeupDriveStep
 {
   RawlogStep step;
@@ -29,7 +29,7 @@ struct WakeupDriveStep
 struct WakeupDrive
 {
   std::vector<WakeupDriveStep> steps;
-  bool foreign = false;  ///< the drive is of another place than the map: every claim is wrong
+  bool foreign = false;  ///< the drive is in another building than the map: every claim is wrong
   bool complete = true;  ///< false when the log was truncated
 };
 
@@ -41,8 +41,8 @@ struct LoggedDrive
   std::vector<std::filesystem::path> files;
 };
 
-/// Reads a landmark log, "dlr" or "victoria-park", from its folder. The map of the first is what
-/// the first half of the path saw, the drive the second half. Throws std::invalid_argument for
+/// Reads a landmark log, "dlr" or "victoria-park", from its folder. For "dlr" the map is made from
+/// the first half of the path, and the drive is the second half. Throws std::invalid_argument for
 /// another name and std::runtime_error ("path: reason").
 LoggedDrive readLandmarkDrive(const std::string& dataset, const std::filesystem::path& folder);
 
@@ -63,8 +63,8 @@ bool isMapped(const mrpt::math::TPose2D& truth,
 Wakeup runLegs(const TrackingMethodFactory& factory, const std::vector<WakeupLeg>& legs,
                std::uint32_t seed, const AccuracyGates& gates);
 
-/// Returns the step of a failed run that shows best what went wrong: the first wrong claim, else
-/// the step that it was judged by. `legs` as the run had them.
+/// Returns the step of a failed run to draw: the first wrong claim, else the step that the run was
+/// judged by. `legs` are those of the run.
 FailedQuery failureOf(const Wakeup& run, const std::vector<WakeupLeg>& legs,
                       const std::string& method, std::shared_ptr<const FeatureMap> map);
 }  // namespace sigloc::detail

@@ -11,8 +11,8 @@ namespace
 {
 using Steps = std::vector<WakeupStep>;
 
-/// Index of the first confident step from which the method stays so to the end, where mapped. What
-/// follows where nothing is mapped settles nothing by itself.
+/// Index of the first confident step from which the method stays confident to the end. Steps
+/// outside the mapped area are ignored.
 std::size_t settledAt(const Steps& steps)
 {
   std::size_t settled = steps.size();
@@ -24,7 +24,7 @@ std::size_t settledAt(const Steps& steps)
   return settled;
 }
 
-/// Index of the first step after the kidnapping that is not sure of a wrong place.
+/// Index of the first step after the kidnapping that does not claim a wrong pose.
 std::size_t noticedAt(const Wakeup& run)
 {
   std::size_t noticed = run.kidnapped_at;
@@ -36,7 +36,7 @@ std::size_t noticedAt(const Wakeup& run)
   return noticed;
 }
 
-/// The way and time between two steps; none when there is no step `to`.
+/// The distance and time between two steps; none when there is no step `to`.
 std::optional<WakeupEvent> eventAt(const Steps& steps, std::size_t from, std::size_t to)
 {
   if (to >= steps.size()) return std::nullopt;

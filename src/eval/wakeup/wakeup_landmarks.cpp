@@ -28,7 +28,7 @@ LoggedDrive readLandmarkDrive(const std::string& dataset, const std::filesystem:
   {
     const LandmarkStep& seen = data.steps[k];
     WakeupDriveStep step;
-    step.step.time = std::numeric_limits<double>::quiet_NaN();  // these logs tell none
+    step.step.time = std::numeric_limits<double>::quiet_NaN();  // these logs have no times
     step.step.motion = seen.motion;
     step.step.landmarks = seen.observed;
     if (seen.truth_sure) step.truth = seen.truth;

@@ -23,7 +23,7 @@ using detail::WakeupDrive;
 using detail::WakeupDriveStep;
 using mrpt::math::TPose2D;
 
-/// Failed drives of a method by their numbers: worlds end in any order.
+/// Failed drives of a method by their numbers, because worlds end in any order.
 using NumberedFailures = std::map<std::size_t, FailedQuery>;
 
 constexpr double kClearance = 0.35;  // [m] of robot and mapping run
@@ -35,7 +35,7 @@ std::uint64_t seedOf(std::uint64_t run_seed, std::uint64_t number)
   return run_seed * 1000003U + number;
 }
 
-/// Sizes and contents as they differ from building to building.
+/// Draws sizes and contents, which differ from building to building.
 WorldOptions drawWorldOptions(WorldKind kind, Random& random)
 {
   WorldOptions options;
@@ -117,7 +117,7 @@ SimulatedPlace makePlace(const SimulatedTrackOptions& options, std::size_t numbe
   return {kind, seed, makeWorld(kind, sizes, seed), laser, drawLandmarkSensor(random)};
 }
 
-/// The landmarks of a place as they were surveyed, the map as a whole shifted.
+/// The landmarks of a world as surveyed, with the whole map shifted.
 EvaluationMap mapLandmarks(const SimulatedPlace& place, const SimulatedTrackOptions& options)
 {
   Random random(place.seed, kMapStream);
@@ -132,14 +132,14 @@ EvaluationMap mapLandmarks(const SimulatedPlace& place, const SimulatedTrackOpti
     landmark.position = {landmark.position.x + dx, landmark.position.y + dy};
     mapped.push_back(landmark);
   }
-  // The survey states its errors one by one, but for the common one.
+  // The survey states the error of each landmark, without the common one.
   const MapErrorModel error{0, 0, options.map_sigma, 0};
   EvaluationMap map;
   map.features = std::make_shared<const FeatureMap>(std::move(mapped), std::nullopt, error);
   return map;
 }
 
-/// The map of a mapping run through a place, bent by what its error model states.
+/// The map of a mapping run through a world, deformed by the errors of its error model.
 EvaluationMap mapPlace(const SimulatedPlace& place, const SimulatedTrackOptions& options)
 {
   if (place.kind == WorldKind::points) return mapLandmarks(place, options);
@@ -168,7 +168,7 @@ EvaluationMap mapPlace(const SimulatedPlace& place, const SimulatedTrackOptions&
   return map;
 }
 
-/// What the drives of one place share.
+/// The common part of the drives in one world.
 class DrivenPlace
 {
  public:
@@ -247,7 +247,7 @@ class DrivenPlace
   std::optional<LandmarkSimulator> landmarks_;  // in a world of points, the other
 };
 
-/// One drive of one method; where it fails and there is room, `failures` gets it.
+/// One drive of one method. A failed drive is added to `failures` while there is room.
 Wakeup runDrive(const TrackingMethodFactory& factory, const std::string& method,
                 const DrivenPlace& place, std::size_t number, const SimulatedTrackOptions& options,
                 NumberedFailures& failures)
@@ -333,7 +333,7 @@ WakeupReport runSimulatedTrack(const SimulatedTrackOptions& options)
   const auto run_world = [&](std::size_t index)
   {
     const SimulatedPlace place = makePlace(options, index);
-    // Another number is another place, of all kinds in turn.
+    // Each number is another world, of all kinds in turn.
     const std::size_t mapped = options.foreign ? worlds + index + index / 3 : index;
     const EvaluationMap map =
         mapPlace(mapped == index ? place : makePlace(options, mapped), options);

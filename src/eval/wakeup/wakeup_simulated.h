@@ -29,7 +29,7 @@ struct SimulatedTrackOptions
   double mapped_share = 1;  ///< of the world's length that the mapping run covers
   bool foreign = false;  ///< the map is of another world: every claim is wrong
   bool odometry = true;
-  bool kidnap = false;  ///< then carry the robot to another place of the world
+  bool kidnap = false;  ///< then carry the robot to another pose in the world
   std::vector<std::string> methods = {"signature"};
   RelocationMethodOptions method;
   std::uint32_t threads = 1;

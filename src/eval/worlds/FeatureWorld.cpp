@@ -49,7 +49,7 @@ Feature randomFeature(const FeatureWorldOptions& options, Random& random)
   return feature;
 }
 
-/// Disturbs a feature by independent errors and says so in its covariance.
+/// Disturbs a feature by independent errors and sets its covariance accordingly.
 Feature disturbed(const Feature& feature, double sigma, double angle_sigma, Random& random)
 {
   Feature out = feature;

@@ -14,7 +14,7 @@ namespace sigloc
 {
 /// A world of bare features, without scans: features spread evenly over a square, a map of them
 /// with errors, and observations with noise, misses and spurious features. The defaults are the
-/// standard world that growth is measured in.
+/// standard world of the growth study.
 struct FeatureWorldOptions
 {
   double density = 0.1;  ///< [1/m^2]
@@ -43,8 +43,8 @@ FeatureWorld makeFeatureWorld(std::size_t count, const FeatureWorldOptions& opti
 mrpt::math::TPose2D randomPose(const FeatureWorld& world, const FeatureWorldOptions& options,
                                Random& random);
 
-/// Returns what is seen from a pose, in the robot frame, in random order. With `wanted` > 0 the
-/// visible features are thinned to about that many, spurious ones included.
+/// Returns the features seen from a pose, in the robot frame, in random order. With `wanted` > 0
+/// the visible features are thinned to about that many, spurious ones included.
 std::vector<Feature> observeFeatures(const FeatureWorld& world,
                                      const mrpt::math::TPose2D& map_from_robot,
                                      const FeatureWorldOptions& options, Random& random,

@@ -181,7 +181,7 @@ std::vector<std::size_t> FreeSpace::cellPath(std::size_t from, std::size_t to) c
   };
   std::vector<float> cost(free_.size(), std::numeric_limits<float>::infinity());
   std::vector<std::uint32_t> came_from(free_.size(), kNone);
-  // Ties are broken by the cell's number, so that the path depends on nothing else.
+  // Ties are broken by the cell's number, so that the path is always the same.
   using Entry = std::pair<double, std::uint32_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
   cost[from] = 0;

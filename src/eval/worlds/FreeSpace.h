@@ -24,17 +24,17 @@ class FreeSpace
   /// True when the robot can be there.
   bool contains(const mrpt::math::TPoint2D& p) const;
 
-  /// Returns a place uniform over the free cells.
+  /// Returns a position that is uniform over the free cells.
   mrpt::math::TPoint2D randomPlace(Random& random) const;
 
-  /// Returns a shortest path of straight pieces between two places of the free space (A* over the
-  /// cells, then short cuts), from `from` to `to` inclusive.
-  /// Throws std::invalid_argument when an end is not free.
+  /// Returns a shortest path of straight pieces between two positions of the free space (A* over
+  /// the cells, then short cuts), from `from` to `to` inclusive. Throws std::invalid_argument when
+  /// an end is not free.
   std::vector<mrpt::math::TPoint2D> path(const mrpt::math::TPoint2D& from,
                                          const mrpt::math::TPoint2D& to) const;
 
-  /// Returns one free place for each square of `spacing` [m] that holds any, in rows that run to
-  /// and fro: places from which the whole space is seen.
+  /// Returns one free position for each square of `spacing` [m] that holds any, in rows that run to
+  /// and fro. From these positions the whole space is seen.
   std::vector<mrpt::math::TPoint2D> coverage(double spacing) const;
 
   double cellSize() const { return cell_size_; }

@@ -90,7 +90,7 @@ LandmarkObservation LandmarkSimulator::observe(const TPose2D& world_from_robot,
     const double bearing = random.uniform(-M_PI, M_PI);
     seen.emplace_back(TPoint2D{distance * std::cos(bearing), distance * std::sin(bearing)}, -1);
   }
-  // Shuffled: the order must not tell the spurious from the true.
+  // Shuffled: the order must not show which ones are spurious.
   for (std::size_t i = seen.size(); i > 1; --i) std::swap(seen[i - 1], seen[random.index(i)]);
 
   LandmarkObservation observation;

@@ -40,15 +40,16 @@ struct LandmarkSensorOptions
   }
 };
 
-/// What the sensor saw from one place.
+/// The features that the sensor observes from one pose.
 struct LandmarkObservation
 {
   std::vector<Feature> features;  ///< points in the robot frame, in random order
   std::vector<std::int32_t> sources;  ///< index into World::points, -1 for a spurious one
 };
 
-/// Observes the point landmarks of a world, through a grid of cells: the cost of an observation
-/// depends on the landmarks within range, not on the size of the world. Const and thread-safe.
+/// Observes the point landmarks of a world. They are kept in a grid of cells, so the cost of an
+/// observation depends on the landmarks within range, not on the size of the world. Const and
+/// thread-safe.
 class LandmarkSimulator
 {
  public:

@@ -128,8 +128,8 @@ void WorldRayCaster::forEachCellOf(std::size_t surface, Visit&& visit) const
     }
     return;
   }
-  // Row by row: the columns between the segment's places at the row's lower and upper border, a
-  // hair wider so that rounding never loses a cell.
+  // Row by row: the columns between the segment's points at the row's lower and upper border,
+  // slightly wider so that rounding never loses a cell.
   constexpr double kHair = 1e-9;
   const WallSegment& segment = segments_[surface];
   const bool upward = segment.start.y <= segment.end.y;

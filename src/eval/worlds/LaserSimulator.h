@@ -57,8 +57,8 @@ struct LaserOptions
 
 /// Casts exact rays against the surfaces of a world.
 ///
-/// The surfaces are hashed into a uniform grid of cells; a ray visits the cells on its way in order
-/// and stops at the first hit. Construction costs one pass over the surfaces; casting is const and
+/// The surfaces are hashed into a uniform grid of cells. A ray visits the cells along it in order
+/// and stops at the first hit. Construction costs one pass over the surfaces. Casting is const and
 /// thread-safe.
 class WorldRayCaster
 {
@@ -93,8 +93,8 @@ class LaserSimulator
   /// Throws std::invalid_argument for options out of range.
   explicit LaserSimulator(const World& world, const LaserOptions& options = {});
 
-  /// Returns the scan taken by a robot at a pose, without noise or clutter. Surfaces are as high as
-  /// any beam of a tilted robot asks for.
+  /// Returns the scan taken by a robot at a pose, without noise or clutter. Surfaces are so high
+  /// that every beam of a tilted robot meets them.
   LaserScan exactScan(const mrpt::math::TPose2D& world_from_robot) const;
 
   /// Returns the scan with noise and clutter. With probability clutter_share a beam is replaced by

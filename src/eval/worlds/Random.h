@@ -8,7 +8,8 @@
 namespace sigloc
 {
 /// Random numbers for simulations: the same on every machine for the same seed, because the
-/// distributions are spelt out here (the standard library's are left to each implementation).
+/// distributions are implemented here. Those of the standard library differ between
+/// implementations.
 ///
 /// Streams with the same seed and different numbers are independent, so that adding a draw to one
 /// part of a simulation leaves the others as they were.

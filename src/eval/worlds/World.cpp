@@ -44,7 +44,8 @@ World changedWorld(const World& mapped, const WorldChangeOptions& options, std::
   checkOptions(options);
   World world = mapped;
   const Bounds& b = world.bounds;
-  // One stream a kind of change: closing doors does not move the furniture elsewhere.
+  // Each kind of change has a random stream of its own: closing doors does not change where the
+  // furniture moves.
   Random moves(seed, 1);
   Random extras(seed, 2);
   Random doors(seed, 3);

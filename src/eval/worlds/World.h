@@ -55,7 +55,7 @@ struct Bounds
   }
 };
 
-/// A simulated place: plain data, in metres.
+/// A simulated world: plain data, in metres.
 struct World
 {
   Bounds bounds;  ///< where the robot can be; outer walls reach half a thickness beyond
@@ -95,7 +95,7 @@ struct WorldChangeOptions
   }
 };
 
-/// Returns the world with furniture moved, unmapped pieces added and doors shut; what moves or
-/// comes new stays inside the bounds. Throws std::invalid_argument for options out of range.
+/// Returns the world with furniture moved, unmapped pieces added and doors shut; moved and new
+/// pieces stay inside the bounds. Throws std::invalid_argument for options out of range.
 World changedWorld(const World& mapped, const WorldChangeOptions& options, std::uint64_t seed);
 }  // namespace sigloc

@@ -29,7 +29,7 @@ TPose2D rounded(const TPose2D& pose)
           std::round(pose.phi * kSteps) / kSteps};
 }
 
-/// A path that grows: new way-points are planned when the look-ahead point runs off its end.
+/// A path that grows: new way-points are planned when the look-ahead point passes its end.
 class EndlessPath
 {
  public:
@@ -39,8 +39,8 @@ class EndlessPath
     lengths_.push_back(0);
   }
 
-  /// Returns the place at a distance [m] along the path; distances must not shrink by more than the
-  /// look-ahead between calls.
+  /// Returns the position at a distance [m] along the path; distances must not shrink by more than
+  /// the look-ahead between calls.
   TPoint2D at(double distance)
   {
     while (lengths_.back() <= distance) extend();
@@ -81,7 +81,7 @@ std::vector<TPose2D> simulateTruth(const FreeSpace& space, const DriveOptions& o
   const auto heading_at = [&](double distance, double fallback)
   {
     const TPoint2D d = path.at(distance + kLookAhead) - path.at(distance);
-    // Where the path turns back on itself, the place ahead may be the place itself.
+    // Where the path turns back on itself, the point ahead may be the robot's own position.
     return std::hypot(d.x, d.y) > 0.05 ? std::atan2(d.y, d.x) : fallback;
   };
   double driven = 0;
@@ -131,7 +131,7 @@ std::vector<MotionIncrement> simulateOdometry(const std::vector<TPose2D>& truth,
 
 namespace
 {
-/// Everything of a drive but what the robot sees.
+/// Everything of a drive but the observations.
 std::vector<DriveStep> simulateMotion(const World& world, const DriveOptions& drive,
                                       const OdometryOptions& odometry, std::uint64_t seed)
 {

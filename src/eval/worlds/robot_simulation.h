@@ -79,7 +79,8 @@ struct DriveStep
 };
 
 /// Every simulated log starts at this time [s since 1970]: files do not depend on the clock. It is
-/// no whole number, because pf-localization takes a truth file whose first one is for step indices.
+/// no whole number, because pf-localization takes the times of a truth file for step indices when
+/// the first one is whole.
 constexpr double kSimulationEpoch = 1.0e9 + 0.25;
 
 /// Returns the true poses of a drive between random positions, one every step_time. The robot

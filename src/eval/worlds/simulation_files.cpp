@@ -60,7 +60,7 @@ mrpt::obs::CObservationBearingRange::Ptr toBearingRange(const std::vector<Featur
   return out;
 }
 
-/// What the robot saw in a step, as MRPT's observations.
+/// The observations of a step, as MRPT's classes.
 mrpt::obs::CSensoryFrame frameOf(const DriveStep& step)
 {
   mrpt::obs::CSensoryFrame frame;
@@ -113,7 +113,7 @@ mrpt::obs::CObservation2DRangeScan::Ptr toRangeScan(const LaserScan& scan, doubl
   for (std::size_t i = 0; i < scan.ranges.size(); ++i)
   {
     const bool valid = scan.valid[i] != 0;
-    // Scanners report the largest range where nothing came back; programs that use such beams as
+    // Scanners report the largest range where they get no return. Programs that use such beams as
     // free space then do the right thing.
     out->setScanRange(i, valid ? scan.ranges[i] : out->maxRange);
     out->setScanRangeValidity(i, valid);

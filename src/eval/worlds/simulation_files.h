@@ -14,7 +14,7 @@
 
 namespace sigloc
 {
-/// The two kinds of rawlog MRPT knows.
+/// The two kinds of rawlog that MRPT reads.
 enum class RawlogKind : std::uint8_t
 {
   action_frame = 0,  ///< pairs of action collection and sensory frame
@@ -50,8 +50,8 @@ void writeLandmarks(const std::vector<Feature>& landmarks, const std::filesystem
 /// earlier simulation.
 void checkSimulationFolder(const std::filesystem::path& folder);
 
-/// Writes the note that goes with a simulation's files, `README.md` in their folder: `command`
-/// makes them again, `files` tells what they are, a Markdown list.
+/// Writes the note on a simulation's files, `README.md` in their folder. `command` makes them
+/// again, and `files` is a Markdown list that describes them.
 void writeSimulationNote(const std::string& command, const std::string& files,
                          const std::filesystem::path& folder);
 }  // namespace sigloc

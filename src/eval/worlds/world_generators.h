@@ -30,8 +30,8 @@ WorldKind worldKindFrom(const std::string& text);
 /// WorldChangeOptions; true for keys of neither.
 bool usesOption(WorldKind kind, std::string_view key);
 
-/// Sizes of a world; a kind ignores what it has no use for. With 0 for width or height the kind's
-/// own size is taken.
+/// Sizes of a world; a kind ignores the fields that it does not use. With 0 for width or height the
+/// kind's own size is taken.
 struct WorldOptions
 {
   double width = 0;

@@ -36,7 +36,7 @@ class Message
     return *value;
   }
 
-  /// A range reading: what is no number counts as "no return".
+  /// A range reading. A word that is no number counts as "no return".
   double range()
   {
     if (next_ >= words_.size()) failAtLine(path_, index_, "cut off");
@@ -120,7 +120,8 @@ PosedScans readRobotLaser(Message& message)
   return posed;
 }
 
-/// Some logs clip far readings to one value: many readings at the very maximum are no returns.
+/// Some logs clip far readings to one value. So many readings at exactly the maximum are no
+/// returns.
 void dropClippedReadings(std::vector<PosedScans>& log)
 {
   constexpr float kSame = 0.005F;  // [m]

@@ -25,9 +25,9 @@ using mrpt::maps::COccupancyGridMap2D;
 
 namespace
 {
-// A cell of MRPT's grid holds the probability of being free; never seen is 0.5. One look of a
-// default sensor model moves it to 0.65 or 0.35: a single hit already is structure, but only a cell
-// hit again and again stops a beam.
+// A cell of MRPT's grid holds the probability of being free; never seen is 0.5. One observation of
+// a default sensor model moves it to 0.65 or 0.35. A single hit already is structure, but only a
+// cell that is hit repeatedly stops a beam.
 constexpr float kFreeFrom = 0.6F;
 constexpr float kWallBelow = 0.45F;
 constexpr float kSolidWallBelow = 0.3F;
@@ -60,7 +60,7 @@ OccupancyRaster usableRasterOf(const COccupancyGridMap2D& grid, const std::files
   return raster;
 }
 
-/// What a ROS map's yaml says beyond the image itself.
+/// The fields of a ROS map's yaml besides the image.
 struct RosMapHeader
 {
   std::filesystem::path image;

@@ -15,7 +15,7 @@ namespace
 constexpr double kDefaultSigma = 0.05;  // [m]
 constexpr double kMostMetres = 1e7;
 
-/// Which column holds what; -1: none does.
+/// The column of each quantity; -1: there is none.
 struct Columns
 {
   int x = 0;

@@ -14,14 +14,14 @@ namespace sigloc::detail
 std::vector<PosedScans> readSimplemap(const std::filesystem::path& path);
 OccupancyRaster readGridmap(const std::filesystem::path& path);
 
-/// Free, wall and unknown as the file's thresholds say; its image may be anything OpenCV reads.
+/// Free, wall and unknown by the file's thresholds; its image may be anything OpenCV reads.
 OccupancyRaster readRosMap(const std::filesystem::path& path);
 /// Returns the image file that a ROS map names, as a path that can be opened.
 std::filesystem::path imageOfRosMap(const std::filesystem::path& path);
 
 /// FLASER and ROBOTLASER1 messages with the (corrected) laser pose they carry. A FLASER message of
-/// n beams covers 180 degrees from -90 in steps of 180/n (n even) or 180/(n-1) degrees (n odd).
-/// The robot frame is the laser's: where it is mounted does not matter to a map.
+/// n beams covers 180 degrees from -90 in steps of 180/n (n even) or 180/(n-1) degrees (n odd). The
+/// robot frame is the laser's: its mount does not affect a map.
 std::vector<PosedScans> readCarmenLog(const std::filesystem::path& path);
 
 /// Rows `x y [radius] [sigma]` in metres; a header row, also behind '#', may name the columns

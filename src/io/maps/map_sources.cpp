@@ -38,7 +38,7 @@ MapSource sourceBy(const std::filesystem::path& path)
 /// A kind of file that maps come in.
 struct MapFormat
 {
-  const char* name;  // for people
+  const char* name;  // for messages
   std::vector<std::string> extensions;  // lower case; `.gz` may follow them
   MapSource (*read)(const std::filesystem::path& path);
 };

@@ -157,7 +157,7 @@ FeatureMap readSigmap(const std::filesystem::path& path)
 
 void saveSigmap(const FeatureMap& map, const std::filesystem::path& path)
 {
-  // The lowest level of compression: maps are rebuilt often and read more often.
+  // The lowest level of compression: maps are written often and read more often.
   writeObjects(
       path,
       [&](CArchive& archive)
