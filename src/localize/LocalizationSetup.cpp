@@ -39,7 +39,7 @@ constexpr const char* kReport = "sigloc.localize";
 constexpr std::array<const char*, 6> kSections = {kMatcher,  kTracker, kParticles,
                                                   kFeatures, kMap,     kReport};
 
-/// Returns the text of a file that is there; throws std::runtime_error where it is none.
+/// Returns the text of a file that exists; throws std::runtime_error where it is no file.
 std::string readText(const fs::path& path)
 {
   std::ifstream file(path, std::ios::binary);
@@ -92,8 +92,8 @@ std::uint32_t readCount(const CConfigFileMemory& ini, const char* key, std::uint
   return static_cast<std::uint32_t>(value);
 }
 
-/// The box that pf-localization spreads its particles over, in either init_PDF_mode; a narrower one
-/// than a pose is told apart by is widened to that.
+/// The box in which pf-localization draws its particles, in either init_PDF_mode. A box narrower
+/// than the distance at which poses count as different is widened to that.
 std::optional<PoseRegion> readPrior(const CConfigFileMemory& ini)
 {
   constexpr double kLeastHalfWidth = 0.5;  // [m]
@@ -158,7 +158,7 @@ std::vector<std::uint32_t> readParticleCounts(const CConfigFileMemory& ini)
 /// Reads what pf-localization judges a run by.
 void readJudgement(const CConfigFileMemory& ini, LocalizationSetup& setup)
 {
-  // Below 0, the default there, means that the step is not tested for.
+  // Below 0, pf-localization's default, there is no such test.
   if (readNumber(ini, "experimentTestConvergenceAtStep", -1) >= 0)
   {
     setup.convergence_test_step = readCount(ini, "experimentTestConvergenceAtStep", 0);
@@ -173,7 +173,7 @@ void readJudgement(const CConfigFileMemory& ini, LocalizationSetup& setup)
                             readNumber(ini, "initial_odo_phi", 0)};
 }
 
-/// Whether MRPT's particle filter is to follow the robot instead of our own tracker.
+/// Whether MRPT's particle filter tracks the robot instead of our own tracker.
 bool readTracker(const CConfigFileMemory& ini)
 {
   const std::string name = ini.read_string_first_word(kExperiment, "tracker", "gaussians");
@@ -184,14 +184,14 @@ bool readTracker(const CConfigFileMemory& ini)
   return name == "particles";
 }
 
-/// Where that cannot be told, whoever reads the file says why.
+/// Where that cannot be determined, the reader of the file reports the error.
 bool mayExist(const fs::path& path)
 {
   std::error_code error;
   return fs::status(path, error).type() != fs::file_type::not_found;
 }
 
-/// Finds a file that an ini names: beside the ini, then from the current folder.
+/// Finds a file that an ini names: in the folder of the ini, then from the current folder.
 fs::path findFile(const fs::path& named, const fs::path& ini, const char* key)
 {
   if (named.empty()) throw std::runtime_error(fmt::format("'{}' is missing", key));

@@ -30,7 +30,7 @@ double volumeOf(const Belief& belief)
   return std::sqrt(std::max(0.0, momentsOf(belief).covariance.det()));
 }
 
-/// Mean distance of the hypotheses from the truth [m]: of the particles, there.
+/// Mean distance of the hypotheses from the truth [m]; pf-localization's is that of the particles.
 double errorOf(const StepRecord& step)
 {
   if (!step.truth || step.belief.hypotheses.empty()) return kUnknown;
@@ -217,7 +217,7 @@ void writeExperimentSummary(const std::filesystem::path& folder, const std::stri
   }
   catch (const std::runtime_error&)
   {
-    // Nothing may be made beside the folder, or its name is too long for it.
+    // Nothing can be made beside the folder, or its name is too long.
     if (!std::filesystem::is_directory(folder)) throw;
     writeFile(folder / kSummaryEnding, text);
   }

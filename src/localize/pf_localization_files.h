@@ -11,7 +11,7 @@
 namespace sigloc
 {
 /// Writes the text files of pf-localization's log folder, for scripts that read those. Each has one
-/// row a step, pf-localization's some fewer; what is not known at a step is `nan`.
+/// row for each step, pf-localization's some fewer. A value that is not known at a step is `nan`.
 ///
 /// * `cov_est.txt`: square root of the determinant of the belief's covariance
 /// * `odo_est.txt`: dead reckoning, `x y phi`

@@ -35,7 +35,7 @@ bool isRunFile(const std::string& name)
   return kNames.count(withoutTemporaryEnding(name)) > 0;
 }
 
-/// The first entry of a folder's entry that no run writes, or nullopt.
+/// The first entry inside a folder's entry that no run writes, or nullopt.
 std::optional<fs::path> foreignPartOf(const fs::directory_entry& entry)
 {
   static const std::map<std::string, std::set<std::string>> kParts = {
@@ -56,7 +56,7 @@ std::optional<fs::path> foreignPartOf(const fs::directory_entry& entry)
   return std::nullopt;
 }
 
-/// Throws for what no run writes; returns whether there is anything besides `other`.
+/// Throws for an entry that no run writes. Returns whether there is any entry besides `other`.
 bool requireRunFilesOnly(const fs::path& folder, const char* other = "")
 {
   bool holds_something = false;
@@ -100,7 +100,7 @@ void requireFinishedRun(const fs::path& folder)
                      " that tells an earlier run of sigloc-localize");
 }
 
-// A run makes this part before anything else, and the user's folder of that name has hardly one.
+// A run makes this entry first, and a user's folder of that name hardly has one.
 void requireUnfinishedRun(const fs::path& folder)
 {
   if (isMissing(folder) || !requireRunFilesOnly(folder)) return;

@@ -7,10 +7,11 @@
 namespace sigloc::detail
 {
 constexpr const char* kRunSummaryFile = "summary.json";
-constexpr const char* kInnerWork = ".partial";  ///< work folder where none can be made beside
+constexpr const char* kInnerWork = ".partial";  ///< work folder where none can be made beside it
 
-/// Throws std::runtime_error ("folder: reason") unless `folder` is missing, empty or what a
-/// finished run of sigloc-localize left: nothing but its files, with its summary among them.
+/// Throws std::runtime_error ("folder: reason") unless `folder` is missing, empty or the output of
+/// a finished run of sigloc-localize. Such an output has only the files of a run, and its summary
+/// among them.
 void requireFinishedRun(const std::filesystem::path& folder);
 
 /// The same for the folder that a run works in, which holds no summary until it ends.

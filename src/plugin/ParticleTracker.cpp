@@ -19,7 +19,7 @@ using mrpt::obs::CActionRobotMovement2D;
 
 namespace
 {
-/// The options, before anything is allocated by them.
+/// Checks the options before anything is allocated.
 const ParticleOptions& checked(const ParticleOptions& options)
 {
   checkOptions(options);

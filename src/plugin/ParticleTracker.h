@@ -15,11 +15,11 @@
 
 namespace sigloc
 {
-/// Follows the robot of a log with SignatureMonteCarlo2D: HypothesisTracker's counterpart for those
-/// who prefer particles.
+/// Tracks the robot of a log with SignatureMonteCarlo2D: the counterpart of HypothesisTracker that
+/// uses particles.
 ///
-/// Seeds MRPT's random generator of the calling thread when made, and draws from it: results are a
-/// function of the seed as long as nothing else draws between the steps.
+/// The constructor seeds MRPT's random generator of the calling thread, and each step draws from
+/// it. The results depend on the seed alone as long as nothing else draws between the steps.
 class ParticleTracker
 {
  public:
@@ -32,7 +32,7 @@ class ParticleTracker
   /// Advances by one step and returns the belief after it. Without a motion a wide prior is used.
   const Belief& step(const RawlogStep& step);
 
-  /// Forgets everything: lost anywhere, or inside a region.
+  /// Starts anew: the robot is lost anywhere, or inside a region.
   void reset(const std::optional<PoseRegion>& region = std::nullopt) { filter_.forget(region); }
 
   /// True when the last step ran a relocation.

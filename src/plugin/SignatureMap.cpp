@@ -34,7 +34,7 @@ namespace
 {
 constexpr std::size_t kObservationsKept = 16;
 constexpr float kFarSquared = 1e4F;  // [m^2]
-constexpr double kFar = 10.0;  // [m], distances are looked up to here
+constexpr double kFar = 10.0;  // [m], the largest distance looked up
 
 void mixIn(std::uint64_t value, std::uint64_t& hash)
 {
@@ -57,7 +57,7 @@ void mixIn(const CPose3D& pose, std::uint64_t& hash)
   }
 }
 
-/// Of the ranges only a few are looked at: every particle asks.
+/// Only a few of the ranges are used, because this is called for every particle.
 void mixIn(const CObservation2DRangeScan& scan, std::uint64_t& hash)
 {
   constexpr std::size_t kSamples = 16;
@@ -87,8 +87,8 @@ void mixIn(const CObservationBearingRange& landmarks, std::uint64_t& hash)
   }
 }
 
-/// Tells observations, and what is made of them, apart. An address alone would not do: freed memory
-/// is used again.
+/// Identifies an observation and the options that its points are extracted with. An address alone
+/// is not enough, because freed memory is used again.
 std::uint64_t fingerprintOf(const CObservation& observation, std::size_t max_points)
 {
   std::uint64_t hash = 1;
@@ -164,7 +164,7 @@ SignatureMap::Learnt& SignatureMap::Learnt::operator=(const Learnt& other)
   return *this;
 }
 
-/// What inserted scans come on top of; null for nothing.
+/// The map that inserted scans are added to; null for none.
 std::shared_ptr<const FeatureMap> SignatureMap::baseMap() const
 {
   const bool from_nothing = prepared_map_->empty() && !prepared_map_->field();
@@ -233,7 +233,7 @@ bool SignatureMap::internal_insertObservation(const CObservation& observation,
   const auto* range_scan = dynamic_cast<const CObservation2DRangeScan*>(&observation);
   if (range_scan == nullptr) return false;
   auto scan = toLaserScan(*range_scan);
-  // A scan without any return says nothing that a map could keep.
+  // A scan without any return adds nothing to a map.
   if (!scan || std::count(scan->valid.begin(), scan->valid.end(), 0) ==
                    static_cast<std::ptrdiff_t>(scan->valid.size()))
   {
@@ -247,7 +247,7 @@ bool SignatureMap::internal_insertObservation(const CObservation& observation,
   }
   look.scans.push_back(std::move(*scan));
   const std::lock_guard<std::mutex> lock(learnt_->mutex);
-  // Only what takes in the scan is kept.
+  // Only the builder with the scan is kept.
   std::optional<MapBuilder> first;
   if (!learnt_->builder) first.emplace(insertion_options.building, baseMap());
   (first ? *first : *learnt_->builder).add(look, insertion_options.extraction);
@@ -295,7 +295,7 @@ std::shared_ptr<const SignatureMap::PreparedObservation> SignatureMap::prepared(
 double SignatureMap::internal_computeObservationLikelihood(const CObservation& observation,
                                                            const CPose3D& taken_from) const
 {
-  // A multi-map asks every map about every observation.
+  // A multi-map calls every map with every observation.
   if (!internal_canComputeObservationLikelihood(observation)) return 0;
   const auto seen = prepared(observation);
   const TPose2D pose = CPose2D(taken_from).asTPose();
@@ -303,7 +303,7 @@ double SignatureMap::internal_computeObservationLikelihood(const CObservation& o
   double sum = 0;
   const DenseField* dense = field();
   if (dense != nullptr) sum += logLikelihood(*dense, seen->returns, pose, options);
-  // Gathering features takes longer than learning a scan: only where they say something.
+  // Deriving the features takes longer than adding a scan. So it is done only where they matter.
   if (seen->landmarks.empty() && dense != nullptr) return sum;
   const auto current = model();
   sum += logLikelihood(current->nearest, seen->landmarks, pose, options);

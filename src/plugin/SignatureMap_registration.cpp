@@ -15,7 +15,7 @@
 #include "sigloc/io/map_files.h"
 #include "sigloc/plugin/SignatureMap.h"
 
-// MRPT drops the namespace and the case where it looks for `signatureMap_count`: a second name
+// MRPT ignores the namespace and the case when it searches for `signatureMap_count`. A second name
 // would make a second map.
 MAP_DEFINITION_REGISTER("sigloc::SignatureMap", sigloc::SignatureMap)
 IMPLEMENTS_SERIALIZABLE(SignatureMap, mrpt::maps::CMetricMap, sigloc)

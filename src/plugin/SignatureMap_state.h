@@ -17,14 +17,14 @@
 
 namespace sigloc
 {
-/// The map in the form that is looked up.
+/// The map in the form used for look-ups.
 struct SignatureMap::Model
 {
   std::shared_ptr<const FeatureMap> map;
   NearestFeature nearest;
 };
 
-/// What an observation comes down to, extracted once however many particles ask.
+/// The points of an observation, extracted once for all particles.
 struct SignatureMap::PreparedObservation
 {
   std::uint64_t fingerprint = 0;
@@ -32,8 +32,8 @@ struct SignatureMap::PreparedObservation
   std::vector<mrpt::math::TPoint2D> landmarks;  // robot frame
 };
 
-/// What was inserted, and what is derived on demand, under the mutex; a copy of the map derives
-/// its own.
+/// The inserted scans' data, and what is derived from them on demand, guarded by the mutex. A copy
+/// of the map derives its own.
 struct SignatureMap::Learnt
 {
   Learnt() = default;

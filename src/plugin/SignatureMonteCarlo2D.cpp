@@ -23,9 +23,9 @@ using mrpt::slam::CMonteCarloLocalization2D;
 
 namespace
 {
-constexpr double kGathered = 0.5;  // [m], particles within are a pose that the caller knows
+constexpr double kGathered = 0.5;  // [m], particles within are a pose given by the caller
 constexpr double kGatheredAngle = 0.5;  // [rad]
-constexpr std::size_t kCompared = 16;  // particles that tell whether the caller has set them anew
+constexpr std::size_t kCompared = 16;  // particles checked for whether the caller has set them anew
 
 ObservedScene sceneOf(const CSensoryFrame* frame, const FeatureExtractorOptions& extraction)
 {
@@ -136,8 +136,8 @@ void SignatureMonteCarlo2D::prediction_and_update_pfAuxiliaryPFOptimal(
        { Base::prediction_and_update_pfAuxiliaryPFOptimal(action, observation, tempered); });
 }
 
-/// MRPT's step while the robot is not lost; then its result is judged, and repaired where
-/// signatures know better. \cite algorithm section 9
+/// Runs MRPT's step while the robot is not lost. Then judges its result, and corrects it where a
+/// relocation contradicts it. \cite algorithm section 9
 void SignatureMonteCarlo2D::step(const CActionCollection* action, const CSensoryFrame* observation,
                                  FilterOptions filtering,
                                  const std::function<void(const FilterOptions&)>& update)
@@ -147,7 +147,8 @@ void SignatureMonteCarlo2D::step(const CActionCollection* action, const CSensory
   const ObservedScene scene = sceneOf(observation, extraction_);
   const bool blind = scene.beams.size() < signatures.options().min_beams && scene.features.empty();
   double travel = predictModes(action);
-  // Evidence is paid out per distance: the errors of map and scan stay the same for a stretch.
+  // Evidence counts by distance driven, because the errors of map and scan stay the same for a
+  // while.
   filtering.powFactor *= std::min(1.0, travel / tracking_.evidence_distance);  // eq. (9.1)
   if (!lost_) update(filtering);
   gatherModes();
@@ -186,8 +187,8 @@ void SignatureMonteCarlo2D::rememberParticles()
   std::sort(known_x_.begin(), known_x_.end());
 }
 
-/// Resampling only copies particles, so one at an unknown place was put there by the caller: MRPT's
-/// ways of doing so cannot be overridden.
+/// Resampling only copies particles, so one at a new position was put there by the caller. MRPT's
+/// functions that do so cannot be overridden.
 void SignatureMonteCarlo2D::noticeReset()
 {
   if (m_particles.empty()) return;
@@ -209,7 +210,7 @@ void SignatureMonteCarlo2D::noticeReset()
   region_.reset();
 }
 
-/// Draws the lost share of the particles anew where the relocation says, and keeps the others.
+/// Draws the lost share of the particles anew at the relocation's candidates, and keeps the others.
 /// Eq. (8.9)
 void SignatureMonteCarlo2D::drawFrom(const RelocationResult& result)
 {

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What SignatureMonteCarlo2D makes of its particles: how sure they are, and whether they are lost.
+// How SignatureMonteCarlo2D judges its particles: how sure their pose is, and whether the robot is
+// lost.
 #include <mrpt/math/wrap2pi.h>
 
 #include <algorithm>
@@ -23,13 +24,13 @@ using mrpt::math::wrapToPi;
 
 namespace
 {
-constexpr std::size_t kScoreBeams = 180;  // the heaviest mode is judged by
+constexpr std::size_t kScoreBeams = 180;  // used to score the heaviest mode
 constexpr double kMaxLost = 3.0;  // log-odds
 constexpr double kMaxConfirmed = 6.0;  // log-odds
 constexpr double kMaxAgainst = 2.0;  // log-odds a metre
 constexpr double kSure = 0.9;  // a relocation that overrules the particles
 constexpr double kFarBetter = 4.0;  // log-likelihood
-constexpr double kHeldWeight = 0.01;  // share of the particles that hold a candidate
+constexpr double kHeldWeight = 0.01;  // share of the particles that covers a candidate
 constexpr double kLeastProbability = 0.001;  // of a candidate that the relocation left out
 constexpr double kSameDistance = 0.75;  // [m], a mode from one step to the next
 constexpr double kSameAngle = 20.0 * M_PI / 180.0;
@@ -42,7 +43,7 @@ bool same(const TPose2D& a, const TPose2D& b)
   return withinReach(a, b, kSameDistance, kSameAngle);
 }
 
-/// What one relocation says of a pose it gives probability p. Eq. (9.3)
+/// The log-odds that one relocation adds to a pose of probability p. Eq. (9.3)
 double confirmationOf(double p)
 {
   const double bounded = std::clamp(p, 1e-6, 1.0 - 1e-6);
@@ -77,7 +78,7 @@ double SignatureMonteCarlo2D::predictModes(const mrpt::obs::CActionCollection* a
   return travelOf(motion.mean, tracking_);
 }
 
-/// Finds the places where the particles are now; each stays itself from step to step.
+/// Finds the modes of the particles. A mode keeps its identity from step to step.
 void SignatureMonteCarlo2D::gatherModes()
 {
   std::vector<Mode> before = std::move(modes_);
@@ -140,8 +141,8 @@ void SignatureMonteCarlo2D::addLostLogOdds(double log_odds)
   elsewhere_ = std::clamp(odds / (1 + odds), tracking_.min_elsewhere, 1 - tracking_.min_elsewhere);
 }
 
-/// At the start, after a sudden fall of the score, at a steady rate while the place is not settled,
-/// and at a low one to confirm it.
+/// True at the start and after a sudden fall of the score. Also true at regular distances: short
+/// ones while the pose is not localized, longer ones to confirm it.
 bool SignatureMonteCarlo2D::wantsRelocation() const
 {
   if (lost_ && !looked_) return true;
@@ -151,7 +152,7 @@ bool SignatureMonteCarlo2D::wantsRelocation() const
                                           : tracking_.relocation_distance);
 }
 
-/// A relocation knows nothing of the particles, and that is what makes it evidence.
+/// A relocation does not use the particles. So it is independent evidence.
 void SignatureMonteCarlo2D::relocate(const ObservedScene& scene)
 {
   const double fresh_share =
@@ -168,15 +169,15 @@ void SignatureMonteCarlo2D::relocate(const ObservedScene& scene)
   gatherModes();
   for (Mode& mode : modes_)
   {
-    // A place that contradicts what was held must be found again.
+    // A pose that contradicts the particles must be found again.
     if (mode.hypothesis.id < first_new || contradicts) continue;
     mode.confirmed = confirmationOf(probabilityAt(result, mode.hypothesis.pose.mean));
   }
   weighElsewhere(scene, 0);
 }
 
-/// How far the best candidate that no particles hold is ahead of what they do hold, as log-odds.
-/// \cite algorithm eq. (9.2)
+/// The lead, as log-odds, of the best candidate that no particles cover over the poses that they
+/// cover. \cite algorithm eq. (9.2)
 double SignatureMonteCarlo2D::leadOfRivals(const RelocationResult& result) const
 {
   const bool dense = matcher_->verifier() != nullptr;
@@ -190,7 +191,8 @@ double SignatureMonteCarlo2D::leadOfRivals(const RelocationResult& result) const
   return dense ? logLikelihoodOfScore(rival) - logLikelihoodOfScore(held) : std::log(rival / held);
 }
 
-/// Confirms the modes, eq. (9.3), and weighs what they hold against what they miss, eq. (9.2).
+/// Confirms the modes, eq. (9.3). Weighs the candidates that they cover against the others, eq.
+/// (9.2).
 void SignatureMonteCarlo2D::weighAgainst(const RelocationResult& result, double fresh_share)
 {
   const double lead = leadOfRivals(result);
@@ -198,7 +200,7 @@ void SignatureMonteCarlo2D::weighAgainst(const RelocationResult& result, double 
   for (Mode& mode : modes_)
   {
     double evidence = confirmationOf(probabilityAt(result, mode.hypothesis.pose.mean));
-    // Look-alikes that have long been ruled out don't count against a confirmed place.
+    // Look-alikes that have long been ruled out don't count against a confirmed pose.
     if (mode.confirmed >= tracking_.confirmation && !far_better) evidence = std::max(evidence, 0.0);
     mode.confirmed = std::min(kMaxConfirmed, mode.confirmed + fresh_share * evidence);
   }
@@ -220,7 +222,7 @@ void SignatureMonteCarlo2D::publish(bool blind)
   {
     TrackedHypothesis hypothesis = mode.hypothesis;
     hypothesis.weight *= here;
-    // The particles don't know of the error that moves a whole neighbourhood of the map.
+    // The particles' covariance lacks the common error of a whole neighbourhood of the map.
     hypothesis.pose = withCommonError(hypothesis.pose, matcher_->map().error());
     hypothesis.pose.covariance(2, 2) += kLeastTurnSigma * kLeastTurnSigma;
     belief_.hypotheses.push_back(hypothesis);

@@ -10,8 +10,8 @@
 
 namespace sigloc::detail
 {
-/// Flat coloured shapes over the map plane, collected into one object: what thick lines are made
-/// of where the renderer knows only thin ones.
+/// Flat coloured shapes over the map plane, collected into one object. Thick lines are made of them
+/// where the renderer draws only thin ones.
 class TriangleBatch
 {
  public:

@@ -17,7 +17,7 @@ using mrpt::serialization::CArchive;
 namespace
 {
 constexpr std::uint8_t kVersion = 1;
-constexpr std::uint8_t kVersionWithoutSums = 0;  // of where the hits were: in the middle of cells
+constexpr std::uint8_t kVersionWithoutSums = 0;  // hits are taken to be at cell centres
 
 void write(const FeatureMerger::MergedSegment& segment, CArchive& out)
 {
@@ -58,7 +58,7 @@ std::vector<Item> readAll(CArchive& in)
   std::uint32_t count = 0;
   in >> count;
   std::vector<Item> items;
-  // Not resized at once: a damaged count must not take memory that no data backs.
+  // Not resized at once: a damaged count must not allocate memory that the file has no data for.
   for (std::uint32_t i = 0; i < count; ++i)
   {
     items.emplace_back();
@@ -67,7 +67,7 @@ std::vector<Item> readAll(CArchive& in)
   return items;
 }
 
-// The counts of a tile as three planes: hits, passes, looks; then the sums of where hits were.
+// The counts of a tile as three planes: hits, passes, scans. Then the sums of the hits' positions.
 constexpr std::size_t kCells = std::tuple_size_v<decltype(BeamCounts::Tile::counts)>;
 using Planes = std::array<std::uint16_t, 3 * kCells>;
 using Sums = std::array<std::int32_t, 2 * kCells>;

@@ -10,11 +10,11 @@
 
 namespace sigloc::detail
 {
-/// Stores what a builder has gathered, without the map it stands on.
+/// Stores the data of a builder, without the map that it extends.
 void writeMapBuilder(const MapBuilder& builder, mrpt::serialization::CArchive& out);
 
-/// Returns a builder that goes on where the stored one has ended, on top of `base` (or null).
-/// Throws std::exception for a damaged archive.
+/// Returns a builder that continues the stored one and extends `base` (or null). Throws
+/// std::exception for a damaged archive.
 MapBuilder readMapBuilder(mrpt::serialization::CArchive& in,
                           std::shared_ptr<const FeatureMap> base);
 }  // namespace sigloc::detail

@@ -81,7 +81,7 @@ mrpt::opengl::CTexturedPlane::Ptr drawRaster(const DenseField& field)
           state = std::max(state, cell);
         }
       }
-      // CTexturedPlane takes its texture's first row to be the lowest y.
+      // CTexturedPlane draws its texture's first row at the lowest y.
       auto* pixel = image.ptr<std::uint8_t>(u, v);
       std::fill(pixel, pixel + 3, greyOf(state));
     }
@@ -134,7 +134,7 @@ void addFeature(TriangleBatch& batch, const Feature& feature, double width, bool
 /// Light blue for a weight of zero, magenta for one.
 TColor weightColor(double weight)
 {
-  const double w = std::sqrt(std::clamp(weight, 0.0, 1.0));  // small weights stay tellable
+  const double w = std::sqrt(std::clamp(weight, 0.0, 1.0));  // small weights remain visible
   const auto mix = [w](double from, double to)
   { return static_cast<std::uint8_t>(std::lround(from + w * (to - from))); };
   return {mix(120, 225), mix(200, 0), mix(255, 150)};
@@ -219,7 +219,7 @@ mrpt::opengl::CSetOfTriangles::Ptr drawTruth(const TPose2D& truth, double size, 
 mrpt::opengl::CSetOfTriangles::Ptr drawPath(const std::vector<TPose2D>& path, double width)
 {
   TriangleBatch batch(kPathHeight);
-  // The estimate jumps while the robot is lost; a line across the map would claim a path.
+  // The estimate jumps while the robot is lost. A line across the map would look like a path.
   constexpr double kMaxLeg = 2.0;  // [m]
   for (std::size_t i = 1; i < path.size(); ++i)
   {

@@ -11,16 +11,16 @@
 
 namespace sigloc
 {
-/// A place where particles have gathered.
+/// A pose where particles have gathered.
 struct ParticleMode
 {
   GaussianPose pose;  ///< mean and covariance of its particles
   double weight = 0;  ///< share of all particles' weight
 };
 
-/// Returns where the particles are, heaviest place first and at most `max_modes` of them: the
-/// particles within 0.75 m and 20 degrees of a mean of their own. Weights are normalised over all
-/// particles, so a scattered set gives modes that sum to less than one.
+/// Returns the modes of the particles, heaviest first, at most `max_modes` of them. A mode has the
+/// particles within 0.75 m and 20 degrees of their mean. Weights are normalised over all particles,
+/// so the modes of a scattered set sum to less than one.
 std::vector<ParticleMode> modesOf(const mrpt::poses::CPosePDFParticles& particles,
                                   std::size_t max_modes);
 

@@ -116,7 +116,7 @@ mrpt::poses::CPosePDFParticles toParticles(const Belief& belief, std::size_t cou
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
   mrpt::poses::CPosePDFParticles particles(count);
-  // Systematic choice of the hypothesis: each gets its share of the samples to within one.
+  // Systematic sampling of the hypotheses: each gets its share of the samples to within one.
   const double offset = std::uniform_real_distribution<double>()(random);
   std::size_t chosen = 0;
   double passed = weights[0];

@@ -20,7 +20,7 @@ using test::messageOf;
 using test::readBytes;
 using test::TemporaryFolder;
 
-/// While it lives, no file grows beyond some size: the next best thing to a full disk.
+/// While an object exists, no file can grow beyond a given size, as on a full disk.
 class SmallFiles
 {
  public:

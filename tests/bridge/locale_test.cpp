@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// A host program may spell numbers its own way: our files do not change.
+// A host program may set a locale that writes numbers differently: our files do not change.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -161,7 +161,7 @@ TEST(MapSources, RefusesGridmapsOfAbsurdCells)
   }
 }
 
-/// What reading a map says that lies at (x, y), in each kind of file that has places.
+/// The messages of reading a map at (x, y), one for each kind of file that has positions.
 std::vector<std::string> errorsOfMapsAt(const TemporaryFolder& folder, double x, double y)
 {
   const std::string place = std::to_string(x) + " " + std::to_string(y);

@@ -15,7 +15,8 @@ namespace sigloc::test
 inline constexpr float kHalfWidth = 4.0F;  // [m] of the room
 inline constexpr float kHalfDepth = 2.5F;  // [m]
 
-/// The scan a full-circle laser takes at a place in an empty rectangular room around the origin.
+/// The scan that a full-circle laser takes at a pose in an empty rectangular room around the
+/// origin.
 inline mrpt::obs::CObservation2DRangeScan::Ptr roomScan(const mrpt::math::TPose2D& pose,
                                                         double time = 1)
 {

@@ -61,13 +61,13 @@ TEST(SigmapFile, NeverTakesACutOrFlippedByteForAnotherMap)
     writeText(path, good.substr(0, size));
     EXPECT_EQ(loadError(path).rfind(path.string() + ": ", 0), 0U) << "cut to " << size;
   }
-  // The ten bytes of gzip's own header hold nothing of ours (time, system).
+  // The ten bytes of gzip's own header hold none of our data (time, system).
   for (std::size_t at = 10; at < good.size(); at += 5)
   {
     std::string bad = good;
     bad[at] = static_cast<char>(bad[at] ^ 0x10);
     writeText(path, bad);
-    // Within a run of equal bytes another distance to copy from is the same content.
+    // In a run of equal bytes, a copy from another distance gives the same content.
     if (loadError(path).empty()) expectSameMap(loadSigmap(path), map);
   }
 }

@@ -49,7 +49,7 @@ mrpt::maps::CMultiMetricMap multiMap(const mrpt::config::CConfigFileMemory& ini)
   return maps;
 }
 
-/// Tells fields apart by the offsets of their cells (FNV-1a).
+/// A hash (FNV-1a) of the offsets of a field's cells.
 std::uint32_t offsetDigest(const DenseField& field)
 {
   std::uint32_t digest = 2166136261U;
@@ -223,7 +223,7 @@ TEST(SignatureMap, ReadsItsFirstVersion)
   EXPECT_EQ(map.likelihood_options.points.max_points, 17U);
 }
 
-// What was learnt before it told where in its cells a wall was hit.
+// A map stored by a version without the positions of hits within their cells.
 TEST(SignatureMap, LearnsOnFromItsSecondVersion)
 {
   mrpt::io::CFileGZInputStream file(SIGLOC_GOLDEN_FOLDER "/signature_map_v1.gz");

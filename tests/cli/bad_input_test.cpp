@@ -70,7 +70,7 @@ TEST_P(BadFile, asMapOfARunIsRefused)
 
 TEST_P(BadFile, asRawlogIsRefused)
 {
-  if (GetParam() == Damage::truncated) return;  // a run on what can be read: see below
+  if (GetParam() == Damage::truncated) return;  // the readable part is used: see below
   const TemporaryFolder folder;
   makeBadFile(GetParam(), kLabLog, folder / "bad.rawlog");
   writeConfig(folder, kLabMap.string(), "bad.rawlog");
@@ -122,8 +122,8 @@ TEST(BadInput, mapWithoutFeaturesIsRefused)
                 "bad.simplemap");
 }
 
-// As an unreadable folder would, a loop of links keeps the system from telling whether a file is
-// there.
+// Because of a loop of links the system can't determine whether a file exists. An unreadable folder
+// has the same effect.
 TEST(BadInput, whatCannotBeReachedSaysWhy)
 {
   const TemporaryFolder folder;

@@ -45,7 +45,7 @@ inline std::string commandLine(const std::string& program,
   return command;
 }
 
-/// Runs a shell's commands with nothing to read from, in `folder`.
+/// Runs a shell's commands with an empty standard input, in `folder`.
 inline CommandResult runShell(const TemporaryFolder& folder, const std::string& commands)
 {
   const TemporaryFolder streams;
@@ -60,7 +60,7 @@ inline CommandResult runShell(const TemporaryFolder& folder, const std::string& 
   return result;
 }
 
-/// Runs one of the project's programs with nothing to read from, in `folder`.
+/// Runs one of the project's programs with an empty standard input, in `folder`.
 inline CommandResult run(const TemporaryFolder& folder, const std::string& program,
                          const std::vector<std::string>& arguments)
 {

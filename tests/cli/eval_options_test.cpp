@@ -15,7 +15,7 @@ const std::string kOffice = (kSources / "maps" / "office.simplemap").string();
 const std::string kOfficeLog = (kSources / "rawlogs" / "office.rawlog").string();
 const std::string kOfficeTruth = (kSources / "rawlogs" / "office-truth.txt").string();
 
-/// A call that must fail with one line on stderr that says `complaint`, and write nothing.
+/// A call that must fail with one line on stderr that contains `complaint`, and write nothing.
 struct Refusal
 {
   const char* name;
@@ -214,7 +214,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"MethodTwice",
                 {"track", "--simulate", "1", "--method", "mcl,mcl", "--out", "out"},
                 "mcl: given twice"},
-        // The folder is looked at before the map is.
+        // The folder is checked before the map is.
         Refusal{"FolderInAFile",
                 {"relocate", "--map", "none.simplemap", "--interleave", "2", "--out", "file/out"},
                 "file/out: "},
@@ -274,7 +274,7 @@ TEST(EvalReport, IsWrittenInWholeOrNotAtAll)
 
 TEST(EvalReport, NeedsNoPlots)
 {
-  // A missing gnuplot, like one that fails, costs the plots and nothing else.
+  // Without gnuplot, or when it fails, only the plots are missing.
   const TemporaryFolder folder;
   const std::string command = "cd " + quoted(folder.path().string()) + " && PATH=/nonexistent " +
                               quoted(std::string(SIGLOC_BIN_FOLDER) + "/sigloc-eval") +

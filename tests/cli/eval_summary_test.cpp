@@ -148,7 +148,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 // Pictures of what failed, by every sub-command.
 
-/// Says of the second round that it was driven 5 m aside: no answer is right there.
+/// Moves the truth of the second round 5 m aside: no answer is right there.
 void misplaceSecondRound(const std::filesystem::path& poses)
 {
   std::istringstream rows(readBytes(poses));
@@ -172,12 +172,12 @@ TEST(EvalPictures, AreDrawnByEverySubCommandThatCanFail)
   const TemporaryFolder folder;
   const std::string log = (kSources / "rawlogs" / "office.rawlog").string();
   const Arguments all[] = {
-      // In a map that is said to be foreign every claim is wrong.
+      // In a map that is declared foreign every claim is wrong.
       {"track", "--map", kOffice, "--rawlog", log, "--foreign", "--starts", "2", "--travel", "4",
        "--method", "signature"},
       {"track", "--simulate", "1", "--worlds", "corridor", "--mapped-share", "0.3", "--travel", "6",
        "--seed", "3", "--method", "mcl", "--particles", "50"},
-      // With two features seen, nobody knows.
+      // Two features do not fix a pose.
       {"scale", "--map-features", "300", "--observed", "2", "--poses", "3", "--method",
        "signature"},
       {"landmarks", "--dataset", "dlr", ".", "--local-map-steps", "1", "--max-queries", "10",

@@ -41,7 +41,7 @@ int countReturnPixels(const mrpt::img::CImage& picture)
 TEST(FailurePictures, ShowTheFirstFailedQueries)
 {
   const TemporaryFolder folder;
-  // The truth is said to be 5 m aside: every answer fails.
+  // The truth is moved 5 m aside: every answer fails.
   const auto result = run(folder, "sigloc-eval", relocateInOffice({"--map-from-queries", "5,0,0"}));
   ASSERT_EQ(result.exit_code, 0) << result.errors;
   const auto failures = folder / "out" / "failures";

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What does not fit is told in one line, with exit code 1, and nothing half-written stays.
+// When the output does not fit, a program writes one line and exits with 1. No half-written file is
+// left.
 #include <gtest/gtest.h>
 
 #include "command_line.h"

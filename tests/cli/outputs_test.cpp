@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// No program replaces what it reads, nor what an earlier run of it did not write.
+// No program replaces its inputs, nor a file that no earlier run of it wrote.
 #include <gtest/gtest.h>
 
 #include "command_line.h"
@@ -112,7 +112,7 @@ TEST(Outputs, aRunNeverReplacesTheLogItReads)
   ASSERT_EQ(run(folder, "sigloc-localize", {"run.ini", "--out", "out", "--quiet"}).exit_code, 0);
   writeConfig(folder, "out/annotated.rawlog");
   expectUntouched(folder, "sigloc-localize", {"run.ini", "--out", "out"}, "annotated.rawlog");
-  // None of several runs starts where one of them would.
+  // If one of several runs would replace a file, none starts.
   fs::rename(folder / "out", folder / "more_001");
   writeConfig(folder, "more_001/annotated.rawlog", "experimentRepetitions = 2\n");
   expectUntouched(folder, "sigloc-localize", {"run.ini", "--out", "more"}, "annotated.rawlog");
@@ -176,7 +176,7 @@ TEST(Outputs, aReportReplacesOnlyReports)
     writeText(other / "out" / name, R"({"provenance": {"command": "make"}})");
     expectUntouched(other, "sigloc-eval", relocate(truth, "out"), "out: holds " + name);
   }
-  // What no report is named like may stay, and an earlier report is replaced.
+  // Files with names that no report uses may stay. An earlier report is replaced.
   fs::create_directory(folder / "out");
   writeText(folder / "out/notes.txt", "mine");
   for (int i = 0; i < 2; ++i)

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What users of pf-localization expect of sigloc-localize.
+// The behaviour that users of pf-localization expect of sigloc-localize.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -127,7 +127,8 @@ TEST(PfLocalizationParity, neverReplacesAForeignSummary)
   EXPECT_FALSE(std::filesystem::exists(folder / "out"));
 }
 
-// No name as long as this leaves room for a work folder beside it, as a parent that is read-only.
+// With so long a name no work folder can be made beside it. A read-only parent folder has the same
+// effect.
 TEST(PfLocalizationParity, writesIntoAFolderWithNothingBesideIt)
 {
   const TemporaryFolder folder;

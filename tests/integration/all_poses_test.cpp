@@ -18,7 +18,7 @@ namespace
 {
 using mrpt::math::TPose2D;
 
-/// A room that stands in the map several times, each copy turned, moved and lacking a few features.
+/// A room that is in the map several times, each copy turned, moved and lacking a few features.
 std::vector<Feature> copiesOf(const FeatureWorld& room, std::size_t copies, Random& random)
 {
   constexpr double kApart = 40;  // [m], more than the room is wide
@@ -48,7 +48,8 @@ bool holds(const std::vector<FeatureHypothesis>& found, const TPose2D& pose)
 
 constexpr std::array<std::uint64_t, 4> kRoomSeeds = {61, 62, 63, 64};
 
-/// What the modes miss of the poses that the plain one finds and that aren't chance.
+/// The poses that the plain mode finds and the other modes miss, without those that the background
+/// explains.
 struct Missed
 {
   std::size_t plausible = 0;
@@ -74,7 +75,7 @@ struct Missed
   }
 };
 
-// Not just the winner: where a building repeats itself, the one that is left out may be the
+// All good poses count, not only the best one: in a repetitive building the missing one may be the
 // robot's.
 TEST(AllPoses, OfOneToEightCopiesOfARoomAreFound)
 {

@@ -289,7 +289,7 @@ TEST(FeatureTracking, LeavesOutWhatTheMapDoesNotHold)
     EXPECT_EQ(a.hypotheses[0].pose.mean, b.hypotheses[0].pose.mean);
     EXPECT_EQ(a.hypotheses[0].weight, b.hypotheses[0].weight);
   }
-  // A scene of nothing but walls only predicts.
+  // A scene of walls alone only causes a prediction.
   ObservedScene walls;
   walls.features = {wall};
   const std::size_t held = with_walls.belief().hypotheses.size();

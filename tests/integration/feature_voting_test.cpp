@@ -57,7 +57,7 @@ std::vector<Feature> seenFrom(const std::vector<Feature>& features, const TPose2
   return seen;
 }
 
-// The votes for one place and heading by their definition, cell by cell around it.
+// The votes for one position and heading by their definition, cell by cell around it.
 double votesByDefinition(const std::vector<Feature>& mapped, const std::vector<Feature>& observed,
                          const FeatureVotingOptions& options, const TPose2D& pose)
 {
@@ -133,7 +133,7 @@ TEST(FeatureVoting, FindsPlacesAmongPointsAndCorners)
 
 TEST(FeatureVoting, SlidesWallsAlongWalls)
 {
-  // A long wall and a short one at right angles: together they fix the place.
+  // A long wall and a short one at right angles: together they fix the position.
   const std::vector<Feature> mapped = {makeFeature(FeatureType::segment, 5, 0, M_PI / 2, 10),
                                        makeFeature(FeatureType::segment, 0, 1, 0, 2)};
   const FeatureMap map(mapped);

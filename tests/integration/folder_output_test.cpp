@@ -41,10 +41,10 @@ TEST(FolderOutput, isThereAsAWholeOrNotAtAll)
 TEST(FolderOutput, removesWhatKilledRunsLeft)
 {
   const TemporaryFolder folder;
-  const fs::path mine = folder / ".part-mine";  // no run's: it has no lock's file
+  const fs::path mine = folder / ".part-mine";  // of no run: it has no lock file
   const fs::path dead = folder / ".part-abcdef";
   fs::create_directory(mine);
-  // A run that goes on holds its part; of one that was killed a copy of it stays.
+  // A run that goes on locks its part. A copy of it is like the part that a killed run left.
   fillFolder(folder.path(),
              [&](const fs::path& running)
              {

@@ -255,7 +255,7 @@ TEST_P(GeneratorLaws, SameSeedSameResult)
 
 TEST(GeneratorRecall, SamplingModesFindTheSignificantPosesOfThePlainMode)
 {
-  // Worlds with two partial copies of a place, so that there is more than the winner to find.
+  // Worlds with two partial copies of an area, so that there are several poses to find.
   FeatureWorldOptions options = smallScenes(false);
   Random random(21);
   const double significance = GeneratorOptions{}.significance;
@@ -295,7 +295,7 @@ TEST(GeneratorRecall, SamplingModesFindTheSignificantPosesOfThePlainMode)
 
 TEST(PatternGenerator, FallsBackToPairsAmongWalls)
 {
-  // Patterns are of places alone; where mostly walls are seen, pairs must find the robot.
+  // Patterns consist of places alone. Where mostly walls are seen, pairs must find the robot.
   FeatureWorldOptions options = smallScenes(false);
   options.type_weights = {0, 4, 0, 1, 0};
   Random random(22);

@@ -259,7 +259,7 @@ TEST(Landmarks, MissingFilesAndUnknownSetsAreNamed)
   options.dataset = "nonsense";
   EXPECT_THROW(runLandmarks(options), std::invalid_argument);
 }
-/// What reading the log says after `bad` was added to one of its files.
+/// The message of reading the log after `bad` was added to one of its files.
 std::string complaintAbout(const char* file, const std::string& bad)
 {
   const test::TemporaryFolder folder;

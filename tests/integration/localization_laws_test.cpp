@@ -24,7 +24,7 @@ using testing::officeWorld;
 
 constexpr std::uint64_t kOfficeSeed = 3;
 
-/// Built once: most laws speak of the same office.
+/// Built once, because most tests use the same office.
 const MappedWorld& office()
 {
   static const MappedWorld world(officeWorld(kOfficeSeed), kOfficeSeed);
@@ -257,7 +257,7 @@ TEST(Localization, SameInputSameBytesOnAnyThread)
               [&](std::size_t i)
               { again[i] = bytesOf(office().matcher()->localize(scenes[i % scenes.size()])); });
   for (std::size_t i = 0; i < again.size(); ++i) EXPECT_EQ(again[i], once[i % scenes.size()]);
-  // A second matcher of the same map, and a second map of the same scans, say the same.
+  // A second matcher of the same map, and a second map of the same scans, give the same result.
   const MappedWorld rebuilt(officeWorld(kOfficeSeed), kOfficeSeed);
   for (std::size_t i = 0; i < scenes.size(); ++i)
   {

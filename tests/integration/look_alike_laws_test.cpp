@@ -38,7 +38,7 @@ TEST(LookAlikes, ExactCopiesShareTheWeight)
     for (int k = 0; k < 2000 && asked < 15; ++k)
     {
       const TPose2D truth = corridor.randomPose(random);
-      // Well inside a room, with the back to the door: nothing tells the copies apart.
+      // Well inside a room, with the back to the door: nothing distinguishes the copies.
       if (truth.y < 4.5 || std::abs(std::remainder(truth.phi - M_PI / 2, 2 * M_PI)) > 0.5) continue;
       ++asked;
       const RelocationResult result = corridor.matcher()->localize(corridor.sceneAt(truth, random));
@@ -123,8 +123,8 @@ TEST(LookAlikes, IdenticalRastersGetIdenticalWeights)
     }
     std::cout << copies << " identical rasters: lightest weight / heaviest " << worst
               << ", equal in " << equal << " of 20\n";
-    // Most are equal to the last bit; now and then proposals lie differently in two copies and the
-    // refinement stops a few centimetres apart.
+    // Most are equal to the last bit; now and then the proposals differ between two copies and the
+    // refinements end a few centimetres apart.
     EXPECT_GE(equal, 12);
     EXPECT_GT(worst, 1.0 / (10.0 * copies));
   }
@@ -163,7 +163,7 @@ int drivesWithBothAlive(const std::optional<MotionIncrement>& first_motion)
 TEST(LookAlikes, APlaceFoundLateCountsAsIfItHadBeenFollowed)
 {
   EXPECT_GE(drivesWithBothAlive(MotionIncrement{}), 17);  // counted from when it was found: 1
-  // A log knows of no motion before its first scan.
+  // A log has no motion before its first scan.
   EXPECT_GE(drivesWithBothAlive(std::nullopt), 17);
 }
 /// Two copies of the office; the second lacks 0.3 m of every five metres.

@@ -114,7 +114,7 @@ TEST(Merge, OfTwoSweepsIsTheSweepOverBothSeeds)
     EXPECT_EQ(rows.at(i).at("recall_at_1_counts").at(1), 8);
   }
   EXPECT_EQ(merged.report.plots.size(), 4U);
-  // What was merged merges on; the same queries twice do not.
+  // Merged runs can be merged again. Runs with the same queries can't.
   writeRunReport(merged.report, folder / "both");
   EXPECT_THROW(mergeRuns({folder / "both", folder / "1"}, "test"), std::runtime_error);
 }
@@ -144,7 +144,7 @@ TEST(Merge, SumsTheCountsOfDrives)
   EXPECT_NE(merged.report.text.find("0.725"), std::string::npos) << merged.report.text;
 }
 
-/// What `mergeRuns` says against the runs.
+/// The message with which `mergeRuns` refuses the runs.
 std::string complaint(const std::vector<std::filesystem::path>& runs)
 {
   try
@@ -177,7 +177,7 @@ TEST(Merge, RefusesToCountTheSameQuestionsTwice)
             std::string::npos);
 }
 
-// What is asked of a log is in the log: another seed asks nothing new.
+// The queries of a log do not depend on the seed: another seed gives the same ones.
 TEST(Merge, RefusesTheSameLogUnderAnotherSeed)
 {
   const TemporaryFolder folder;

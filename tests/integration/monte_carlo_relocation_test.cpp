@@ -78,7 +78,7 @@ TEST_F(MonteCarloRelocationTest, RanksClustersByTheirWeight)
 
 TEST_F(MonteCarloRelocationTest, WeighsByMrptsOwnLikelihood)
 {
-  // Of two particles each is a cluster of its own.
+  // With two particles, each is a cluster of its own.
   RelocationMethodOptions options;
   options.particles = 2;
   const RelocationResult found = localize(options);

@@ -122,7 +122,7 @@ TEST(RelocationScoring, CountsQueriesThatSawNothingApart)
 
 TEST(RelocationScoring, WilsonIntervals)
 {
-  // Values of the published formula, as calculators give them.
+  // Values of the published formula, from a calculator.
   const Proportion some{8, 10};
   EXPECT_NEAR(some.low(), 0.4902, 1e-4);
   EXPECT_NEAR(some.high(), 0.9433, 1e-4);

@@ -47,7 +47,8 @@ TEST_P(DriveWorlds, KeepsClearMovesSteadilyAndGoesFar)
   double travelled = 0;
   for (std::size_t i = 0; i < truth.size(); ++i)
   {
-    // A path runs through cells whose centres keep the clearance: half a cell's diagonal is lost.
+    // A path runs through cells whose centres keep the clearance: the clearance may be half a
+    // cell's diagonal less.
     EXPECT_GT(clearanceAt(caster, truth[i]), options.clearance - 0.08) << "step " << i;
     if (i == 0) continue;
     const TPose2D motion = truth[i] - truth[i - 1];

@@ -50,7 +50,7 @@ mrpt::maps::CSimplePointsMap pointsOf(const LaserScan& scan)
   return points;
 }
 
-/// A map that learnt what the robot saw around it, where it is the origin.
+/// A map of the scan around the robot, with the robot at the origin.
 SignatureMap localMapOf(const LaserScan& scan)
 {
   MapBuildingOptions options;

@@ -15,7 +15,7 @@ namespace
 {
 namespace fs = std::filesystem;
 
-/// Runs sigloc-simulate; what it says goes to `folder`/out and `folder`/err.
+/// Runs sigloc-simulate; its output goes to `folder`/out and `folder`/err.
 int simulate(const test::TemporaryFolder& folder, const std::string& arguments,
              const std::string& before = {})
 {

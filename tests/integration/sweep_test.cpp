@@ -85,7 +85,7 @@ TEST(Sweep, CountsEveryConfidentAnswerThatIsNotRightAsWrong)
 
 TEST(Sweep, KeepsTheFirstFailures)
 {
-  // Nobody finds a robot by a laser of 1 m.
+  // No method finds a robot by a laser with a range of 1 m.
   SweepOptions options = smallSweep("range", {1});
   options.keep_failures = 2;
   const SweepReport report = runSweep(options);
@@ -133,7 +133,7 @@ TEST(Sweep, EveryQuantityRunsAtItsOwnValues)
     options.queries_per_world = 2;
     const SweepReport report = runSweep(options);
     ASSERT_EQ(report.rows.size(), 2U) << quantity.name;
-    // The far end is another place to the laser than the near one.
+    // The laser sees the far end differently from the near one.
     const auto& near = report.rows[0].records[0].answer;
     const auto& far = report.rows[1].records[0].answer;
     EXPECT_TRUE(near.valid_beams != far.valid_beams || near.first_score != far.first_score)

@@ -112,8 +112,8 @@ TEST(Tracker, WorksWithoutOdometry)
   EXPECT_EQ(wrong, 0);
 }
 
-/// A belief that is ambiguous after its first scan must not settle while the robot stands still:
-/// the same scan again is no news.
+/// A belief that is ambiguous after its first scan must stay so while the robot stands still. The
+/// same scan again is no new evidence.
 void standStill(const MappedWorld& world, bool with_odometry, std::uint64_t seed, int tries,
                 int at_least)
 {
@@ -199,7 +199,7 @@ TEST(Tracker, NoticesAKidnap)
   EXPECT_GE(right, 5);
 }
 
-/// Four people around the robot, each hiding a twelfth of all there is to see.
+/// Four people around the robot, each of whom hides a twelfth of the view.
 void crowd(LaserScan& scan)
 {
   const std::size_t n = scan.ranges.size();
@@ -277,7 +277,7 @@ TEST(Tracker, InAForeignMapItIsSeldomLocalized)
     drives += follow(tracker, driveThrough(office().world(), 12, seed)).confident_steps > 0;
   }
   std::cout << "foreign maps: " << drives << " of 6 drives confident at some step\n";
-  // A bare room of one office fits a bare room of another, however often it is looked at.
+  // A bare room of one office fits a bare room of another, however many scans are taken.
   EXPECT_LE(drives, 1);
 }
 
@@ -288,7 +288,7 @@ TEST(Tracker, OffTheMappedAreaItIsNotConfidentlyWrong)
   scans.erase(std::remove_if(scans.begin(), scans.end(),
                              [](const PosedScans& posed) { return posed.map_from_robot.x > 9; }),
               scans.end());
-  // What a far look sees of the other half is cut off, too.
+  // Far returns may come from the other half, so they are cut off, too.
   for (PosedScans& posed : scans)
   {
     for (LaserScan& scan : posed.scans)

@@ -151,9 +151,9 @@ TEST(SimulatedTrack, FindsTheRobotThroughClutter)
   EXPECT_EQ(outcome.wrong, 0U);
 }
 
-// In corridors of look-alikes little comes into view that only this map explains: there a pose is
-// believed for how long it has been followed, eq. (8.25). What has moved speaks for a wrong one as
-// long as it is in view, which counts only once, eq. (8.5).
+// In corridors of look-alikes few features come into view that only the right pose explains. There
+// the evidence for a pose is how long it has been tracked, eq. (8.25). Moved furniture may support
+// a wrong pose as long as it is in view, which counts only once, eq. (8.5).
 TEST(SimulatedTrack, BelievesWhatItHasFollowedForLongAmongMovedFurniture)
 {
   SimulatedTrackOptions options;
@@ -178,7 +178,7 @@ TEST(SimulatedTrack, BelievesWhatItHasFollowedForLongAmongMovedFurniture)
 TEST(SimulatedTrack, FollowsARobotWithoutOdometryThroughItsTurns)
 {
   SimulatedTrackOptions options = smallOptions();
-  // In a corridor without doors in view the drive itself is not seen: not asked here.
+  // In a corridor without doors in view the motion along it cannot be observed: not tested here.
   options.kinds = {WorldKind::office, WorldKind::hall};
   options.drives = 16;
   options.drives_per_world = 4;
@@ -228,7 +228,7 @@ TEST(SimulatedTrack, ItsCovariancesAreHonest)
   EXPECT_GT(shifted.mean, 2.0);
   EXPECT_LT(shifted.mean, 4.0);
   EXPECT_GT(shifted.in_ellipse, 0.90);
-  // A map without any error is better than what is assumed of maps.
+  // A map without any error is better than the map error model assumes.
   options.drives = 36;
   options.drives_per_world = 3;
   options.travel = 8;
@@ -260,7 +260,7 @@ TEST(SimulatedTrack, RefusesOptionsThatMakeNoSense)
 {
   SimulatedTrackOptions options = smallOptions();
   options.kinds = {WorldKind::points};
-  options.methods = {"signature", "mcl"};  // which has no use for landmarks
+  options.methods = {"signature", "mcl"};  // which cannot use landmarks
   EXPECT_THROW(runSimulatedTrack(options), std::invalid_argument);
   options = smallOptions();
   options.mapped_share = 0;

@@ -269,8 +269,8 @@ TEST(Track, RefusesALogThatIsTooShort)
   EXPECT_THROW(runWakeups(options), std::invalid_argument);
 }
 
-// Two steps that waited in a buffer were stamped when it was emptied: the truth of the next ones'
-// times is that of others.
+// Two steps that waited in a buffer were stamped when it was emptied: the truth at the times of the
+// next ones is that of other steps.
 TEST(Track, StepsStampedBeforeEarlierOnesHaveNoTruth)
 {
   const test::TemporaryFolder folder;

@@ -58,7 +58,7 @@ inline void expectWellFormed(const Belief& belief)
   EXPECT_FALSE(belief.reason.empty());
 }
 
-/// What became of one drive.
+/// The result of one drive.
 struct Outcome
 {
   bool right_at_end = false;

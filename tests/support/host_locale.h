@@ -15,7 +15,7 @@ class CommaNumbers : public std::numpunct<char>
   std::string do_grouping() const override { return "\3"; }
 };
 
-/// Sets the host's way to spell numbers while it lives.
+/// Sets the host's number format as long as the object exists.
 class HostLocale
 {
  public:

@@ -12,7 +12,7 @@
 
 namespace sigloc::testing
 {
-/// A simulated world with the map of a mapping run and places to be asked for.
+/// A simulated world with the map of a mapping run and query poses.
 class MappedWorld
 {
  public:
@@ -67,7 +67,7 @@ inline World officeWorld(std::uint64_t seed)
   return makeWorld(WorldKind::office, options, seed);
 }
 
-/// The world seen in a mirror that lies along the y axis.
+/// The world mirrored at the y axis.
 inline World mirrored(World world)
 {
   const auto flip = [](mrpt::math::TPoint2D& p) { p.x = -p.x; };

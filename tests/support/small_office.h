@@ -31,7 +31,7 @@ inline SmallOffice makeSmallOffice(std::uint64_t seed, std::size_t query_count)
   const LaserSimulator simulator(office.world, laser);
   Random random(seed, 1);
   const Bounds& bounds = office.world.bounds;
-  // Inside a wall or a piece of furniture everything is near.
+  // Inside a wall or a piece of furniture all returns are near.
   const auto has_room = [&](const LaserScan& scan)
   {
     for (std::size_t i = 0; i < scan.ranges.size(); ++i)
@@ -60,7 +60,7 @@ inline SmallOffice makeSmallOffice(std::uint64_t seed, std::size_t query_count)
   return office;
 }
 
-/// The raster that dense searches look at: 0.1 m cells from the mapping scans.
+/// The raster that dense searches use: 0.1 m cells from the mapping scans.
 inline OccupancyRaster searchRaster(const SmallOffice& office)
 {
   MapBuildingOptions options;

@@ -135,7 +135,7 @@ TEST(Weighing, APlaceThatMayHaveBeenMissedRivalsAPoorWinner)
       last = first_of(score, missed);
     }
   }
-  EXPECT_LT(first_of(0.7, 0.2), 0.9);  // the right place would usually do better
+  EXPECT_LT(first_of(0.7, 0.2), 0.9);  // the right pose would usually score higher
   EXPECT_GT(first_of(0.97, 0.2), 0.99);  // hardly
 }
 

@@ -104,7 +104,7 @@ TEST(CellEvidence, TellsTheShareOfAllItHasSeen)
 
 TEST(CellEvidence, TheShareStaysOneWhenCountedAnew)
 {
-  // What was seen before and now looks better, or worse, is no cell more.
+  // A cell that was seen before is not counted again when it is explained better or worse.
   const DenseScan scan = wallAhead(4);
   for (const float first : {0.0F, 1.0F})
   {

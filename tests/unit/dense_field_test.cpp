@@ -54,7 +54,7 @@ OccupancyRaster withRandomHits(OccupancyRaster raster, std::uint64_t seed)
   return raster;
 }
 
-/// Distance in cells to the nearest wall cell, by looking at all of them; infinite without walls.
+/// Distance in cells to the nearest wall cell, by trying them all; infinite without walls.
 double nearestByBruteForce(const OccupancyRaster& raster, int x, int y)
 {
   double best = std::numeric_limits<double>::infinity();
@@ -67,8 +67,8 @@ double nearestByBruteForce(const OccupancyRaster& raster, int x, int y)
   return best;
 }
 
-/// The mean of where the wall cells within 0.05 m of wall cell (x, y), at least those beside it,
-/// were hit, a square window, relative to its middle [m].
+/// The mean position of the hits near wall cell (x, y), relative to its middle [m]. The hits are
+/// those of the wall cells up to 0.05 m away in x and y, or one cell where cells are larger.
 TPoint2D ridgeByBruteForce(const OccupancyRaster& raster, int x, int y)
 {
   const double resolution = raster.frame.resolution;
@@ -194,7 +194,7 @@ TEST(DenseField, RefusesInconsistentRasters)
   }
 }
 
-/// The range at which a ray first lies in a wall cell, by creeping along it.
+/// The range at which a ray first enters a wall cell, by small steps along it.
 double creep(const OccupancyRaster& raster, const TPoint2D& origin, double angle, double limit)
 {
   const RasterFrame& frame = raster.frame;

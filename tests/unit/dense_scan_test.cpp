@@ -11,7 +11,7 @@ namespace sigloc
 {
 namespace
 {
-/// What a laser sees of two parallel walls, to the left and to the right of it.
+/// The scan of two parallel walls, to the left and to the right of the laser.
 ObservedScene betweenWalls(double left, double right)
 {
   constexpr int kBeams = 720;

@@ -42,7 +42,7 @@ class Room
 
   const DenseField& field() const { return *field_; }
 
-  /// What a laser of 180 beams around the robot sees; every `clutter`-th beam ends half way.
+  /// The scan of a laser with 180 beams around the robot; every `clutter`-th beam ends half way.
   ObservedScene scene(const TPose2D& pose, int clutter = 0) const
   {
     const RayCaster rays(*field_);
@@ -115,7 +115,7 @@ TEST(DenseVerifier, RanksFurtherProposalsBesideThoseBefore)
     EXPECT_EQ(both.front().evidence.score, right.front().evidence.score);
     EXPECT_EQ(both.front().pose.x, right.front().pose.x);
   }
-  // One place counts once, and no more are kept than asked for.
+  // Each pose is kept once, and no more are kept than asked for.
   EXPECT_EQ(verifier.rank(scan, near, 10, scored, right).size(), 1U);
   EXPECT_EQ(verifier.rank(scan, near, 2, scored, wrong).size(), 2U);
   EXPECT_EQ(verifier.rank(scan, {}, 10, scored, right).size(), 1U);
@@ -128,11 +128,11 @@ TEST(DenseVerifier, CountsBeamsThatPassASolidWall)
   const TPose2D inside(4, 4, 0.3);
   const DenseScan own = makeDenseScan(room.scene(inside), 400);
   EXPECT_EQ(verifier.evaluate(own, inside).through_wall, 0);
-  // Every beam reaches 20 m, whatever stands there.
+  // Every beam reaches 20 m, whatever the room.
   ObservedScene far = room.scene(inside);
   for (BeamEnd& beam : far.beams) beam.point *= 20.0 / beam.point.norm();
   EXPECT_EQ(verifier.evaluate(makeDenseScan(far, 400), inside).through_wall, 1);
-  // Nor does it take forever how far they go.
+  // Very long beams do not take longer.
   ObservedScene endless = room.scene(inside);
   for (BeamEnd& beam : endless.beams) beam.point *= 1e9;
   EXPECT_EQ(verifier.evaluate(makeDenseScan(endless, 400), inside).through_wall, 1);
@@ -231,7 +231,7 @@ TEST(DenseVerifier, ReturnsAreExplainedByASharperEyeThanTheScoreHas)
       verifier.evaluate(scan, truth).score - verifier.evaluate(scan, aside).score;
   EXPECT_GT(lost_score, 0);
   EXPECT_GT(mean_at(truth) - mean_at(aside), 1.5 * lost_score);
-  // One in nine ends in free space. Of the others no less is explained than cells of 5 cm allow.
+  // One in nine ends in free space. The others are explained as well as cells of 5 cm allow.
   EXPECT_LE(mean_at(truth), 8.0 / 9.0);
   EXPECT_GE(mean_at(truth), 8.0 / 9.0 - 0.042);
   EXPECT_LT(mean_at({7.5, 3.5, 0.4}), 0.6);
@@ -257,7 +257,8 @@ DenseField corridorField()
 }
 
 /// Returns of both walls within `reach` [m] to either side of a robot in the middle. Only the left
-/// wall is told with them: those of the other seem to fix the pose both ways.
+/// wall is given as a feature. The returns of the other wall seem to fix the pose in both
+/// directions.
 ObservedScene betweenTwoWalls(double reach)
 {
   ObservedScene scene;

@@ -80,7 +80,7 @@ TEST(ExplainedFacts, EachWallOfARoomIsOne)
   EXPECT_EQ(factsOf(6), 6U);
 }
 
-// A round wall is seen as many short ones: a centre and a radius explain all of them.
+// A round wall is observed as many short ones: a centre and a radius explain all of them.
 TEST(ExplainedFacts, ARoundWallIsThree)
 {
   EXPECT_GT(segmentsOf(kRound), 8);

@@ -21,7 +21,7 @@ namespace
 constexpr double kHalf = 3.0;  // [m], of the rooms
 constexpr double kDoor = 0.6;  // [m], half its width
 
-/// What is seen from within a square room around `centre` with a door in its right wall.
+/// The scan from inside a square room around `centre` with a door in its right wall.
 PosedScans lookAround(const TPose2D& pose, const mrpt::math::TPoint2D& centre)
 {
   LaserScan scan;
@@ -43,7 +43,7 @@ PosedScans lookAround(const TPose2D& pose, const mrpt::math::TPoint2D& centre)
   return {pose, {scan}};
 }
 
-/// Looks from random places of rooms that lie in all directions from the first one.
+/// Scans from random positions in rooms that lie in all directions from the first one.
 std::vector<PosedScans> tour(std::size_t looks, std::uint32_t seed)
 {
   const std::vector<mrpt::math::TPoint2D> rooms = {{0, 0},   {6.2, 0},   {-6.2, 0.1}, {0, -6.2},
@@ -61,7 +61,7 @@ std::vector<PosedScans> tour(std::size_t looks, std::uint32_t seed)
   return all;
 }
 
-/// A raster that looks overwrite wherever they know a cell.
+/// A raster that scans overwrite wherever they observe a cell.
 OccupancyRaster overlaid(const OccupancyRaster& base, const std::vector<PosedScans>& looks)
 {
   const MapBuildingOptions options;
@@ -154,7 +154,7 @@ TEST(MapBuilder, ALookCostsWhatItSees)
   }
   const std::size_t map_cells = builder.map().field()->cells.size();
   for (const std::uint64_t round : work) EXPECT_LT(round, 21 * map_cells / 6);
-  // Every look moves the walls it sees by a little: it never costs much more than when they were
+  // Every scan moves the walls that it sees a little. It never costs much more than when they were
   // new.
   EXPECT_LT(work.back(), 1.25 * static_cast<double>(work.front()));
   std::cout << "cells of the first round " << work.front() << ", of the last " << work.back()

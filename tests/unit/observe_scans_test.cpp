@@ -125,7 +125,7 @@ TEST(FeatureExtractor, SeamOfAFullCircleHidesNoWallEndAndNoPillar)
 
 TEST(FeatureExtractor, OuterCornerOpensThreeQuarters)
 {
-  // An L-shaped room; its re-entrant corner stands at (1, 1).
+  // An L-shaped room; its re-entrant corner is at (1, 1).
   const Surfaces room = outline({{-2, -2}, {3, -2}, {3, 1}, {1, 1}, {1, 3}, {-2, 3}});
   const ObservedScene scene = observeScene({scanByHand(room, {-0.5, -0.5, 0})});
   const auto corners = ofType(scene, FeatureType::corner);
@@ -139,7 +139,7 @@ TEST(FeatureExtractor, OuterCornerOpensThreeQuarters)
 
 TEST(FeatureExtractor, WallEndsOnlyWhereTheNextBeamIsFarther)
 {
-  // A screen in front of a wall: the screen ends for real, the wall behind is only hidden.
+  // A screen in front of a wall: the screen really ends, the wall behind is only hidden.
   Surfaces surfaces;
   surfaces.walls = {{{2, -1}, {2, 1}}, {{5, -4}, {5, 4}}};
   const ObservedScene scene = observeScene({scanByHand(surfaces, {0, 0, 0})});
@@ -192,7 +192,7 @@ TEST(FeatureExtractor, PillarIsOneCircleAndNoSegment)
   }
 }
 
-/// Every feature of `actual` has its like in `expected`, and the other way round.
+/// Every feature of `actual` has an equal one in `expected`, and the other way round.
 void expectSameFeatures(const ObservedScene& actual, const ObservedScene& expected,
                         double tolerance, const std::string& name)
 {
@@ -377,7 +377,7 @@ TEST(FeatureExtractor, SpecklesTearNoWallApart)
 
 TEST(FeatureExtractor, LonelyReturnsThatAreFartherStay)
 {
-  // Seen through a gap: one beam gets through to a place behind the wall.
+  // Seen through a gap: one beam reaches a point behind the wall.
   LaserScan scan = scanByHand(closedRoom(), {0, 0, 0});
   const std::size_t all = observeScene({scan}).beams.size();
   scan.ranges[scan.ranges.size() / 2] += 3.0F;

@@ -53,7 +53,7 @@ TEST(PostsInTheOpen, AreNoneBesideABuilding)
 
 TEST(PostsInTheOpen, WhatEndsNearTheLimitOfTheRangeIsNoPost)
 {
-  // Of the tip of a corner the laser sees what is just within its range.
+  // Only the tip of a corner is within the laser's range.
   Surfaces surfaces;
   surfaces.walls = {{{6, -4}, {4.6, 0}}, {{4.6, 0}, {6, 4}}};
   Scanner scanner;

@@ -55,7 +55,7 @@ TEST(Rivals, FindsThePillarThatOnlyOneRoomHas)
   const DenseField field = twoRooms(0, 2.4);
   const auto place = distinguishingPlace(field, {5, 5, M_PI / 2}, {15, 5, M_PI / 2});
   ASSERT_TRUE(place.has_value());
-  // 2.4 m ahead of a robot that looks along y.
+  // 2.4 m ahead of a robot that faces along y.
   EXPECT_NEAR(place->x, 2.4, 0.5);
   EXPECT_NEAR(place->y, 0.0, 0.5);
   const auto swapped = distinguishingPlace(field, {15, 5, M_PI / 2}, {5, 5, M_PI / 2});

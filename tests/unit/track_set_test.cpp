@@ -14,8 +14,8 @@ namespace sigloc
 {
 namespace
 {
-/// A track that a relocation has just started, of a score and with as many cells of the ground
-/// left unexplained.
+/// A track that a relocation has just started, with a given score and number of unexplained
+/// observed cells.
 Track newcomer(double weight, double score, double unexplained_cells)
 {
   constexpr int kCells = 10;
@@ -56,7 +56,8 @@ DenseField room()
   return buildDenseField(raster);
 }
 
-/// From its middle; of every wall, `unmapped` of ten neighbouring returns end 2 m before it.
+/// The scan from its middle. Of every ten neighbouring returns of a wall, `unmapped` end 2 m before
+/// it.
 ObservedScene lookAround(int unmapped)
 {
   ObservedScene scene;
@@ -83,7 +84,7 @@ TEST(TrackSetUpdate, AScanThatFitsBadlySaysLessOfThePose)
 {
   const DenseField field = room();
   const DenseVerifier verifier(field);
-  // How far a track that odometry has taken 0.1 m too far is drawn back.
+  // How far the update corrects a track that odometry has moved 0.1 m too far.
   const auto drawn_back = [&](int unmapped)
   {
     TrackSet set{TrackerOptions{}};
@@ -148,7 +149,8 @@ TEST(TrackSetStanding, KnowsHowFarTheRobotSeesAndHowMuchFits)
 
 TEST(WeighFirstLook, TheMilderOfScoreAndGroundCounts)
 {
-  // Behind by score 9 : 1, by ground hardly; deficit by both, by the ground less; by both, more.
+  // Worse by score 9 : 1, by observed cells hardly. Then worse by both, by the cells less. Then
+  // worse by both, more.
   TrackSet set = setOf({newcomer(0.81, 1, 0), newcomer(0.09, 0.9, 0.2), newcomer(0.09, 0.9, 0.5),
                         newcomer(0.01, 0.8, 6)});
   set.weighFirstLook();

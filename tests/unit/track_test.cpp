@@ -13,7 +13,7 @@ namespace sigloc
 {
 namespace
 {
-/// Whole scans are left unexplained, so that (8.29) tells nothing.
+/// Whole scans are left unexplained, so that (8.29) adds nothing.
 constexpr ClaimContext kCluttered = {0, 5, 1};
 
 /// One that a dense field backs, tracked_log_odds for a while.
