@@ -14,8 +14,8 @@
 namespace sigloc
 {
 /// Throws std::runtime_error ("folder: reason") when a run that writes into `folder` would replace
-/// anything but an earlier run of sigloc-localize, which its summary.json tells, or one of
-/// `inputs`.
+/// one of `inputs`, or anything but an earlier run of sigloc-localize. Such a run has a
+/// summary.json.
 void checkRunFolder(const std::filesystem::path& folder,
                     const std::vector<std::filesystem::path>& inputs);
 

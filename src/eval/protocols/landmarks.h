@@ -27,9 +27,9 @@ struct LandmarksOptions
   std::vector<std::size_t> local_map_steps{1, 10, 20};
   bool first_half_map = true;  ///< DLR: map of the first half of the path, else the given map
   double max_travel = 20;  ///< [m]
-  /// DLR: a query is a later visit when the robot is so near to a pose of the first half [m], and
-  /// more than this share of the discs in its longest local map is mapped: the camera looks ahead
-  /// only, and may look elsewhere from the same place.
+  /// DLR: a query is a later visit when the robot is so near to a pose of the first half [m]. More
+  /// than half of the discs in its longest local map must be mapped, too: the camera sees ahead
+  /// only, and may point elsewhere from the same position.
   double visited_distance = 1.0;
   double visited_share = 0.5;
   std::size_t query_stride = 10;  ///< every so many steps is a query

@@ -83,8 +83,8 @@ struct ScaleReport
   Provenance provenance;
 };
 
-/// Throws std::invalid_argument for an unknown method and for sizes of map or scene that there are
-/// not, and std::runtime_error ("path: reason") for a log that cannot be used.
+/// Throws std::invalid_argument for an unknown method and for sizes of map or scene that do not
+/// exist. Throws std::runtime_error ("path: reason") for a log that cannot be used.
 ScaleReport runScale(const ScaleOptions& options);
 
 /// The rows and the fitted exponents as Markdown tables.

@@ -27,8 +27,8 @@ std::vector<std::filesystem::path> filesOfRuns(const std::vector<std::filesystem
 /// * `relocate` and `sweep` (over one quantity): from the rows of results.csv, quantiles included.
 /// * `track`: from the counts in summary.json; quantiles cannot be pooled from those.
 ///
-/// Throws std::invalid_argument for fewer than two runs and std::runtime_error ("path: reason") for
-/// a folder without such results, for runs of unlike kinds or methods, and for runs that hold the
-/// same queries.
+/// Throws std::invalid_argument for fewer than two runs. Throws std::runtime_error ("path: reason")
+/// for a folder without such results, for runs of unlike kinds or methods, and for runs that hold
+/// the same queries.
 MergedRuns mergeRuns(const std::vector<std::filesystem::path>& runs, const std::string& command);
 }  // namespace sigloc

@@ -44,15 +44,15 @@ struct RunReport
 /// Leaves nothing behind: to be asked before hours of work.
 void checkWritableFolder(const std::filesystem::path& folder);
 
-/// Throws std::runtime_error ("path: reason") unless a report can be written into a folder, or
-/// where it could replace one of `inputs` or a file that no earlier run wrote: one of the names of
-/// a report's files, or any PNG, in a folder without the summary.json of one. Other files may lie
-/// there. To be asked before hours of work, too.
+/// Throws std::runtime_error ("path: reason") unless a report can be written into a folder. It must
+/// replace none of `inputs`, and no file that no earlier run wrote. Such files have the name of one
+/// of a report's files, or are PNG, in a folder without a summary.json. Other files may be there.
+/// To be asked before hours of work, too.
 void checkReportFolder(const std::filesystem::path& folder,
                        const std::vector<std::filesystem::path>& inputs);
 
 /// Writes summary.json, results.csv, further tables, the plots that gnuplot can draw, and report.md
-/// into a folder, making it if need be: all of it or, throwing std::runtime_error ("path: reason"),
-/// nothing.
+/// into a folder. Makes the folder if need be. Writes all of it, or nothing where it throws
+/// std::runtime_error ("path: reason").
 void writeRunReport(const RunReport& report, const std::filesystem::path& folder);
 }  // namespace sigloc

@@ -38,7 +38,7 @@ nlohmann::ordered_json toJson(const SelfKnowledge& knowledge);
 /// Tables in Markdown; empty for a method that tells no weights.
 std::string toMarkdown(const SelfKnowledge& knowledge);
 
-/// How many hypotheses live against the distance driven, and the weights of the two heaviest of
-/// some runs, as plots with their file names; none for a method that tells no weights.
+/// Two kinds of plots over the distance driven, with their file names: how many hypotheses are
+/// left, and the weights of the two heaviest of some runs. None for a method without weights.
 std::vector<std::pair<std::string, Plot>> beliefPlots(const WakeupMethodReport& method);
 }  // namespace sigloc::detail

@@ -26,19 +26,19 @@ std::string definitions(const AccuracyGates& gates)
 
 * A run wakes up lost at one place and drives on. **right at end**: confident and within )"
       << gates.right_distance << " m and\n  " << gates.right_angle_deg
-      << R"( degrees of the truth at the last step with truth within 1 m of a mapped pose (mapped land).
-  **settled**: confident from some step to the end, steps off the mapped land aside; the distance to
+      << R"( degrees of the truth at the last step with truth within 1 m of a mapped pose (mapped area).
+  **settled**: confident from some step to the end, steps off the mapped area aside; the distance to
   it is over the runs that settle, the CPU time (building the filter included) over all: a run that
   never settles costs its whole time. After a kidnapping way, time and CPU time count from there, and
   no run has settled before it noticed.
 * **wrong**: runs with a step that is confident and more than )"
       << gates.wrong_distance << " m or " << gates.wrong_angle_deg << R"( degrees off; steps and
   unbroken episodes of it counted as well. **of them mapped**: runs with such a step where the truth is
-  within 1 m of a mapped pose; the others claimed a place of the map from off its land only.
+  within 1 m of a mapped pose; the others claimed a place of the map from outside its mapped area only.
 * **noticed**: after a kidnapping, runs in which the method was not, or no longer, sure of a wrong
   place, and how far and how long after; *s* is the time of the drive, by the log.
 * In `summary.json`, `confident`, `confident_right` and `inaccurate` count runs by their last step with
-  truth on mapped land, `confidently_wrong` those that were wrong at any step; `recall_at_1` is the share whose best
+  truth on mapped area, `confidently_wrong` those that were wrong at any step; `recall_at_1` is the share whose best
   pose is right there, sure or not. A run that saw nothing has fewer than 10 beams in every step.
 * Confident: for `signature` and `signature-mcl` the verdict `localized`; for MRPT's filter a position sd below 0.5 m
   and a heading sd below 10 degrees over 5 steps.
@@ -58,7 +58,7 @@ struct WakeupSummary
 {
   std::size_t runs = 0;
   std::size_t wrong_runs = 0;
-  std::size_t wrong_mapped_runs = 0;  ///< of them, with a wrong step on mapped land
+  std::size_t wrong_mapped_runs = 0;  ///< of them, with a wrong step on mapped area
   std::size_t wrong_steps = 0;
   std::size_t wrong_episodes = 0;
   std::size_t steps = 0;
