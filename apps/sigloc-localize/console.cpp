@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "console.h"
 
+#include <fmt/core.h>
 #include <mrpt/core/bits_math.h>
-#include <mrpt/core/format.h>
 
 #include <cmath>
 #include <iostream>
@@ -18,36 +18,37 @@ namespace
 std::string reached(const std::optional<std::size_t>& step, const std::optional<double>& metres)
 {
   if (!step) return "never";
-  const std::string when = mrpt::format("step %zu", *step);
-  return metres ? when + mrpt::format(", after %.1f m", *metres) : when;
+  return fmt::format("step {}", *step) + (metres ? fmt::format(", after {:.1f} m", *metres) : "");
 }
 
 std::string distanceText(bool known, double metres)
 {
-  return known ? mrpt::format("%.1f m", metres) : "distance unknown";
+  return known ? fmt::format("{:.1f} m", metres) : "distance unknown";
 }
 
-std::string timing(double median, double p95, std::size_t count)
+std::string timing(const StepTimes& times)
 {
-  if (count == 0) return "none";
-  return mrpt::format("%.2f ms in the median, %.2f ms in 95 %% (%zu)", median, p95, count);
+  if (times.steps == 0) return "none";
+  return fmt::format("{:.2f} ms in the median, {:.2f} ms in 95 % ({})", times.median, times.p95,
+                     times.steps);
 }
 
-std::string mapLine(const RunSummary& summary, const LocalizationSetup& setup)
+std::string mapLine(const RunSummary& summary, const LocalizationRun& run)
 {
-  return setup.map_file.filename().string() +
-         mrpt::format(": %s, %s in %.1f s", counted(summary.map_features, "feature").c_str(),
-                      summary.map_reused ? "unchanged since the last run, reused" : "built",
-                      summary.map_seconds);
+  return fmt::format("{}: {}, {} in {:.1f} s", run.setup().map_file.filename().string(),
+                     counted(run.map().features().size(), "feature"),
+                     summary.map_reused ? "unchanged since the last run, reused" : "built",
+                     summary.map_seconds);
 }
 
 std::string endLine(const RunSummary& summary, const Belief& belief)
 {
-  std::string line = mrpt::format("%s (%.3f)", toString(summary.final_verdict), belief.probability);
+  std::string line =
+      fmt::format("{} ({:.3f})", toString(summary.final_verdict), belief.probability);
   if (const auto& pose = summary.final_pose)
   {
-    line += mrpt::format(", first hypothesis (%.2f m, %.2f m, %.1f deg)", pose->x, pose->y,
-                         mrpt::RAD2DEG(pose->phi));
+    line += fmt::format(", first hypothesis ({:.2f} m, {:.2f} m, {:.1f} deg)", pose->x, pose->y,
+                        mrpt::RAD2DEG(pose->phi));
   }
   return line;
 }
@@ -55,8 +56,8 @@ std::string endLine(const RunSummary& summary, const Belief& belief)
 std::string errorLine(const RunSummary& summary)
 {
   if (!summary.final_error) return "truth unknown";
-  return mrpt::format("%.2f m, %.1f deg", summary.final_error->distance,
-                      mrpt::RAD2DEG(summary.final_error->angle));
+  return fmt::format("{:.2f} m, {:.1f} deg", summary.final_error->distance,
+                     mrpt::RAD2DEG(summary.final_error->angle));
 }
 }  // namespace
 
@@ -68,11 +69,10 @@ void Progress::show(const LocalizationRun& run)
   const StepRecord& step = run.steps().back();
   constexpr std::size_t kStepsBetweenLines = 50;
   if (!line_.active() && step.number % kStepsBetweenLines != 1) return;
-  const std::string line =
-      mrpt::format("%3.0f %%  step %zu  %s  %s (%.3f)  %s", 100 * run.progress(), step.number,
-                   distanceText(step.travel_known, step.travelled).c_str(),
-                   toString(step.belief.verdict), step.belief.probability,
-                   counted(step.belief.hypotheses.size(), "hypothesis", "hypotheses").c_str());
+  const std::string line = fmt::format(
+      "{:3.0f} %  step {}  {}  {} ({:.3f})  {}", 100 * run.progress(), step.number,
+      distanceText(step.travel_known, step.travelled), toString(step.belief.verdict),
+      step.belief.probability, counted(step.belief.hypotheses.size(), "hypothesis", "hypotheses"));
   if (line_.active())
   {
     line_.show(line);
@@ -105,11 +105,11 @@ std::string summaryTable(const LocalizationRun& run)
   std::ostringstream table;
   const auto row = [&](const char* name, const std::string& value)
   { table << std::left << std::setw(24) << name << value << '\n'; };
-  row("map", mapLine(summary, run.setup()));
+  row("map", mapLine(summary, run));
   row("log", run.setup().rawlog_file.filename().string() +
-                 mrpt::format(": %s, %s%s", counted(summary.steps, "step").c_str(),
-                              distanceText(!std::isnan(summary.distance), summary.distance).c_str(),
-                              summary.truncated ? ", TRUNCATED" : ""));
+                 fmt::format(": {}, {}{}", counted(summary.steps, "step"),
+                             distanceText(!std::isnan(summary.distance), summary.distance),
+                             summary.truncated ? ", TRUNCATED" : ""));
   const bool scored = !run.setup().ground_truth_file.empty();
   row("first right hypothesis",
       scored ? reached(summary.steps_to_first_right, summary.metres_to_first_right)
@@ -119,10 +119,8 @@ std::string summaryTable(const LocalizationRun& run)
       scored ? counted(summary.confidently_wrong_steps, "step") : "truth unknown");
   row("at the end", endLine(summary, run.steps().back().belief));
   row("final error", errorLine(summary));
-  row("relocation",
-      timing(summary.relocation_ms_median, summary.relocation_ms_p95, summary.relocations));
-  row("tracking step",
-      timing(summary.step_ms_median, summary.step_ms_p95, summary.steps - summary.relocations));
+  row("relocation", timing(summary.relocation));
+  row("tracking step", timing(summary.tracking));
   return table.str();
 }
 }  // namespace sigloc

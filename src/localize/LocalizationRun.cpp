@@ -44,14 +44,14 @@ class Stopwatch
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// Returns the value below which a share of the values lies; 0 for none.
-double quantile(std::vector<double> values, double share)
+StepTimes timesOf(std::vector<double> values)
 {
-  if (values.empty()) return 0;
-  const double position = share * static_cast<double>(values.size() - 1);
-  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(std::lround(position));
-  std::nth_element(values.begin(), nth, values.end());
-  return *nth;
+  if (values.empty()) return {};
+  std::sort(values.begin(), values.end());
+  const auto last = static_cast<double>(values.size() - 1);
+  const auto at = [&](double share)
+  { return values[static_cast<std::size_t>(std::lround(share * last))]; };
+  return {values.size(), at(0.5), at(0.95)};
 }
 
 /// Reads up to the first step that counts, so that a log without any fails before the map is built.
@@ -233,10 +233,8 @@ bool LocalizationRun::atEnd() const
 RunSummary LocalizationRun::summary() const
 {
   RunSummary summary;
-  summary.map_features = map_->features().size();
   summary.map_reused = state_->map_reused;
   summary.map_seconds = state_->map_seconds;
-  summary.seed = setup_.matcher.seed;
   summary.left_out = state_->reader.leftOut();
   summary.truncated = state_->reader.truncated();
   summary.steps = steps_.size();
@@ -259,11 +257,8 @@ RunSummary LocalizationRun::summary() const
     }
     if (step.truth) summary.final_error = step.error;
   }
-  summary.relocations = relocation_times.size();
-  summary.relocation_ms_median = quantile(relocation_times, 0.5);
-  summary.relocation_ms_p95 = quantile(relocation_times, 0.95);
-  summary.step_ms_median = quantile(tracking_times, 0.5);
-  summary.step_ms_p95 = quantile(tracking_times, 0.95);
+  summary.relocation = timesOf(relocation_times);
+  summary.tracking = timesOf(tracking_times);
   if (steps_.empty()) return summary;
   if (setup_.convergence_test_step == setup_.rawlog_offset + steps_.size() - 1)
   {

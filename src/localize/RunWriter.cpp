@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "config/columns.h"
 #include "config/TextStream.h"
 #include "localize/pf_localization_files.h"
 #include "localize/run_folder.h"
@@ -24,6 +25,8 @@ namespace
 {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 std::string pathRows(const std::vector<StepRecord>& steps)
 {
@@ -40,47 +43,88 @@ std::string pathRows(const std::vector<StepRecord>& steps)
   return file.str();
 }
 
-/// Writes `,a,b,c` of the first pose's fields, empty where there is none.
-void writePoseColumns(std::ostream& file, const Belief& belief)
+/// The first hypothesis and its standard deviations.
+Written firstPose(const StepRecord& step)
 {
-  if (belief.hypotheses.empty())
-  {
-    file << ",,,,,,";
-    return;
-  }
-  const GaussianPose& pose = belief.hypotheses.front().pose;
+  if (step.belief.hypotheses.empty()) return {{}, Cells(6)};
+  const GaussianPose& pose = step.belief.hypotheses.front().pose;
   const auto sd = [&](int i) { return std::sqrt(std::max(0.0, pose.covariance(i, i))); };
-  file << ',' << pose.mean.x << ',' << pose.mean.y << ',' << mrpt::RAD2DEG(pose.mean.phi) << ','
-       << sd(0) << ',' << sd(1) << ',' << mrpt::RAD2DEG(sd(2));
+  Written row;
+  for (const double value :
+       {pose.mean.x, pose.mean.y, mrpt::RAD2DEG(pose.mean.phi), sd(0), sd(1), mrpt::RAD2DEG(sd(2))})
+  {
+    row.cells.push_back(fixedNumber(value, 6));
+  }
+  return row;
 }
 
-std::string stepRows(const std::vector<StepRecord>& steps)
+/// How it compares with the truth, where there is one.
+Written judgement(const StepRecord& step)
 {
-  TextStream file;
-  file << "step,time,travelled_m,verdict,probability,reliability,hypotheses,elsewhere,relocated,"
-          "x,y,phi_deg,sd_x,sd_y,sd_phi_deg,error_m,error_deg,any_right,confidently_wrong,"
-          "extraction_ms,tracking_ms,reason\n"
-       << std::fixed << std::setprecision(6);
-  for (const StepRecord& step : steps)
-  {
-    const Belief& belief = step.belief;
-    file << step.number << ',' << step.time << ',' << step.travelled << ','
-         << toString(belief.verdict) << ',' << belief.probability << ',' << belief.reliability
-         << ',' << belief.hypotheses.size() << ',' << belief.elsewhere << ',' << step.relocated;
-    writePoseColumns(file, belief);
-    if (step.error)
-    {
-      file << ',' << step.error->distance << ',' << mrpt::RAD2DEG(step.error->angle) << ','
-           << step.any_right << ',' << step.confidently_wrong;
-    }
-    else
-    {
-      file << ",,,,";
-    }
-    file << ',' << step.extraction_ms << ',' << step.tracking_ms << ','
-         << ordered_json(belief.reason).dump() << '\n';
-  }
-  return file.str();
+  if (!step.error) return {{}, Cells(4)};
+  return {{},
+          {fixedNumber(step.error->distance, 6), fixedNumber(mrpt::RAD2DEG(step.error->angle), 6),
+           std::to_string(step.any_right), std::to_string(step.confidently_wrong)}};
+}
+
+/// What steps.csv holds of a step.
+Columns<StepRecord> stepColumns()
+{
+  using S = StepRecord;
+  using C = Column<S>;
+  return {C("step", &S::number),
+          C("time", &S::time, "[s]", 6),
+          C("travelled_m", &S::travelled, "", 6),
+          C("verdict", [](const S& step) { return step.belief.verdict; }),
+          C(
+              "probability", [](const S& step) { return step.belief.probability; }, "", 6),
+          C(
+              "reliability", [](const S& step) { return step.belief.reliability; }, "", 6),
+          C("hypotheses", [](const S& step) { return step.belief.hypotheses.size(); }),
+          C(
+              "elsewhere", [](const S& step) { return step.belief.elsewhere; }, "", 6),
+          C("relocated", &S::relocated),
+          C("x,y,phi_deg,sd_x,sd_y,sd_phi_deg", firstPose),
+          C("error_m,error_deg,any_right,confidently_wrong", judgement),
+          C("extraction_ms", &S::extraction_ms, "", 6),
+          C("tracking_ms", &S::tracking_ms, "", 6),
+          C("reason", [](const S& step) { return ordered_json(step.belief.reason).dump(); })};
+}
+
+/// What summary.json is made of.
+struct Figures : RunSummary
+{
+  const LocalizationRun& run;
+};
+
+Columns<Figures> summaryColumns()
+{
+  using F = Figures;
+  using C = Column<F>;
+  return {C("steps", &F::steps),
+          C("distance_m", &F::distance),
+          C("steps_to_first_right", &F::steps_to_first_right),
+          C("meters_to_first_right", &F::metres_to_first_right),
+          C("steps_to_localized", &F::steps_to_localized),
+          C("meters_to_localized", &F::metres_to_localized),
+          C("final_error_m",
+            [](const F& f) { return f.final_error ? f.final_error->distance : kNone; }),
+          C("final_error_deg",
+            [](const F& f) { return f.final_error ? mrpt::RAD2DEG(f.final_error->angle) : kNone; }),
+          C("final_verdict", &F::final_verdict),
+          C("final_pose", &F::final_pose),
+          C("confidently_wrong_steps", &F::confidently_wrong_steps),
+          C("relocation_ms_median", [](const F& f) { return f.relocation.median; }),
+          C("relocation_ms_p95", [](const F& f) { return f.relocation.p95; }),
+          C("step_ms_median", [](const F& f) { return f.tracking.median; }),
+          C("step_ms_p95", [](const F& f) { return f.tracking.p95; }),
+          C("relocations", [](const F& f) { return f.relocation.steps; }),
+          C("map_features", [](const F& f) { return f.run.map().features().size(); }),
+          C("map_reused", &F::map_reused),
+          C("map_seconds", &F::map_seconds),
+          C("seed", [](const F& f) { return f.run.setup().matcher.seed; }),
+          C("truncated", &F::truncated),
+          C("converged", &F::converged)};
 }
 
 /// Rows `weight x y phi C11 C22 C33 C12 C13 C23`, as MRPT writes them.
@@ -104,12 +148,6 @@ std::string bytesOf(const mrpt::serialization::CSerializable& object)
   mrpt::io::CMemoryStream memory;
   mrpt::serialization::archiveFrom(memory) << object;
   return {static_cast<const char*>(memory.getRawBufferData()), memory.getTotalBytesCount()};
-}
-
-template <class T>
-ordered_json orNull(const std::optional<T>& value)
-{
-  return value ? ordered_json(*value) : ordered_json(nullptr);
 }
 
 /// The folder of a run's results as a whole path, without a slash at its end: "out/" is "out".
@@ -217,10 +255,11 @@ void RunWriter::writeScene(const FeatureMap& map, const StepRecord& step,
 void RunWriter::finish(const LocalizationRun& run)
 {
   writeFile(work_ / "path.tum", pathRows(run.steps()));
-  writeFile(work_ / "steps.csv", stepRows(run.steps()));
+  writeFile(work_ / "steps.csv", csvFile(stepColumns(), run.steps()));
   writeAnnotatedRawlog(run.setup().rawlog_file, run.steps(), work_ / "annotated.rawlog");
   writePfLocalizationFiles(run, work_);
-  writeFile(work_ / detail::kRunSummaryFile, toJson(run.summary()) + "\n");
+  writeFile(work_ / detail::kRunSummaryFile,
+            toJson(summaryColumns(), Figures{run.summary(), run}).dump(2) + "\n");
   replaceFolder();
   finished_ = true;
 }
@@ -231,39 +270,5 @@ std::string stepName(const StepRecord& step)
   constexpr std::size_t kDigits = 5;
   if (number.size() < kDigits) number.insert(0, kDigits - number.size(), '0');
   return "step_" + number;
-}
-
-std::string toJson(const RunSummary& summary)
-{
-  ordered_json json;
-  json["steps"] = summary.steps;
-  json["distance_m"] = summary.distance;
-  json["steps_to_first_right"] = orNull(summary.steps_to_first_right);
-  json["meters_to_first_right"] = orNull(summary.metres_to_first_right);
-  json["steps_to_localized"] = orNull(summary.steps_to_localized);
-  json["meters_to_localized"] = orNull(summary.metres_to_localized);
-  json["final_error_m"] = nullptr;
-  json["final_error_deg"] = nullptr;
-  if (summary.final_error)
-  {
-    json["final_error_m"] = summary.final_error->distance;
-    json["final_error_deg"] = mrpt::RAD2DEG(summary.final_error->angle);
-  }
-  json["final_verdict"] = toString(summary.final_verdict);
-  json["final_pose"] = nullptr;
-  if (const auto& pose = summary.final_pose) json["final_pose"] = {pose->x, pose->y, pose->phi};
-  json["confidently_wrong_steps"] = summary.confidently_wrong_steps;
-  json["relocation_ms_median"] = summary.relocation_ms_median;
-  json["relocation_ms_p95"] = summary.relocation_ms_p95;
-  json["step_ms_median"] = summary.step_ms_median;
-  json["step_ms_p95"] = summary.step_ms_p95;
-  json["relocations"] = summary.relocations;
-  json["map_features"] = summary.map_features;
-  json["map_reused"] = summary.map_reused;
-  json["map_seconds"] = summary.map_seconds;
-  json["seed"] = summary.seed;
-  json["truncated"] = summary.truncated;
-  json["converged"] = orNull(summary.converged);
-  return json.dump(2);
 }
 }  // namespace sigloc

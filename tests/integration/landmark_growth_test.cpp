@@ -38,7 +38,8 @@ TEST(LandmarkGrowth, VariesTheMapAroundThePlaceAndThinsTheScene)
     EXPECT_DOUBLE_EQ(rows[3].observed, 6);
     for (std::size_t i = 0; i < 3; ++i)
     {
-      EXPECT_EQ(rows[i].success.count, 5U) << rows[i].method << " in " << rows[i].map_features;
+      EXPECT_EQ(share(&Outcome::right)(rows[i]).count, 5U)
+          << rows[i].method << " in " << rows[i].map_features;
       EXPECT_GT(rows[i].observed, 8);
     }
     EXPECT_LT(rows[0].operations(), rows[2].operations());

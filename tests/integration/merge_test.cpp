@@ -10,6 +10,7 @@
 #include "eval/protocols/relocate.h"
 #include "eval/protocols/sweep.h"
 #include "eval/reports/report_files.h"
+#include "eval/scoring/statistics.h"
 
 namespace sigloc
 {
@@ -36,13 +37,11 @@ void writeRelocations(const std::filesystem::path& folder, std::size_t right, st
     record.error = {0.25, 0};
     record.valid_beams = i == 0 ? 3 : 181;  // the first one saw nothing
     record.rank_of_right = i < right ? 1 : 0;
-    record.claims_verdict = true;
     record.proposed = true;
     record.claim = i % 2 == 0 ? Claim::none : (i < right ? Claim::right : Claim::wrong);
     record.time_ms = static_cast<double>(queries);
     report.methods.back().records.push_back(record);
   }
-  report.methods.back().summary = summarize(report.methods.back().records, {});
   writeRelocateReport(report, folder);
 }
 
@@ -130,7 +129,7 @@ TEST(Merge, SumsTheCountsOfDrives)
     method["steps"] = 1U;
     report.provenance.seed = run == "a" ? 1 : 2;
     method["confidently_wrong"] = run == "a" ? 1U : 2U;
-    addProportion(method, "right_at_end", {run == "a" ? 19U : 10U, 20});
+    addJson(method, "right_at_end", Proportion{run == "a" ? 19U : 10U, 20});
     report.results = "method,start,step,travelled_m,kidnapped\nsignature,0,0,0,0\n";
     report.summary["complete"] = run == "a";
     writeRunReport(report, folder / run);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "eval/scoring/relocation_scoring.h"
+#include "eval/scoring/relocation_summary.h"
 
 #include <gtest/gtest.h>
 
@@ -73,7 +73,7 @@ TEST(RelocationScoring, OnlyAVerdictIsAClaim)
   const auto sure = answerOf({{9, 9, 0}}, Verdict::localized);
   const auto unsure = answerOf({{9, 9, 0}}, Verdict::ambiguous);
   EXPECT_EQ(judgeRelocation(query, sure, true, std::nullopt, {}).claim, Claim::wrong);
-  EXPECT_EQ(judgeRelocation(query, sure, false, std::nullopt, {}).claim, Claim::none);
+  EXPECT_FALSE(judgeRelocation(query, sure, false, std::nullopt, {}).claim.has_value());
   EXPECT_EQ(judgeRelocation(query, unsure, true, std::nullopt, {}).claim, Claim::none);
 }
 
@@ -85,9 +85,10 @@ TEST(RelocationScoring, AForeignMapMakesEveryClaimWrong)
                                       std::vector<TPose2D>{{0, 0, 0}}, {});
   EXPECT_EQ(record.claim, Claim::wrong);
   EXPECT_FALSE(record.proposed.has_value());
-  const auto summary = summarize({record}, {});
-  EXPECT_EQ(summary.confidently_wrong, 1U);
-  EXPECT_EQ(summary.recall_at_1.cases, 0U);
+  RelocationSummary summary;
+  summary.add(record);
+  EXPECT_EQ(total(&Outcome::confidently_wrong)(summary), 1U);
+  EXPECT_EQ(share(&Outcome::right)(summary).cases, 0U);
 }
 
 TEST(RelocationScoring, FindsTheRankOfTheRightPoseAmongTen)
@@ -112,12 +113,13 @@ TEST(RelocationScoring, CountsQueriesThatSawNothingApart)
       judgeRelocation(queryAt({0, 0, 0}), answer, true, std::nullopt, {}),
       judgeRelocation(queryAt({5, 0, 0}), answer, true, std::nullopt, {}),
       judgeRelocation(queryAt({0, 0, 0}, 9), answer, true, std::nullopt, {})};
-  const auto summary = summarize(records, {});
-  EXPECT_EQ(summary.queries, 3U);
-  EXPECT_EQ(summary.saw_nothing, 1U);
-  EXPECT_EQ(summary.recall_at_1.cases, 2U);
-  EXPECT_EQ(summary.recall_at_1.count, 1U);
-  EXPECT_NEAR(summary.median_error_m, 0.2, 1e-12) << "of right answers only";
+  RelocationSummary summary;
+  for (const RelocationRecord& record : records) summary.add(record);
+  const auto json = toJson(summaryColumns(), summary);
+  EXPECT_EQ(json.at("queries"), 3);
+  EXPECT_EQ(json.at("saw_nothing"), 1);
+  EXPECT_EQ(json.at("recall_at_1_counts"), nlohmann::ordered_json({1, 2}));
+  EXPECT_NEAR(json.at("median_error_m").get<double>(), 0.2, 1e-12) << "of right answers only";
 }
 
 TEST(RelocationScoring, WilsonIntervals)

@@ -94,7 +94,7 @@ TEST(SimulatedTrack, TellsTheGatesThatClaimsAreJudgedBy)
   const test::HostLocale host;
   writeWakeupReport(runSimulatedTrack(options), folder.path());
   const std::string text = test::readBytes(folder / "report.md");
-  EXPECT_NE(text.find("confident and more than 0.5 m or 10 degrees off"), std::string::npos);
+  EXPECT_NE(text.find("Wrong: more than 0.5 m or 10 degrees off"), std::string::npos);
 }
 
 TEST(SimulatedTrack, CarriesTheRobotToAnotherPlace)

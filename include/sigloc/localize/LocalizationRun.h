@@ -43,6 +43,14 @@ struct StepRecord
   double tracking_ms = 0;  ///< the tracker's step, a relocation in it included
 };
 
+/// Times of some steps [ms], extraction included; 0 for none.
+struct StepTimes
+{
+  std::size_t steps = 0;
+  double median = 0;
+  double p95 = 0;
+};
+
 /// What a run comes to; the figures of `summary.json`.
 struct RunSummary
 {
@@ -57,15 +65,10 @@ struct RunSummary
   std::optional<mrpt::math::TPose2D> final_pose;
   std::optional<bool> converged;  ///< at the step where that was to be tested; none: not tested
   std::size_t confidently_wrong_steps = 0;
-  std::size_t relocations = 0;
-  double relocation_ms_median = 0;  ///< steps that relocated, extraction included
-  double relocation_ms_p95 = 0;
-  double step_ms_median = 0;  ///< steps that only tracked, extraction included
-  double step_ms_p95 = 0;
-  std::size_t map_features = 0;
+  StepTimes relocation;  ///< of the steps that relocated
+  StepTimes tracking;  ///< of the others
   bool map_reused = false;
   double map_seconds = 0;  ///< to build the map, or to load it
-  std::uint32_t seed = 0;
   LeftOutOfLog left_out;
   bool truncated = false;  ///< the rawlog broke off: everything covers what was read
 };

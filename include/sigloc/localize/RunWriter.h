@@ -65,9 +65,6 @@ class RunWriter
 /// "step_00012", the common stem of a step's files.
 std::string stepName(const StepRecord& step);
 
-/// Returns `summary.json`'s text; unknown values are null.
-std::string toJson(const RunSummary& summary);
-
 /// Copies a rawlog of either kind and adds the first hypothesis of each step to it: into the
 /// sensory frame, or after the step's last scan. The copy ends where reading the log ends.
 void writeAnnotatedRawlog(const std::filesystem::path& rawlog, const std::vector<StepRecord>& steps,

@@ -92,18 +92,6 @@ double CsvTable::number(std::size_t row, const std::string& column) const
   return value;
 }
 
-std::size_t CsvTable::count(std::size_t row, const std::string& column) const
-{
-  const std::string& cell = text(row, column);
-  std::size_t value = 0;
-  const auto read = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (read.ec != std::errc() || read.ptr != cell.data() + cell.size())
-  {
-    fail(row, column + ": '" + cell + "' is no count");
-  }
-  return value;
-}
-
 void CsvTable::fail(std::size_t row, const std::string& reason) const
 {
   throw std::runtime_error(fmt::format("{}: line {}: {}", path_.string(), row + 2, reason));

@@ -28,7 +28,6 @@ class CsvTable
   const std::string& text(std::size_t row, const std::string& column) const;
   /// NaN for an empty cell.
   double number(std::size_t row, const std::string& column) const;
-  std::size_t count(std::size_t row, const std::string& column) const;
 
   [[noreturn]] void fail(std::size_t row, const std::string& reason) const;
 

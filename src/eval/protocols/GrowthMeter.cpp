@@ -63,18 +63,15 @@ void GrowthMeter::ask(const FeatureHypothesisGenerator& generator, const GrowthS
                       const std::function<bool(const FeatureHypothesis& first)>& is_right)
 {
   const double before = threadCpuSeconds();
+  const std::uint64_t cut_before = counters_.cut_short;
   const std::vector<FeatureHypothesis> found = generator.generate(scene.observed, counters_);
-  row_.each_ms.push_back(1e3 * (threadCpuSeconds() - before));
+  Outcome& outcome = row_.records.emplace_back();
+  outcome.times_ms = {1e3 * (threadCpuSeconds() - before)};
+  outcome.cut_short = counters_.cut_short > cut_before;
+  outcome.right = !found.empty() && is_right(found.front());
   observed_ += static_cast<double>(scene.observed.size());
-  ++row_.success.cases;
-  if (!found.empty() && is_right(found.front()))
-  {
-    ++row_.success.count;
-    const PoseError error = poseError(found.front().pose.mean, scene.truth);
-    row_.right_errors_m.push_back(error.distance);
-    row_.right_errors_deg.push_back(error.angle_deg);
-  }
-  else if (row_.failures.size() < keep_failures_)
+  if (*outcome.right) outcome.error = poseError(found.front().pose.mean, scene.truth);
+  if (!*outcome.right && row_.failures.size() < keep_failures_)
   {
     row_.failures.push_back(
         featureFailure(row_.method, scene.map, scene.name, scene.observed, scene.truth, found));
@@ -84,13 +81,13 @@ void GrowthMeter::ask(const FeatureHypothesisGenerator& generator, const GrowthS
 std::string progressLine(const ScaleRow& row)
 {
   return fmt::format("{}: {}, {:.1f} observed, {:.3f} ms", row.method,
-                     counted(row.map_features, "feature"), row.observed, row.time_ms.median);
+                     counted(row.map_features, "feature"), row.observed, medianTime(row));
 }
 
 ScaleRow GrowthMeter::row() const
 {
   ScaleRow row = row_;
-  const double scenes = std::max<double>(1, static_cast<double>(row_.each_ms.size()));
+  const double scenes = std::max<double>(1, static_cast<double>(row_.records.size()));
   const double maps = std::max(1.0, maps_);
   row.map_features = static_cast<std::size_t>(std::lround(map_features_ / maps));
   row.build_seconds = build_seconds_ / maps;
@@ -99,8 +96,6 @@ ScaleRow GrowthMeter::row() const
   row.signature_pairs = static_cast<double>(counters_.signature_pairs) / scenes;
   row.hypotheses = static_cast<double>(counters_.hypotheses) / scenes;
   row.checks = static_cast<double>(counters_.checks) / scenes;
-  row.cut_short = counters_.cut_short;
-  row.time_ms = quantilesOf(row_.each_ms);
   return row;
 }
 }  // namespace sigloc::detail

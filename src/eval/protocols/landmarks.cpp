@@ -60,7 +60,7 @@ struct MethodRun
     record.method = name;
     record.local_map_steps = local_map_steps;
     std::size_t& failures = kept[local_map_steps];
-    if (!record.right && record.truth_sure && failures < options.keep_failures)
+    if (!*record.right && record.truth_sure && failures < options.keep_failures)
     {
       ++failures;
       std::string query = std::to_string(record.step);
@@ -83,20 +83,23 @@ Asked ask(const FeatureHypothesisGenerator& method, const LocalMap& local, std::
   const double before = threadCpuSeconds();
   asked.found = method.generate(asked.features, counters);
   LandmarkRecord& record = asked.record;
-  record.time_ms = 1e3 * (threadCpuSeconds() - before);
+  record.times_ms = {1e3 * (threadCpuSeconds() - before)};
   record.operations = counters.signature_pairs + counters.hypotheses + counters.checks;
   record.cut_short = counters.cut_short > 0;
   record.step = step;
   record.features = asked.features.size();
   record.travelled = local.travelled();
   record.answered = !asked.found.empty();
-  record.firm = isFirm(asked.found, options.generator);
   record.truth_sure = data.steps[step].truth_sure;
   if (record.answered)
-  {
-    record.error = poseError(asked.found.front().pose.mean, data.steps[step].truth);
-    record.right = isRight(record.error, gatesOf(options.dataset));
-  }
+    record.first_error = poseError(asked.found.front().pose.mean, data.steps[step].truth);
+  record.right = record.answered && isRight(record.first_error, gatesOf(options.dataset));
+  if (*record.right) record.error = record.first_error;
+  record.saw_nothing = asked.features.empty();
+  record.claims_verdict = true;
+  record.confident = isFirm(asked.found, options.generator);
+  record.confident_right = record.confident && *record.right;
+  record.confidently_wrong = record.confident && !*record.right && record.truth_sure;
   return asked;
 }
 
@@ -139,11 +142,11 @@ Asked askGrowing(const MethodRun& run, std::size_t start)
                       local.travelled() > before_travel + 0.1;
     if (!news) continue;
     asked = ask(run.method, local, k, run.data, run.options);
-    time += asked.record.time_ms;
+    time += asked.record.times_ms.front();
     operations += asked.record.operations;
-    if (asked.record.firm || local.travelled() > run.options.max_travel) break;
+    if (asked.record.confident || local.travelled() > run.options.max_travel) break;
   }
-  asked.record.time_ms = time;
+  asked.record.times_ms = {time};
   asked.record.operations = operations;
   return asked;
 }
@@ -161,43 +164,6 @@ void runGrowingLocalMaps(MethodRun& run)
   }
 }
 
-std::vector<LandmarksRow> summarizeRows(const std::vector<LandmarkRecord>& records)
-{
-  std::vector<LandmarksRow> rows;
-  std::vector<std::vector<double>> travelled;
-  std::vector<std::vector<double>> times;
-  for (const LandmarkRecord& record : records)
-  {
-    if (rows.empty() || rows.back().method != record.method ||
-        rows.back().local_map_steps != record.local_map_steps)
-    {
-      rows.emplace_back();
-      rows.back().method = record.method;
-      rows.back().local_map_steps = record.local_map_steps;
-      travelled.emplace_back();
-      times.emplace_back();
-    }
-    LandmarksRow& row = rows.back();
-    row.features += static_cast<double>(record.features);
-    row.operations += static_cast<double>(record.operations);
-    row.cut_short += record.cut_short;
-    for (Proportion* share : {&row.right, &row.firm, &row.firm_and_wrong}) ++share->cases;
-    row.right.count += record.right;
-    row.firm.count += record.firm;
-    row.firm_and_wrong.count += record.firm && !record.right && record.truth_sure;
-    row.not_judged += !record.right && !record.truth_sure;
-    travelled.back().push_back(record.travelled);
-    times.back().push_back(record.time_ms);
-  }
-  for (std::size_t k = 0; k < rows.size(); ++k)
-  {
-    rows[k].features /= static_cast<double>(rows[k].right.cases);
-    rows[k].operations /= static_cast<double>(rows[k].right.cases);
-    rows[k].travelled = quantilesOf(travelled[k]);
-    rows[k].time_ms = quantilesOf(times[k]);
-  }
-  return rows;
-}
 }  // namespace
 
 LandmarksReport runLandmarks(const LandmarksOptions& options)
@@ -232,7 +198,6 @@ LandmarksReport runLandmarks(const LandmarksOptions& options)
     dlr ? runFixedLocalMaps(run) : runGrowingLocalMaps(run);
     if (options.progress) options.progress(name + ": done");
   }
-  report.rows = summarizeRows(report.records);
   return report;
 }
 }  // namespace sigloc

@@ -12,7 +12,7 @@
 #include "eval/scoring/failed_queries.h"
 #include "eval/scoring/map_statistics.h"
 #include "eval/scoring/provenance.h"
-#include "eval/scoring/relocation_scoring.h"
+#include "eval/scoring/relocation_summary.h"
 #include "matching/features/GeneratorOptions.h"
 
 namespace sigloc
@@ -42,7 +42,8 @@ struct LandmarksOptions
   std::function<void(const std::string&)> progress;  ///< called with one line a row
 };
 
-struct LandmarkRecord
+/// A query, judged: confident where the answer is significant, and far ahead of the second.
+struct LandmarkRecord : Outcome
 {
   std::string method;
   std::size_t local_map_steps = 0;  ///< asked for; 0: as many as needed
@@ -50,28 +51,9 @@ struct LandmarkRecord
   std::size_t features = 0;
   double travelled = 0;  ///< [m], of the local map
   bool answered = false;
-  bool firm = false;  ///< significant, and far ahead of the second
-  PoseError error;
-  bool right = false;
+  PoseError first_error;  ///< of the answer, right or not
   bool truth_sure = true;  ///< see LandmarkStep
-  double time_ms = 0;
   std::uint64_t operations = 0;  ///< pairs tried, hypotheses generated and checks
-  bool cut_short = false;  ///< the search ended at its budget
-};
-
-struct LandmarksRow
-{
-  std::string method;
-  std::size_t local_map_steps = 0;
-  double features = 0;  ///< mean number in a query
-  Proportion right;
-  Proportion firm;
-  Proportion firm_and_wrong;  ///< where the truth is sure
-  std::uint64_t not_judged = 0;  ///< not right, but by a truth that is not sure
-  Quantiles travelled;
-  Quantiles time_ms;
-  double operations = 0;  ///< mean a query
-  std::uint64_t cut_short = 0;
 };
 
 struct LandmarksReport
@@ -79,7 +61,6 @@ struct LandmarksReport
   std::string dataset;
   MapStatistics map;
   std::vector<LandmarkRecord> records;
-  std::vector<LandmarksRow> rows;
   std::vector<FailedQuery> failures;  ///< the first ones: firm and wrong, or not right
   Provenance provenance;
 };

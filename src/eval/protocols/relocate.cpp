@@ -42,9 +42,8 @@ RelocateMethodReport runMethod(const std::string& name, const EvaluationData& da
     options.progress(name, static_cast<double>(count) / static_cast<double>(data.queries.size()));
   };
   report.records = askQueries(*method, data.queries, options.gates, options.threads, done);
-  report.summary = summarize(report.records, options.gates);
-  report.summary.ns_per_lookup = nsPerLookup(*method, report.records);
-  report.summary.peak_rss_mb = peakMemoryMb();
+  report.ns_per_lookup = nsPerLookup(*method, report.records);
+  report.peak_rss_mb = peakMemoryMb();
   report.failures =
       collectFailures(name, *method, data.map, data.queries, report.records, options.keep_failures);
   return report;

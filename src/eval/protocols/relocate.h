@@ -33,7 +33,8 @@ struct RelocateMethodReport
 {
   std::string name;
   std::vector<RelocationRecord> records;  ///< in the order of the queries
-  RelocationSummary summary;
+  double ns_per_lookup = std::numeric_limits<double>::quiet_NaN();
+  double peak_rss_mb = 0;
   double prepare_seconds = 0;  ///< CPU time of building the method's own structures
   std::vector<FailedQuery> failures;  ///< the first ones
 };

@@ -11,7 +11,7 @@
 #include "eval/scoring/failed_queries.h"
 #include "eval/scoring/map_statistics.h"
 #include "eval/scoring/provenance.h"
-#include "eval/scoring/relocation_scoring.h"
+#include "eval/scoring/relocation_summary.h"
 #include "eval/worlds/FeatureWorld.h"
 #include "matching/features/GeneratorOptions.h"
 
@@ -50,17 +50,13 @@ struct ScaleRow
   std::size_t map_features = 0;
   std::size_t wanted = 0;  ///< observed features asked for; 0: all that are visible
   double observed = 0;  ///< mean number of observed features
-  Proportion success;
-  Quantiles time_ms;
-  std::vector<double> each_ms;  ///< the time of each pose
-  std::vector<double> right_errors_m;  ///< of the poses that were found
-  std::vector<double> right_errors_deg;
+  std::vector<Outcome> records;  ///< of each pose
   std::vector<FailedQuery> failures;  ///< the first ones
   double signature_pairs = 0;  ///< means over the poses
   double hypotheses = 0;
   double checks = 0;
-  std::uint64_t cut_short = 0;  ///< queries that ended at the method's budget
   double build_seconds = 0;
+  double reference_ms = 0;  ///< median time that time_ratio refers to
   double bytes_per_feature = 0;  ///< of the map and its index, as allocated
 
   double operations() const { return signature_pairs + hypotheses + checks; }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "eval/reports/merge.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <fstream>
 #include <map>
@@ -9,9 +11,8 @@
 #include <stdexcept>
 
 #include "eval/data/csv_table.h"
-#include "eval/reports/relocation_rows.h"
 #include "eval/reports/sweep_report.h"
-#include "eval/scoring/stored_relocations.h"
+#include "eval/scoring/relocation_summary.h"
 
 namespace sigloc
 {
@@ -49,10 +50,10 @@ void checkComplete(const Run& run)
     const auto expected = method.find(counted);
     if (expected == method.end() || !expected->is_number_unsigned()) continue;
     if (rows[name] == expected->get<std::size_t>()) continue;
-    throw std::runtime_error((run.folder / "results.csv").string() + ": holds " +
-                             std::to_string(rows[name]) + " rows of " + name + ", not the " +
-                             std::to_string(expected->get<std::size_t>()) + " " + counted +
-                             " that summary.json counts");
+    throw std::runtime_error(
+        fmt::format("{}: holds {} rows of {}, not the {} {} that summary.json counts",
+                    (run.folder / "results.csv").string(), rows[name], name,
+                    expected->get<std::size_t>(), counted));
   }
 }
 
@@ -138,52 +139,48 @@ void addRuns(const std::vector<Run>& runs, RunReport& report)
 
 // relocate
 
-using RecordsOfMethod = std::map<std::string, std::vector<RelocationRecord>>;
-
-RecordsOfMethod recordsOf(const Run& run)
+/// A method in one of the runs.
+struct SummaryOfRun : RelocationSummary
 {
-  RecordsOfMethod records;
-  for (std::size_t i = 0; i < run.results.rows(); ++i)
-  {
-    records[run.results.text(i, "method")].push_back(detail::storedRelocation(run.results, i));
-  }
-  return records;
-}
+  std::string run;
+};
 
 RunReport mergeRelocations(const std::vector<Run>& runs)
 {
   RunReport report;
-  report.results = "run," + relocationCsvHead() + "\n";
-  RecordsOfMethod pooled;
-  std::vector<std::vector<std::string>> by_run = {relocationTableHead()};
-  by_run.front().insert(by_run.front().begin(), "run");
-  const std::vector<std::string> methods = runs.front().methods();
+  report.results = "run,method," + csvHead(relocationColumns()) + "\n";
+  std::vector<SummaryOfRun> by_run;
+  std::vector<RelocationSummary> pooled;
+  for (const std::string& method : runs.front().methods()) pooled.push_back({method, {}});
   for (const Run& run : runs)
   {
-    RecordsOfMethod records = recordsOf(run);
-    const RelocationSummary reference = summarize(records[methods.front()], {});
-    for (const std::string& method : methods)
+    std::map<std::string, std::vector<RelocationRecord>> records;
+    for (std::size_t i = 0; i < run.results.rows(); ++i)
+      records[run.results.text(i, "method")].push_back(storedRelocation(run.results, i));
+    const std::size_t first = by_run.size();
+    for (RelocationSummary& all : pooled)
     {
-      by_run.push_back(relocationTableRow(method, summarize(records[method], {}), reference));
-      by_run.back().insert(by_run.back().begin(), run.folder.string());
-      for (const RelocationRecord& record : records[method])
+      SummaryOfRun& own = by_run.emplace_back(SummaryOfRun{{all.method, {}}, run.folder.string()});
+      for (const RelocationRecord& record : records[all.method])
       {
-        report.results +=
-            detail::csvCell(run.folder.string()) + "," + relocationCsvRow(method, record) + "\n";
-        pooled[method].push_back(record);
+        own.add(record);
+        all.add(record);
+        report.results += fmt::format("{},{},{}\n", detail::csvCell(own.run), all.method,
+                                      csvRow(relocationColumns(), record));
       }
+      own.reference_ms = medianTime(by_run[first]);
     }
   }
-  std::vector<std::vector<std::string>> table = {relocationTableHead()};
-  const RelocationSummary reference = summarize(pooled[methods.front()], {});
-  for (const std::string& method : methods)
+  for (RelocationSummary& all : pooled)
   {
-    const RelocationSummary summary = summarize(pooled[method], {});
-    report.summary["methods"][method] = toJson(summary);
-    table.push_back(relocationTableRow(method, summary, reference));
+    all.reference_ms = medianTime(pooled.front());
+    report.summary["methods"][all.method] = toJson(summaryColumns(), all);
   }
+  Columns<SummaryOfRun> columns = {{"", &SummaryOfRun::run, "", 0, {"run"}}};
+  for (const auto& column : summaryColumns()) columns.emplace_back(column);
   report.text = "# Relocation from one look, " + std::to_string(runs.size()) + " runs\n\n" +
-                markdownTable(table) + "\n## Run by run\n\n" + markdownTable(by_run);
+                markdownTable(table(summaryColumns(), pooled)) + "\n## Run by run\n\n" +
+                markdownTable(table(columns, by_run));
   report.notes = relocationDefinitions();
   return report;
 }
@@ -212,7 +209,7 @@ void addSweepRun(const Run& run, SweepReport& report)
           i, "a sweep over '" + run.results.text(i, "over") + "', not over '" + report.over + "'");
     }
     rowOf(report, run.results.number(i, "value"), method)
-        .records.push_back({world, detail::storedRelocation(run.results, i)});
+        .records.push_back({world, storedRelocation(run.results, i)});
   }
 }
 
@@ -229,81 +226,60 @@ RunReport mergeSweeps(const std::vector<Run>& runs)
 
 // track
 
-/// Sums counts and re-computes shares; all else of a method's summary cannot be summed.
-ordered_json summedCounts(const std::vector<Run>& runs, const std::string& method)
+/// Sums a method's counts and computes its shares anew, into JSON and a row of a table. All else of
+/// its summary cannot be summed.
+void sumCounts(const std::vector<Run>& runs, const std::string& method, ordered_json& sum,
+               std::vector<Cells>& table)
 {
-  ordered_json sum = ordered_json::object();
+  sum = ordered_json::object();
   std::map<std::string, Proportion> shares;
   for (const Run& run : runs)
   {
-    for (const auto& [key, value] : run.summary.at("methods").at(method).items())
+    const ordered_json& summary = run.summary.at("methods").at(method);
+    for (const auto& [key, value] : summary.items())
     {
-      constexpr std::string_view kSuffix = "_counts";
-      const bool is_share = key.size() > kSuffix.size() && value.is_array() && value.size() == 2 &&
-                            key.compare(key.size() - kSuffix.size(), kSuffix.size(), kSuffix) == 0;
       if (value.is_number_unsigned())
-      {
         sum[key] = sum.value(key, std::uint64_t{0}) + value.get<std::uint64_t>();
-      }
-      else if (is_share)
-      {
-        const std::string name = key.substr(0, key.size() - kSuffix.size());
-        shares[name].count += value.at(0).get<std::size_t>();
-        shares[name].cases += value.at(1).get<std::size_t>();
-      }
+      if (!summary.contains(key + "_counts")) continue;
+      const auto& counts = summary.at(key + "_counts");
+      shares[key].count += counts.at(0).get<std::size_t>();
+      shares[key].cases += counts.at(1).get<std::size_t>();
     }
   }
-  for (const auto& [name, share] : shares) addProportion(sum, name, share);
-  return sum;
-}
-
-std::vector<std::vector<std::string>> countsTable(const ordered_json& methods)
-{
-  std::vector<std::vector<std::string>> rows;
-  for (const auto& [name, method] : methods.items())
+  Cells head = {"method"};
+  Cells cells = {method};
+  for (const auto& [key, value] : sum.items())
   {
-    std::vector<std::string> head = {"method"};
-    std::vector<std::string> cells = {name};
-    for (const auto& [key, value] : method.items())
-    {
-      const bool is_share = method.contains(key + "_counts");
-      if (!value.is_number_unsigned() && !is_share) continue;
-      head.push_back(key);
-      if (is_share)
-      {
-        const auto& counts = method.at(key + "_counts");
-        cells.push_back(withInterval({counts.at(0), counts.at(1)}));
-      }
-      else
-      {
-        cells.push_back(std::to_string(value.get<std::uint64_t>()));
-      }
-    }
-    if (rows.empty()) rows.push_back(head);
-    rows.push_back(cells);
+    head.push_back(key);
+    cells.push_back(value.dump());
   }
-  return rows;
+  for (const auto& [name, share] : shares)
+  {
+    addJson(sum, name, share);
+    head.push_back(name);
+    cells.push_back(withInterval(share));
+  }
+  if (table.empty()) table.push_back(head);
+  table.push_back(cells);
 }
 
 RunReport mergeDrives(const std::vector<Run>& runs)
 {
   RunReport report;
+  std::vector<Cells> table;
   for (const std::string& method : runs.front().methods())
-  {
-    report.summary["methods"][method] = summedCounts(runs, method);
-  }
+    sumCounts(runs, method, report.summary["methods"][method], table);
   report.results = "run,method,confidently_wrong,queries\n";
   for (const Run& run : runs)
   {
     for (const auto& [name, method] : run.summary.at("methods").items())
     {
-      report.results += detail::csvCell(run.folder.string()) + "," + name + "," +
-                        std::to_string(method.value("confidently_wrong", 0)) + "," +
-                        std::to_string(method.value("queries", 0)) + "\n";
+      report.results +=
+          fmt::format("{},{},{},{}\n", detail::csvCell(run.folder.string()), name,
+                      method.value("confidently_wrong", 0), method.value("queries", 0));
     }
   }
-  report.text = "# Wake-ups, " + std::to_string(runs.size()) + " runs\n\n" +
-                markdownTable(countsTable(report.summary["methods"]));
+  report.text = "# Wake-ups, " + std::to_string(runs.size()) + " runs\n\n" + markdownTable(table);
   return report;
 }
 

@@ -19,12 +19,9 @@ std::vector<std::pair<std::string, Plot>> lookPlots(const std::vector<LookCurve>
   for (const LookCurve& curve : curves)
   {
     std::vector<double> distances;
-    for (const double error : curve.errors_m)
-    {
-      // A logarithmic axis has no zero: a millimetre stands for less.
-      if (error >= 0) distances.push_back(std::max(0.001, error));
-    }
-    errors.series.push_back(cumulativeShare(curve.title, distances, curve.errors_m.size()));
+    // A logarithmic axis has no zero: a millimetre stands for less.
+    for (const double error : curve.errors_m) distances.push_back(std::max(0.001, error));
+    errors.series.push_back(cumulativeShare(curve.title, distances, curve.times_ms.size()));
     times.series.push_back(cumulativeShare(curve.title, curve.times_ms, curve.times_ms.size()));
   }
   return {{"errors.png", errors}, {"times.png", times}};

@@ -14,7 +14,7 @@ namespace sigloc::detail
 struct LookCurve
 {
   std::string title;
-  std::vector<double> errors_m;  ///< of the first answer, one a query; NaN: there was none
+  std::vector<double> errors_m;  ///< of the first answers, where there was one
   std::vector<double> times_ms;  ///< one a query
 };
 

@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <map>
+#include <fmt/core.h>
 
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "config/columns.h"
 #include "config/fixed_number.h"
-#include "config/TextStream.h"
 #include "eval/protocols/reliability.h"
 #include "eval/reports/plot.h"
 #include "eval/reports/report_files.h"
@@ -31,41 +32,17 @@ constexpr const char* kDefinitions = R"(
   against share of right poses below it (false alarms).
 )";
 
-struct Measure
+/// One measure at one share of clutter.
+struct Row
 {
-  const char* name;
-  double ReliabilityCase::*value;
-};
-constexpr std::array kMeasures = {Measure{"signature", &ReliabilityCase::signature},
-                                  Measure{"mrpt", &ReliabilityCase::mrpt}};
-
-struct Figures
-{
+  double clutter;
+  std::string measure;
   std::vector<double> right;
   std::vector<double> wrong;
+  AreaUnderCurve curve;
 };
 
-Figures figuresOf(const ReliabilityReport& report, double clutter, const Measure& measure)
-{
-  Figures figures;
-  for (const ReliabilityCase& judged : report.cases)
-  {
-    if (judged.clutter != clutter) continue;
-    (judged.right ? figures.right : figures.wrong).push_back(judged.*(measure.value));
-  }
-  return figures;
-}
-
-std::vector<double> cluttersOf(const ReliabilityReport& report)
-{
-  std::vector<double> shares;
-  for (const ReliabilityCase& judged : report.cases) shares.push_back(judged.clutter);
-  std::sort(shares.begin(), shares.end());
-  shares.erase(std::unique(shares.begin(), shares.end()), shares.end());
-  return shares;
-}
-
-PlotSeries curveOf(const std::string& name, Figures figures)
+PlotSeries curveOf(Row figures)
 {
   std::sort(figures.right.begin(), figures.right.end());
   std::sort(figures.wrong.begin(), figures.wrong.end());
@@ -77,8 +54,7 @@ PlotSeries curveOf(const std::string& name, Figures figures)
     const auto end = std::upper_bound(sorted.begin(), sorted.end(), threshold);
     return static_cast<double>(end - sorted.begin()) / static_cast<double>(sorted.size());
   };
-  PlotSeries curve;
-  curve.title = name;
+  PlotSeries curve{figures.measure, {}, false, {}};
   curve.points.emplace_back(0, 0);
   for (const double threshold : thresholds)
   {
@@ -90,6 +66,59 @@ PlotSeries curveOf(const std::string& name, Figures figures)
 std::string percentOf(double share)
 {
   return fixedNumber(100 * share, 0);
+}
+
+std::vector<Row> rowsOf(const ReliabilityReport& report)
+{
+  std::set<double> clutters;
+  for (const ReliabilityCase& judged : report.cases) clutters.insert(judged.clutter);
+  std::vector<Row> rows;
+  for (const double clutter : clutters)
+  {
+    for (const auto& [measure, value] : {std::pair("signature", &ReliabilityCase::signature),
+                                         std::pair("mrpt", &ReliabilityCase::mrpt)})
+    {
+      Row& row = rows.emplace_back(Row{clutter, measure, {}, {}, {}});
+      for (const ReliabilityCase& judged : report.cases)
+      {
+        if (judged.clutter != clutter) continue;
+        (judged.right ? row.right : row.wrong).push_back(judged.*value);
+      }
+      row.curve = areaUnderCurve(row.right, row.wrong);
+    }
+  }
+  return rows;
+}
+
+std::string intervalText(const Row& row)
+{
+  constexpr double kTwoSided = 1.96;
+  const double half = kTwoSided * row.curve.sigma;
+  return fmt::format("{:.4f}-{:.4f}", row.curve.area - half, std::min(1.0, row.curve.area + half));
+}
+
+Columns<Row> rowColumns()
+{
+  using C = Column<Row>;
+  return {C("", [](const Row& row) { return percentOf(row.clutter); }, "", 0, {"clutter %"}),
+          C("right", [](const Row& row) { return row.right.size(); }, "", 0, {"right"}),
+          C("wrong", [](const Row& row) { return row.wrong.size(); }, "", 0, {"wrong"}),
+          C("", &Row::measure, "", 0, {"measure"}),
+          C("auc", [](const Row& row) { return row.curve.area; }, "", 4, {"AUC"}),
+          C("auc_sigma", [](const Row& row) { return row.curve.sigma; }),
+          C("", intervalText, "", 0, {"95 %"})};
+}
+
+Columns<ReliabilityCase> caseColumns()
+{
+  using R = ReliabilityCase;
+  using C = Column<R>;
+  return {C("world", &R::world),
+          C("clutter", &R::clutter),
+          C("right", &R::right),
+          C("error_m,error_deg", &R::error, "", 4),
+          C("signature", &R::signature, "", 9),
+          C("mrpt", &R::mrpt, "", 9)};
 }
 }  // namespace
 
@@ -115,56 +144,25 @@ AreaUnderCurve areaUnderCurve(const std::vector<double>& right, std::vector<doub
 
 std::string reliabilityTable(const ReliabilityReport& report)
 {
-  std::vector<std::vector<std::string>> rows = {
-      {"clutter %", "right", "wrong", "measure", "AUC", "95 %"}};
-  for (const double clutter : cluttersOf(report))
-  {
-    for (const Measure& measure : kMeasures)
-    {
-      const Figures figures = figuresOf(report, clutter, measure);
-      const AreaUnderCurve auc = areaUnderCurve(figures.right, figures.wrong);
-      constexpr double kTwoSided = 1.96;
-      rows.push_back({percentOf(clutter), std::to_string(figures.right.size()),
-                      std::to_string(figures.wrong.size()), measure.name, fixedNumber(auc.area, 4),
-                      fixedNumber(auc.area - kTwoSided * auc.sigma, 4) + "-" +
-                          fixedNumber(std::min(1.0, auc.area + kTwoSided * auc.sigma), 4)});
-    }
-  }
-  return markdownTable(rows);
+  return markdownTable(table(rowColumns(), rowsOf(report)));
 }
 
 void writeReliabilityReport(const ReliabilityReport& report, const std::filesystem::path& folder)
 {
   RunReport run;
-  TextStream csv;
-  csv << "world,clutter,right,error_m,error_deg,signature,mrpt\n";
-  for (const ReliabilityCase& judged : report.cases)
+  run.results = csvFile(caseColumns(), report.cases);
+  for (const Row& row : rowsOf(report))
   {
-    csv << judged.world << "," << fixedNumber(judged.clutter, 3) << "," << judged.right << ","
-        << fixedNumber(judged.error.distance, 4) << "," << fixedNumber(judged.error.angle_deg, 3)
-        << "," << fixedNumber(judged.signature, 9) << "," << fixedNumber(judged.mrpt, 9) << "\n";
-  }
-  run.results = csv.str();
-  for (const double clutter : cluttersOf(report))
-  {
-    Plot roc{"Am I lost? " + percentOf(clutter) + " % clutter",
-             "false alarms (right poses)",
-             "noticed (wrong poses)",
-             false,
-             false,
-             {}};
-    for (const Measure& measure : kMeasures)
-    {
-      const Figures figures = figuresOf(report, clutter, measure);
-      const AreaUnderCurve auc = areaUnderCurve(figures.right, figures.wrong);
-      roc.series.push_back(curveOf(measure.name, figures));
-      run.summary["clutter"][fixedNumber(clutter, 2)][measure.name] = {
-          {"right", figures.right.size()},
-          {"wrong", figures.wrong.size()},
-          {"auc", auc.area},
-          {"auc_sigma", auc.sigma}};
-    }
-    run.plots.emplace_back("roc-" + percentOf(clutter) + ".png", roc);
+    const std::string percent = percentOf(row.clutter);
+    const Plot roc{"Am I lost? " + percent + " % clutter",
+                   "false alarms (right poses)",
+                   "noticed (wrong poses)",
+                   false,
+                   false,
+                   {}};
+    if (row.measure == "signature") run.plots.emplace_back("roc-" + percent + ".png", roc);
+    run.plots.back().second.series.push_back(curveOf(row));
+    run.summary["clutter"][fixedNumber(row.clutter, 2)][row.measure] = toJson(rowColumns(), row);
   }
   run.summary["skipped"] = report.skipped;
   run.text = "# Am I lost?\n\n" + reliabilityTable(report);

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/core.h>
+
 #include <cmath>
 
-#include "config/fixed_number.h"
-#include "config/TextStream.h"
 #include "eval/protocols/relocate.h"
 #include "eval/reports/query_plots.h"
-#include "eval/reports/relocation_rows.h"
 #include "eval/reports/report_files.h"
+#include "eval/scoring/relocation_summary.h"
 
 namespace sigloc
 {
@@ -15,24 +15,27 @@ namespace
 {
 constexpr double kReferenceNsPerLookup = 3.4;
 
-nlohmann::ordered_json methodJson(const RelocateMethodReport& method)
+/// The methods' summaries, their times compared with the first one's.
+std::vector<RelocationSummary> summariesOf(const RelocateReport& report)
 {
-  nlohmann::ordered_json json = toJson(method.summary);
-  json["ns_per_lookup"] = method.summary.ns_per_lookup;
-  json["prepare_s"] = method.prepare_seconds;
-  json["peak_rss_mb"] = method.summary.peak_rss_mb;
-  return json;
+  std::vector<RelocationSummary> summaries;
+  for (const RelocateMethodReport& method : report.methods)
+  {
+    RelocationSummary& summary = summaries.emplace_back();
+    summary.method = method.name;
+    for (const RelocationRecord& record : method.records) summary.add(record);
+    summary.reference_ms = medianTime(summaries.front());
+  }
+  return summaries;
 }
 
 std::string resultsCsv(const RelocateReport& report)
 {
-  std::string csv = relocationCsvHead() + "\n";
+  std::string csv = "method," + csvHead(relocationColumns()) + "\n";
   for (const RelocateMethodReport& method : report.methods)
   {
     for (const RelocationRecord& record : method.records)
-    {
-      csv += relocationCsvRow(method.name, record) + "\n";
-    }
+      csv += method.name + "," + csvRow(relocationColumns(), record) + "\n";
   }
   return csv;
 }
@@ -40,43 +43,40 @@ std::string resultsCsv(const RelocateReport& report)
 /// What the table does not say.
 std::string remarks(const RelocateReport& report)
 {
-  TextStream out;
+  std::string text;
   if (!report.complete)
-    out << "**The rawlog is truncated: these are the steps that were read.**\n\n";
+    text += "**The rawlog is truncated: these are the steps that were read.**\n\n";
   if (report.foreign)
-    out << "The queries are of another place: every confident answer is wrong.\n\n";
+    text += "The queries are of another place: every confident answer is wrong.\n\n";
   if (report.without_truth > 0)
-  {
-    out << report.without_truth << " steps without truth are left out.\n\n";
-  }
+    text += fmt::format("{} steps without truth are left out.\n\n", report.without_truth);
   for (const RelocateMethodReport& method : report.methods)
   {
-    if (method.summary.cut_short > 0)
+    const std::size_t cut_short = total(&RelocationRecord::cut_short)(method);
+    if (cut_short > 0)
     {
-      out << "* `" << method.name << "`: cut short in " << method.summary.cut_short << " of "
-          << method.summary.queries
-          << " queries, which ended at the budget with the best found until then.\n";
+      text += fmt::format(
+          "* `{}`: cut short in {} of {} queries, which ended at the budget with the best found "
+          "until then.\n",
+          method.name, cut_short, method.records.size());
     }
-    if (std::isnan(method.summary.ns_per_lookup)) continue;
-    out << "* `" << method.name << "`: " << fixedNumber(method.summary.ns_per_lookup, 2)
-        << " ns a look-up, everything included (the published figures of this search were taken at "
-        << fixedNumber(kReferenceNsPerLookup, 1) << " ns: ratios to it scale with this).\n";
+    if (std::isnan(method.ns_per_lookup)) continue;
+    text += fmt::format(
+        "* `{}`: {:.2f} ns a look-up, everything included (the published figures of this search "
+        "were taken at {:.1f} ns: ratios to it scale with this).\n",
+        method.name, method.ns_per_lookup, kReferenceNsPerLookup);
   }
-  return out.str();
+  return text;
 }
 
 std::vector<detail::LookCurve> curvesOf(const RelocateReport& report)
 {
+  const auto error = [](const RelocationRecord& record) { return record.error.distance; };
   std::vector<detail::LookCurve> curves;
   for (const RelocateMethodReport& method : report.methods)
   {
-    detail::LookCurve& curve = curves.emplace_back();
-    curve.title = method.name;
-    for (const RelocationRecord& record : method.records)
-    {
-      curve.errors_m.push_back(record.error.distance);
-      curve.times_ms.push_back(record.time_ms);
-    }
+    curves.push_back(
+        {method.name, values(error)(method), values(&RelocationRecord::time_ms)(method)});
   }
   return curves;
 }
@@ -84,22 +84,23 @@ std::vector<detail::LookCurve> curvesOf(const RelocateReport& report)
 
 std::string relocateTable(const RelocateReport& report)
 {
-  std::vector<std::vector<std::string>> rows = {relocationTableHead()};
-  for (const RelocateMethodReport& method : report.methods)
-  {
-    rows.push_back(relocationTableRow(method.name, method.summary, report.methods.front().summary));
-  }
-  return markdownTable(rows);
+  return markdownTable(table(summaryColumns(), summariesOf(report)));
 }
 
 void writeRelocateReport(const RelocateReport& report, const std::filesystem::path& folder)
 {
   RunReport files;
-  for (const RelocateMethodReport& method : report.methods)
+  const std::vector<RelocationSummary> summaries = summariesOf(report);
+  for (std::size_t i = 0; i < summaries.size(); ++i)
   {
-    files.summary["methods"][method.name] = methodJson(method);
+    const RelocateMethodReport& method = report.methods[i];
+    nlohmann::ordered_json& json = files.summary["methods"][method.name];
+    json = toJson(summaryColumns(), summaries[i]);
+    json["ns_per_lookup"] = method.ns_per_lookup;
+    json["prepare_s"] = method.prepare_seconds;
+    json["peak_rss_mb"] = method.peak_rss_mb;
   }
-  files.summary["map"] = toJson(report.map);
+  files.summary["map"] = toJson(mapColumns(), report.map);
   files.summary["complete"] = report.complete;
   files.summary["without_truth"] = report.without_truth;
   files.results = resultsCsv(report);

@@ -2,16 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "eval/reports/report_files.h"
 
+#include <fmt/core.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cmath>
 #include <fstream>
-#include <iomanip>
 #include <set>
 #include <stdexcept>
 
-#include "config/fixed_number.h"
 #include "config/TextStream.h"
 #include "eval/data/folder_output.h"
 #include "sigloc/io/file_output.h"
@@ -25,19 +23,19 @@ constexpr const char* kReportTool = "sigloc-eval";
 /// The provenance as a Markdown list.
 std::string provenanceSection(const nlohmann::ordered_json& provenance)
 {
-  TextStream out;
+  std::string text;
   for (const auto& [key, value] : provenance.items())
   {
     if (key == "data") continue;
-    out << "* " << key << ": `" << (value.is_string() ? value.get<std::string>() : value.dump())
-        << "`\n";
+    text += fmt::format("* {}: `{}`\n", key,
+                        value.is_string() ? value.get<std::string>() : value.dump());
   }
   for (const auto& file : provenance.at("data"))
   {
-    out << "* data: `" << file.at("file").get<std::string>() << "`, MD5 `"
-        << file.at("md5").get<std::string>() << "`\n";
+    text += fmt::format("* data: `{}`, MD5 `{}`\n", file.at("file").get<std::string>(),
+                        file.at("md5").get<std::string>());
   }
-  return out.str();
+  return text;
 }
 
 /// Writes all files of a report into a folder that exists.
@@ -100,31 +98,6 @@ void checkReportFolder(const std::filesystem::path& folder,
 {
   checkWritableFolder(folder);
   checkOutputFolder(folder, {isReportFile, isReportFolder, kReportTool}, inputs);
-}
-
-std::string withInterval(const Proportion& proportion)
-{
-  if (proportion.cases == 0) return "-";
-  return fixedNumber(proportion.value(), 3) + " (" + fixedNumber(proportion.low(), 2) + "-" +
-         fixedNumber(proportion.high(), 2) + ")";
-}
-
-nlohmann::ordered_json toJson(const Quantiles& quantiles)
-{
-  return {{"median", quantiles.median}, {"p95", quantiles.p95}, {"mean", quantiles.mean}};
-}
-
-void addProportion(nlohmann::ordered_json& object, const std::string& name,
-                   const Proportion& proportion)
-{
-  object[name] = proportion.value();
-  object[name + "_counts"] = {proportion.count, proportion.cases};
-  object[name + "_interval"] = nullptr;
-  if (proportion.cases > 0)
-  {
-    object[name + "_interval"] =
-        nlohmann::ordered_json::array({proportion.low(), proportion.high()});
-  }
 }
 
 std::string markdownTable(const std::vector<std::vector<std::string>>& rows)

@@ -10,21 +10,9 @@
 
 #include "eval/reports/plot.h"
 #include "eval/scoring/provenance.h"
-#include "eval/scoring/relocation_scoring.h"
 
 namespace sigloc
 {
-/// "0.968 (0.94-0.98)", or "-" without cases.
-std::string withInterval(const Proportion& proportion);
-
-/// {"median", "p95", "mean"}.
-nlohmann::ordered_json toJson(const Quantiles& quantiles);
-
-/// Adds `name`, `name_counts` ([count, cases]) and `name_interval` ([low, high], 95 %) to an
-/// object; share and interval are null without cases.
-void addProportion(nlohmann::ordered_json& object, const std::string& name,
-                   const Proportion& proportion);
-
 /// Rows of cells as a Markdown table, columns aligned; the first row is the head.
 std::string markdownTable(const std::vector<std::vector<std::string>>& rows);
 

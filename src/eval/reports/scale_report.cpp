@@ -1,45 +1,19 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "config/fixed_number.h"
-#include "config/TextStream.h"
 #include "eval/process/cpu_time.h"
 #include "eval/protocols/scale.h"
-#include "eval/reports/relocation_rows.h"
 #include "eval/reports/report_files.h"
 
 namespace sigloc
 {
 namespace
 {
-constexpr const char* kDefinitions = R"(
-## What the columns mean
-
-* **success**: the first hypothesis is right: within 0.3 m and 0.06 rad, on a log 0.5 m and 10 degrees.
-* **ratio**: median time over that of the same method in a map of 1000 features, or, where that was not
-  run, in its smallest map.
-* **pairs**, **hypotheses**, **checks**: signatures compared, base pairings turned into a pose, and
-  pairings checked at a pose, in the mean of a query; operations are their sum.
-* **cut short**: searches that ended at their budget.
-* **time**: CPU time of one thread; there are no scans, so no extraction is in it.
-)";
-
-std::vector<std::string> methodsOf(const ScaleReport& report)
-{
-  std::vector<std::string> methods;
-  for (const ScaleRow& row : report.rows)
-  {
-    if (std::find(methods.begin(), methods.end(), row.method) == methods.end())
-    {
-      methods.push_back(row.method);
-    }
-  }
-  return methods;
-}
-
 using Curve = std::vector<std::pair<double, double>>;
 
 /// A quantity of one method over the map's size, or over the scene's where that was varied.
@@ -61,62 +35,106 @@ double operationsOf(const ScaleRow& row)
 {
   return row.operations();
 }
-double medianOf(const ScaleRow& row)
-{
-  return row.time_ms.median;
-}
 
-/// The median time over that of the same method's reference map.
-double timeRatio(const ScaleReport& report, const ScaleRow& row)
+/// The rows, their times compared with those of the same method's reference map.
+std::vector<ScaleRow> ratedRows(const ScaleReport& report)
 {
   constexpr std::size_t kReference = 1000;
-  const ScaleRow* reference = nullptr;
-  for (const ScaleRow& other : report.rows)
+  std::vector<ScaleRow> rows = report.rows;
+  for (ScaleRow& row : rows)
   {
-    if (other.method != row.method || other.wanted > 0) continue;
-    const bool better =
-        reference == nullptr || other.map_features == kReference ||
-        (reference->map_features != kReference && other.map_features < reference->map_features);
-    if (better) reference = &other;
+    const ScaleRow* reference = nullptr;
+    for (const ScaleRow& other : report.rows)
+    {
+      if (other.method != row.method || other.wanted > 0) continue;
+      const bool better =
+          reference == nullptr || other.map_features == kReference ||
+          (reference->map_features != kReference && other.map_features < reference->map_features);
+      if (better) reference = &other;
+    }
+    if (reference) row.reference_ms = medianTime(*reference);
   }
-  return reference ? row.time_ms.median / reference->time_ms.median
-                   : std::numeric_limits<double>::quiet_NaN();
+  return rows;
 }
 
-/// What every sub-command's summary tells, of all poses of a method.
-RelocationSummary pooled(const ScaleReport& report, const std::string& method)
+Columns<ScaleRow> rowColumns()
 {
-  RelocationSummary s;
-  std::vector<double> times;
-  std::vector<double> distances;
-  std::vector<double> angles;
-  const auto append = [](std::vector<double>& to, const std::vector<double>& from)
-  { to.insert(to.end(), from.begin(), from.end()); };
-  for (const ScaleRow& row : report.rows)
-  {
-    if (row.method != method) continue;
-    s.queries += row.success.cases;
-    s.recall_at_1.cases += row.success.cases;
-    s.recall_at_1.count += row.success.count;
-    s.cut_short += row.cut_short;
-    append(times, row.each_ms);
-    append(distances, row.right_errors_m);
-    append(angles, row.right_errors_deg);
-  }
-  s.time_ms = quantilesOf(times);
-  s.median_error_m = quantilesOf(distances).median;
-  s.median_error_deg = quantilesOf(angles).median;
-  return s;
+  using R = ScaleRow;
+  using C = Column<R>;
+  constexpr int kTimes = 1, kWork = 2;
+  const auto times = quantiles(&Outcome::times_ms);
+  constexpr Files kJson = Files::json, kCsv = Files::csv;
+  return {
+      C("method", &R::method, "", 0, {"method"}, 0, kCsv),
+      C("map_features", &R::map_features, "", 0, {"map features"}),
+      C("wanted", &R::wanted, "observed features asked for; 0: all", 0, {}, 0, kCsv),
+      C("observed", &R::observed, "features, in the mean of the queries"),
+      C("", &R::observed, "", 1, {"observed"}),
+      C("success", share(&Outcome::right),
+        "the first hypothesis is right: within 0.3 m and 0.06 rad, on a log 0.5 m and 10 degrees",
+        0, {"success"}, 0, kJson),
+      C("success", total([](const Outcome& o) { return o.right == true; }), "", 0, {}, 0, kCsv),
+      C(
+          "cases", [](const R& row) { return row.records.size(); }, "", 0, {}, 0, kCsv),
+      C("operations", &R::operations, "sum of pairs, hypotheses and checks", 3, {}, 0, kJson),
+      C("signature_pairs", &R::signature_pairs, "", 3, {}, 0, kCsv),
+      C("", &R::signature_pairs, "signatures compared, in the mean of a query", 0, {"pairs"},
+        kWork),
+      C("hypotheses", &R::hypotheses, "", 3, {}, 0, kCsv),
+      C("", &R::hypotheses, "base pairings turned into a pose, in the mean of a query", 0,
+        {"hypotheses"}, kWork),
+      C("checks", &R::checks, "", 3, {}, 0, kCsv),
+      C("", &R::checks, "pairings checked at a pose, in the mean of a query", 0, {"checks"}, kWork),
+      C("cut_short", total(&Outcome::cut_short), "searches that ended at their budget", 0,
+        {"cut short"}, kWork),
+      C("time_ms", times, "CPU time of one thread; there are no scans, so no extraction is in it",
+        3, {"ms median", "p95", "mean"}, kTimes, kJson),
+      C("time_ms_median,time_ms_p95,time_ms_mean", times, "", 4, {}, 0, kCsv),
+      C(
+          "time_ratio", [](const R& row) { return medianTime(row) / row.reference_ms; },
+          "median time over that of the same method in a map of 1000 features, or, where that was "
+          "not run, in its smallest map",
+          2, {"ratio"}, kTimes, kJson),
+      C("build_s", &R::build_seconds, "CPU time of building the index", 2, {"build s"}, kWork,
+        kJson),
+      C("bytes_per_feature", &R::bytes_per_feature, "of the map and its index", 0,
+        {"bytes/feature"}, kWork, kJson)};
 }
 
-std::string exponentText(const Curve& curve)
+/// The exponent that a curve grows with, as far as it has points for one.
+Written exponentOf(const Curve& curve)
 {
-  if (curve.size() < 2) return "-";
+  if (curve.size() < 2) return {{}, {"-"}};
   const FittedExponent fit = fitExponent(curve);
-  if (curve.size() == 2) return fixedNumber(fit.slope, 2);
-  return fixedNumber(fit.slope, 2) + " (" + fixedNumber(fit.low, 2) + " to " +
-         fixedNumber(fit.high, 2) + ")";
+  std::string text = fixedNumber(fit.slope, 2);
+  if (curve.size() > 2) text += fmt::format(" ({:.2f} to {:.2f})", fit.low, fit.high);
+  return {{{"", fit.slope}}, {text}};
 }
+
+/// The rows of a method.
+struct Growth
+{
+  std::string method;
+  const ScaleReport& report;
+};
+
+auto exponent(bool over_observed, double (*value)(const ScaleRow&))
+{
+  return [=](const Growth& growth)
+  { return exponentOf(curveOf(growth.report, growth.method, over_observed, value)); };
+}
+
+Columns<Growth> exponentColumns()
+{
+  using C = Column<Growth>;
+  const auto time = medianTime<ScaleRow>;
+  return {C("", &Growth::method, "", 0, {"method"}),
+          C("operations_exponent_in_m", exponent(false, operationsOf), "", 2, {"operations in m"}),
+          C("time_exponent_in_m", exponent(false, time), "", 2, {"median time in m"}),
+          C("operations_exponent_in_n", exponent(true, operationsOf), "", 2, {"operations in n"}),
+          C("time_exponent_in_n", exponent(true, time), "", 2, {"median time in n"})};
+}
+
 /// Time and operations over the sizes of the map and of the scene, as far as they were varied.
 std::vector<std::pair<std::string, Plot>> growthPlots(const ScaleReport& report)
 {
@@ -128,15 +146,15 @@ std::vector<std::pair<std::string, Plot>> growthPlots(const ScaleReport& report)
     bool over_observed;
     double (*value)(const ScaleRow&);
   } figures[] = {
-      {"time.png", "map features", "median time [ms]", false, medianOf},
+      {"time.png", "map features", "median time [ms]", false, medianTime<ScaleRow>},
       {"operations.png", "map features", "operations", false, operationsOf},
-      {"time-observed.png", "observed features", "median time [ms]", true, medianOf},
+      {"time-observed.png", "observed features", "median time [ms]", true, medianTime<ScaleRow>},
       {"operations-observed.png", "observed features", "operations", true, operationsOf}};
   std::vector<std::pair<std::string, Plot>> plots;
   for (const auto& figure : figures)
   {
     Plot plot{"Growth" + report.where, figure.x, figure.y, true, true, {}};
-    for (const std::string& method : methodsOf(report))
+    for (const std::string& method : methodsOf(report.rows))
     {
       const Curve curve = curveOf(report, method, figure.over_observed, figure.value);
       if (curve.size() > 1) plot.series.push_back({method, curve, true, {}});
@@ -180,86 +198,26 @@ FittedExponent fitExponent(const Curve& points)
 
 std::string scaleTable(const ScaleReport& report)
 {
-  std::vector<std::vector<std::string>> rows{
-      {"method", "map features", "observed", "success", "ms median", "p95", "mean", "ratio",
-       "pairs", "hypotheses", "checks", "cut short", "build s", "bytes/feature"}};
-  for (const ScaleRow& row : report.rows)
-  {
-    rows.push_back({row.method, std::to_string(row.map_features), fixedNumber(row.observed, 1),
-                    withInterval(row.success), fixedNumber(row.time_ms.median, 3),
-                    fixedNumber(row.time_ms.p95, 3), fixedNumber(row.time_ms.mean, 3),
-                    fixedNumber(timeRatio(report, row), 2), fixedNumber(row.signature_pairs, 0),
-                    fixedNumber(row.hypotheses, 0), fixedNumber(row.checks, 0),
-                    std::to_string(row.cut_short), fixedNumber(row.build_seconds, 2),
-                    fixedNumber(row.bytes_per_feature, 0)});
-  }
-  std::vector<std::vector<std::string>> exponents{
-      {"method", "operations in m", "median time in m", "operations in n", "median time in n"}};
-  for (const std::string& method : methodsOf(report))
-  {
-    exponents.push_back({method, exponentText(curveOf(report, method, false, operationsOf)),
-                         exponentText(curveOf(report, method, false, medianOf)),
-                         exponentText(curveOf(report, method, true, operationsOf)),
-                         exponentText(curveOf(report, method, true, medianOf))});
-  }
-  return markdownTable(rows) + "\nFitted exponents (95 % interval):\n\n" + markdownTable(exponents);
+  std::vector<Cells> exponents = {tableHead(exponentColumns())};
+  for (const std::string& method : methodsOf(report.rows))
+    exponents.push_back(tableRow(exponentColumns(), {method, report}));
+  return markdownTable(table(rowColumns(), ratedRows(report))) +
+         "\nFitted exponents (95 % interval):\n\n" + markdownTable(exponents);
 }
 
 void writeScaleReport(const ScaleReport& report, const std::filesystem::path& folder)
 {
   RunReport files;
   nlohmann::ordered_json& json = files.summary;
-  TextStream csv;
-  csv << "method,map_features,wanted,observed,success,cases,signature_pairs,hypotheses,checks,cut_"
-         "short,"
-         "time_ms_median,time_ms_p95,time_ms_mean\n";
-  for (const std::string& method : methodsOf(report))
-  {
-    json["methods"][method] = toJson(pooled(report, method));
-    json["methods"][method]["peak_rss_mb"] = peakMemoryMb();
-  }
-  for (const ScaleRow& row : report.rows)
-  {
-    csv << row.method << ',' << row.map_features << ',' << row.wanted << ','
-        << fixedNumber(row.observed, 3) << ',' << row.success.count << ',' << row.success.cases
-        << ',' << fixedNumber(row.signature_pairs, 3) << ',' << fixedNumber(row.hypotheses, 3)
-        << ',' << fixedNumber(row.checks, 3) << ',' << row.cut_short << ','
-        << fixedNumber(row.time_ms.median, 4) << ',' << fixedNumber(row.time_ms.p95, 4) << ','
-        << fixedNumber(row.time_ms.mean, 4) << '\n';
-    nlohmann::ordered_json entry;
-    entry["map_features"] = row.map_features;
-    entry["observed"] = row.observed;
-    addProportion(entry, "success", row.success);
-    entry["operations"] = row.operations();
-    entry["cut_short"] = row.cut_short;
-    entry["time_ms"] = toJson(row.time_ms);
-    entry["time_ratio"] = timeRatio(report, row);
-    entry["build_s"] = row.build_seconds;
-    entry["bytes_per_feature"] = row.bytes_per_feature;
-    json["methods"][row.method]["rows"].push_back(entry);
-  }
-  for (const std::string& method : methodsOf(report))
-  {
-    const Curve operations = curveOf(report, method, false, operationsOf);
-    const Curve over_observed = curveOf(report, method, true, operationsOf);
-    const Curve time_over_observed = curveOf(report, method, true, medianOf);
-    const Curve time = curveOf(report, method, false, medianOf);
-    if (operations.size() > 1)
-    {
-      json["methods"][method]["operations_exponent_in_m"] = fitExponent(operations).slope;
-      json["methods"][method]["time_exponent_in_m"] = fitExponent(time).slope;
-    }
-    if (over_observed.size() > 1)
-    {
-      json["methods"][method]["operations_exponent_in_n"] = fitExponent(over_observed).slope;
-      json["methods"][method]["time_exponent_in_n"] = fitExponent(time_over_observed).slope;
-    }
-  }
-  json["map"] = toJson(report.map);
-  files.results = csv.str();
+  const std::vector<ScaleRow> rows = ratedRows(report);
+  json["methods"] = methodsJson(rows, rowColumns(), peakMemoryMb());
+  for (const std::string& method : methodsOf(report.rows))
+    json["methods"][method].update(toJson(exponentColumns(), {method, report}));
+  json["map"] = toJson(mapColumns(), report.map);
+  files.results = csvFile(rowColumns(), rows);
   files.text = "# Growth" + report.where + "\n\n" + scaleTable(report);
   files.plots = growthPlots(report);
-  files.notes = kDefinitions + mapSection(report.map);
+  files.notes = legend("What the columns mean", rowColumns()) + mapSection(report.map);
   files.provenance = report.provenance;
   writeRunReport(files, folder);
 }

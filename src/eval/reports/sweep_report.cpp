@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <map>
 
-#include "eval/reports/relocation_rows.h"
 #include "eval/reports/report_files.h"
 #include "eval/reports/sweep_report.h"
+#include "eval/scoring/relocation_summary.h"
 
 namespace sigloc
 {
@@ -18,87 +18,63 @@ A row pools all worlds. The truth is exact here: **wrong** is every confident an
 right, and nothing is inaccurate. The errors of mapping scans' poses are independent of each other.
 )";
 
-RelocationSummary summaryOf(const std::vector<SweepRecord>& records)
+struct SummarizedRow : RelocationSummary
 {
-  std::vector<RelocationRecord> answers;
-  answers.reserve(records.size());
-  for (const SweepRecord& record : records) answers.push_back(record.answer);
-  return summarize(answers, simulationGates());
-}
-
-struct SummarizedRow
-{
-  double value;
-  std::string method;
-  RelocationSummary summary;
+  double value = 0;
 };
 
+/// The rows' summaries, their times compared with those of the first method at the same value.
 std::vector<SummarizedRow> summarizeRows(const SweepReport& report)
 {
   std::vector<SummarizedRow> rows;
   for (const SweepRow& row : report.rows)
   {
-    rows.push_back({row.value, row.method, summaryOf(row.records)});
+    rows.push_back({{row.method, {}}, row.value});
+    for (const SweepRecord& record : row.records) rows.back().add(record.answer);
+    const auto first =
+        std::find_if(rows.begin(), rows.end(),
+                     [&](const SummarizedRow& other) { return other.value == row.value; });
+    rows.back().reference_ms = medianTime(*first);
   }
   return rows;
 }
 
-/// The first method's summary at the same value: what ratios of times refer to.
-const RelocationSummary& referenceOf(const std::vector<SummarizedRow>& rows, double value)
+/// What is known of a method at a value; the label heads the values.
+Columns<SummarizedRow> rowColumns(const std::string& label)
 {
-  return std::find_if(rows.begin(), rows.end(),
-                      [&](const SummarizedRow& row) { return row.value == value; })
-      ->summary;
-}
-
-std::vector<std::string> methodsOf(const SweepReport& report)
-{
-  std::vector<std::string> methods;
-  for (const SweepRow& row : report.rows)
-  {
-    if (row.value == report.rows.front().value) methods.push_back(row.method);
-  }
-  return methods;
-}
-
-nlohmann::ordered_json summaryJson(const SweepReport& report,
-                                   const std::vector<SummarizedRow>& rows)
-{
-  nlohmann::ordered_json json;
-  json["over"] = report.over;
-  json["label"] = report.label;
-  for (const std::string& method : methodsOf(report))
-  {
-    std::vector<SweepRecord> all;
-    nlohmann::ordered_json entries = nlohmann::ordered_json::array();
-    for (std::size_t i = 0; i < rows.size(); ++i)
-    {
-      if (rows[i].method != method) continue;
-      nlohmann::ordered_json entry = {{"value", rows[i].value}};
-      entry.update(toJson(rows[i].summary));
-      entries.push_back(entry);
-      all.insert(all.end(), report.rows[i].records.begin(), report.rows[i].records.end());
-    }
-    json["methods"][method] = toJson(summaryOf(all));
-    if (report.map.maps > 0) json["methods"][method]["peak_rss_mb"] = report.peak_rss_mb;
-    json["methods"][method]["rows"] = entries;
-  }
-  if (report.map.maps > 0) json["map"] = toJson(report.map);
-  return json;
+  using C = Column<SummarizedRow>;
+  Columns<SummarizedRow> columns = {
+      C("value", &SummarizedRow::value),
+      C("", [](const SummarizedRow& row) { return sweptValueText(row.value); }, "", 0, {label})};
+  for (const auto& column : summaryColumns()) columns.emplace_back(column);
+  return columns;
 }
 
 std::string resultsCsv(const SweepReport& report)
 {
-  std::string csv = "over,value,world," + relocationCsvHead() + "\n";
+  std::string csv = "over,value,world,method," + csvHead(relocationColumns()) + "\n";
   for (const SweepRow& row : report.rows)
   {
     for (const SweepRecord& record : row.records)
     {
-      csv += report.over + "," + sweptValueText(row.value) + "," + record.world + "," +
-             relocationCsvRow(row.method, record.answer) + "\n";
+      csv += fmt::format("{},{},{},{},{}\n", report.over, sweptValueText(row.value), record.world,
+                         row.method, csvRow(relocationColumns(), record.answer));
     }
   }
   return csv;
+}
+
+using Share = Proportion (*)(const RelocationSummary&);
+
+Proportion recall(const RelocationSummary& summary)
+{
+  return share(&Outcome::right)(summary);
+}
+
+/// Of no cases where the method has no verdict.
+Proportion claimed(const RelocationSummary& summary, bool Outcome::*is, std::size_t cases)
+{
+  return {total(is)(summary), total(&Outcome::claims_verdict)(summary) > 0 ? cases : 0};
 }
 
 std::string kindOf(const std::string& world)
@@ -110,16 +86,14 @@ std::string kindOf(const std::string& world)
 std::string kindTable(const SweepReport& report)
 {
   std::vector<std::string> head = {"world", report.label};
-  for (const std::string& method : methodsOf(report)) head.push_back(method);
+  for (const std::string& method : methodsOf(report.rows)) head.push_back(method);
   std::map<std::pair<std::string, double>, std::vector<std::string>> lines;
   for (const SweepRow& row : report.rows)
   {
-    std::map<std::string, std::vector<SweepRecord>> by_kind;
-    for (const SweepRecord& record : row.records) by_kind[kindOf(record.world)].push_back(record);
-    for (const auto& [kind, records] : by_kind)
-    {
-      lines[{kind, row.value}].push_back(withInterval(summaryOf(records).recall_at_1));
-    }
+    std::map<std::string, RelocationSummary> by_kind;
+    for (const SweepRecord& record : row.records) by_kind[kindOf(record.world)].add(record.answer);
+    for (const auto& [kind, summary] : by_kind)
+      lines[{kind, row.value}].push_back(withInterval(recall(summary)));
   }
   std::vector<std::vector<std::string>> rows = {head};
   for (const auto& [key, cells] : lines)
@@ -130,97 +104,78 @@ std::string kindTable(const SweepReport& report)
   return markdownTable(rows);
 }
 
-using Share = Proportion (*)(const RelocationSummary&);
-
-Proportion recall(const RelocationSummary& s)
+/// A curve a method over the swept quantity; `add(row, series)` adds the point of one value.
+template <class Add>
+Plot plotOf(const SweepReport& report, const std::vector<SummarizedRow>& rows, Plot plot, Add&& add)
 {
-  return s.recall_at_1;
+  plot.x_label = report.label;
+  for (const std::string& method : methodsOf(report.rows))
+  {
+    PlotSeries& series = plot.series.emplace_back(PlotSeries{method, {}, true, {}});
+    for (const SummarizedRow& row : rows)
+      if (row.method == method) add(row, series);
+  }
+  return plot;
 }
 
-Proportion confidentAndRight(const RelocationSummary& s)
-{
-  return {s.confident_right, s.claims_verdict ? s.recall_at_1.cases : 0};
-}
-
-Proportion confidentlyWrong(const RelocationSummary& s)
-{
-  return {s.confidently_wrong, s.claims_verdict ? s.queries : 0};
-}
-
-/// A share with its Wilson intervals over the swept quantity; methods without cases are left out.
+/// A share with its Wilson intervals; methods without cases are left out.
 Plot sharePlot(const SweepReport& report, const std::vector<SummarizedRow>& rows,
                const std::string& title, Share share)
 {
-  Plot plot{title, report.label, "share of queries", false, false, {}};
-  for (const std::string& method : methodsOf(report))
+  const auto add = [&](const SummarizedRow& row, PlotSeries& series)
   {
-    PlotSeries series{method, {}, true, {}};
-    for (const SummarizedRow& row : rows)
-    {
-      const Proportion p = share(row.summary);
-      if (row.method != method || p.cases == 0) continue;
-      series.points.emplace_back(row.value, p.value());
-      series.intervals.emplace_back(p.low(), p.high());
-    }
-    plot.series.push_back(series);
-  }
-  return plot;
+    const Proportion p = share(row);
+    if (p.cases == 0) return;
+    series.points.emplace_back(row.value, p.value());
+    series.intervals.emplace_back(p.low(), p.high());
+  };
+  return plotOf(report, rows, {title, "", "share of queries", false, false, {}}, add);
 }
 
 Plot timeRatioPlot(const SweepReport& report, const std::vector<SummarizedRow>& rows)
 {
-  const std::vector<std::string> methods = methodsOf(report);
-  Plot plot{"Median time over that of " + methods.front(), report.label, "ratio", false, true, {}};
-  for (const std::string& method : methods)
-  {
-    PlotSeries series{method, {}, true, {}};
-    for (const SummarizedRow& row : rows)
-    {
-      if (row.method != method) continue;
-      const double reference = referenceOf(rows, row.value).time_ms.median;
-      series.points.emplace_back(row.value, row.summary.time_ms.median / reference);
-    }
-    plot.series.push_back(series);
-  }
-  return plot;
+  const std::string title = "Median time over that of " + methodsOf(report.rows).front();
+  const auto add = [](const SummarizedRow& row, PlotSeries& series)
+  { series.points.emplace_back(row.value, medianTime(row) / row.reference_ms); };
+  return plotOf(report, rows, {title, "", "ratio", false, true, {}}, add);
 }
 }  // namespace
 
 std::string sweptValueText(double value)
 {
-  std::array<char, 32> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-  return {text.data(), end};
+  return detail::formatValue(value);
 }
 
 std::string sweepTable(const SweepReport& report)
 {
-  const std::vector<SummarizedRow> summarized = summarizeRows(report);
-  std::vector<std::vector<std::string>> rows = {relocationTableHead()};
-  rows.front().insert(rows.front().begin(), report.label);
-  for (const SummarizedRow& row : summarized)
-  {
-    rows.push_back(relocationTableRow(row.method, row.summary, referenceOf(summarized, row.value)));
-    rows.back().insert(rows.back().begin(), sweptValueText(row.value));
-  }
-  return markdownTable(rows);
+  return markdownTable(table(rowColumns(report.label), summarizeRows(report)));
 }
 
 RunReport sweepRunReport(const SweepReport& report)
 {
   const std::vector<SummarizedRow> rows = summarizeRows(report);
   RunReport files;
-  files.summary = summaryJson(report, rows);
+  const bool ran = report.map.maps > 0;  // else runs were merged
+  files.summary["over"] = report.over;
+  files.summary["label"] = report.label;
+  files.summary["methods"] = methodsJson(rows, rowColumns(report.label),
+                                         ran ? std::optional(report.peak_rss_mb) : std::nullopt);
+  if (ran) files.summary["map"] = toJson(mapColumns(), report.map);
   files.results = resultsCsv(report);
   files.text = "# Sweep: " + report.over + "\n\n" + sweepTable(report) +
                "\n## First answer right, by kind of world\n\n" + kindTable(report);
-  files.plots = {
-      {"recall.png", sharePlot(report, rows, "First answer right", recall)},
-      {"confident_right.png", sharePlot(report, rows, "Confident and right", confidentAndRight)},
-      {"confidently_wrong.png", sharePlot(report, rows, "Confidently wrong", confidentlyWrong)},
-      {"time_ratio.png", timeRatioPlot(report, rows)}};
+  files.plots = {{"recall.png", sharePlot(report, rows, "First answer right", recall)},
+                 {"confident_right.png",
+                  sharePlot(report, rows, "Confident and right",
+                            [](const RelocationSummary& s)
+                            { return claimed(s, &Outcome::confident_right, recall(s).cases); })},
+                 {"confidently_wrong.png",
+                  sharePlot(report, rows, "Confidently wrong",
+                            [](const RelocationSummary& s)
+                            { return claimed(s, &Outcome::confidently_wrong, s.records.size()); })},
+                 {"time_ratio.png", timeRatioPlot(report, rows)}};
   files.notes = relocationDefinitions() + kNotes;
-  if (report.map.maps > 0) files.notes += mapSection(report.map);
+  if (ran) files.notes += mapSection(report.map);
   files.provenance = report.provenance;
   return files;
 }

@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "eval/reports/wakeup_calibration.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
 
+#include "config/columns.h"
 #include "config/fixed_number.h"
 #include "eval/reports/report_files.h"
 
@@ -18,41 +20,66 @@ namespace
 constexpr std::array<double, 6> kBinBorders = {0.5, 0.7, 0.9, 0.97, 0.99, 1.0 + 1e-9};
 constexpr double kEllipse = 7.815;  // chi-square, 3 degrees of freedom, 95 %
 
-/// Counts the steps for which `inside` holds, and their unbroken stretches, right or wrong.
-template <class Inside>
-void countInto(CalibrationBin& bin, const Wakeup& run, const AccuracyGates& gates, Inside&& inside)
+using Bin = CalibrationBin;
+
+bool isIn(const Bin& bin, const TrackingClaim& claim)
+{
+  const double weight = claim.weights.front();
+  return claim.confident == bin.claims &&
+         (claim.confident || (weight >= bin.low && weight < bin.high));
+}
+
+/// Counts the steps of a run in a bin, and their unbroken stretches, right or wrong.
+void countInto(Bin& bin, const Wakeup& run, const AccuracyGates& gates)
 {
   bool open = false;
   bool open_wrong = false;
   const auto close = [&]
   {
     if (!open) return;
-    ++bin.wrong_episodes.cases;
-    bin.wrong_episodes.count += open_wrong;
+    bin.wrong_episodes.add(open_wrong);
     open = open_wrong = false;
   };
   for (const WakeupStep& step : run.steps)
   {
-    if (!inside(step))
+    if (!isIn(bin, step.claim))
     {
       close();
       continue;
     }
     const bool wrong =
         step.judged == Claim::wrong || (!step.claim.confident && !isRight(step.error, gates));
-    ++bin.wrong_steps.cases;
-    bin.wrong_steps.count += wrong;
+    bin.wrong_steps.add(wrong);
     open = true;
     open_wrong = open_wrong || wrong;
   }
   close();
 }
 
+Written weightsOf(const Bin& bin)
+{
+  if (bin.claims) return {{}, {"localized"}};
+  return {{{"", {bin.low, std::min(1.0, bin.high)}}},
+          {fmt::format("{:.2f}-{:.2f}, no claim", bin.low, bin.high)}};
+}
+
 std::string percent(const Proportion& p)
 {
   if (p.cases == 0) return "-";
-  return fixedNumber(100 * p.value(), 2) + " (" + fixedNumber(100 * p.low(), 2) + "-" +
-         fixedNumber(100 * p.high(), 2) + ")";
+  return fmt::format("{:.2f} ({:.2f}-{:.2f})", 100 * p.value(), 100 * p.low(), 100 * p.high());
+}
+
+Columns<Bin> binColumns()
+{
+  using C = Column<Bin>;
+  return {
+      C("weight", weightsOf, "", 0, {"weight of the first"}),
+      C("steps", [](const Bin& bin) { return bin.wrong_steps.cases; }, "", 0, {"steps"}),
+      C("wrong_steps", &Bin::wrong_steps),
+      C("", [](const Bin& bin) { return percent(bin.wrong_steps); }, "", 0, {"not right %"}),
+      C("episodes", [](const Bin& bin) { return bin.wrong_episodes.cases; }, "", 0, {"episodes"}),
+      C("wrong_episodes", &Bin::wrong_episodes),
+      C("", [](const Bin& bin) { return percent(bin.wrong_episodes); }, "", 0, {"not right %"})};
 }
 }  // namespace
 
@@ -64,33 +91,19 @@ SelfKnowledge selfKnowledgeOf(const WakeupMethodReport& method, const AccuracyGa
                                  { return !run.steps.empty() && run.steps.front().claim.belief; });
   if (!tells) return knowledge;
   for (std::size_t b = 0; b + 1 < kBinBorders.size(); ++b)
-  {
-    CalibrationBin bin{kBinBorders[b], kBinBorders[b + 1], {}, {}};
-    for (const Wakeup& run : method.runs)
-    {
-      countInto(bin, run, gates,
-                [&](const WakeupStep& s)
-                {
-                  const double weight = s.claim.weights.front();
-                  return !s.claim.confident && weight >= bin.low && weight < bin.high;
-                });
-    }
-    knowledge.bins.push_back(bin);
-  }
-  CalibrationBin claims{0.99, 1, {}, {}};
+    knowledge.bins.push_back({kBinBorders[b], kBinBorders[b + 1], false, {}, {}});
+  knowledge.bins.push_back({0.99, 1, true, {}, {}});
   std::vector<double> nees;
   for (const Wakeup& run : method.runs)
   {
-    countInto(claims, run, gates, [](const WakeupStep& s) { return s.claim.confident; });
+    for (Bin& bin : knowledge.bins) countInto(bin, run, gates);
     for (const WakeupStep& s : run.steps)
     {
       if (s.judged != Claim::right || std::isnan(s.nees)) continue;
       nees.push_back(s.nees);
-      ++knowledge.in_ellipse.cases;
-      knowledge.in_ellipse.count += s.nees <= kEllipse;
+      knowledge.in_ellipse.add(s.nees <= kEllipse);
     }
   }
-  knowledge.bins.push_back(claims);
   knowledge.nees = quantilesOf(nees);
   return knowledge;
 }
@@ -98,42 +111,21 @@ SelfKnowledge selfKnowledgeOf(const WakeupMethodReport& method, const AccuracyGa
 nlohmann::ordered_json toJson(const SelfKnowledge& knowledge)
 {
   nlohmann::ordered_json json;
-  const auto add = [](nlohmann::ordered_json& object, const CalibrationBin& bin)
+  for (const Bin& bin : knowledge.bins)
   {
-    object["steps"] = bin.wrong_steps.cases;
-    addProportion(object, "wrong_steps", bin.wrong_steps);
-    object["episodes"] = bin.wrong_episodes.cases;
-    addProportion(object, "wrong_episodes", bin.wrong_episodes);
-  };
-  for (std::size_t b = 0; b + 1 < knowledge.bins.size(); ++b)
-  {
-    nlohmann::ordered_json bin;
-    bin["weight"] = {knowledge.bins[b].low, std::min(1.0, knowledge.bins[b].high)};
-    add(bin, knowledge.bins[b]);
-    json["not_claimed"].push_back(bin);
+    const nlohmann::ordered_json of_bin = sigloc::toJson(binColumns(), bin);
+    bin.claims ? json["claimed"] = of_bin : json["not_claimed"].emplace_back(of_bin);
   }
-  if (!knowledge.bins.empty()) add(json["claimed"], knowledge.bins.back());
-  json["nees"] = sigloc::toJson(knowledge.nees);
-  addProportion(json, "in_95_ellipse", knowledge.in_ellipse);
+  addJson(json, "nees", knowledge.nees);
+  addJson(json, "in_95_ellipse", knowledge.in_ellipse);
   return json;
 }
 
 std::string toMarkdown(const SelfKnowledge& knowledge)
 {
   if (knowledge.bins.empty()) return {};
-  std::vector<std::vector<std::string>> rows = {
-      {"weight of the first", "steps", "not right %", "episodes", "not right %"}};
-  for (std::size_t b = 0; b < knowledge.bins.size(); ++b)
-  {
-    const CalibrationBin& bin = knowledge.bins[b];
-    const bool claims = b + 1 == knowledge.bins.size();
-    rows.push_back({claims
-                        ? "localized"
-                        : fixedNumber(bin.low, 2) + "-" + fixedNumber(bin.high, 2) + ", no claim",
-                    std::to_string(bin.wrong_steps.cases), percent(bin.wrong_steps),
-                    std::to_string(bin.wrong_episodes.cases), percent(bin.wrong_episodes)});
-  }
-  return markdownTable(rows) + "\nSquared normalised error of right claims (3 expected): mean " +
+  return markdownTable(table(binColumns(), knowledge.bins)) +
+         "\nSquared normalised error of right claims (3 expected): mean " +
          fixedNumber(knowledge.nees.mean, 2) + ", median " + fixedNumber(knowledge.nees.median, 2) +
          "; in the 95 % ellipse: " + percent(knowledge.in_ellipse) + " %\n";
 }
@@ -158,10 +150,8 @@ std::vector<std::pair<std::string, Plot>> beliefPlots(const WakeupMethodReport& 
       alive[static_cast<int>(step.travelled / kBin)].push_back(step.claim.hypotheses);
     }
   }
-  PlotSeries mean;
-  mean.title = "mean";
-  PlotSeries p95;
-  p95.title = "95 % of the runs";
+  PlotSeries mean{"mean", {}, false, {}};
+  PlotSeries p95{"95 % of the runs", {}, false, {}};
   for (const auto& [bin, values] : alive)
   {
     const Quantiles q = quantilesOf(values);
@@ -172,10 +162,8 @@ std::vector<std::pair<std::string, Plot>> beliefPlots(const WakeupMethodReport& 
   for (const std::size_t r : evenlySpaced(method.runs.size(), kRunsDrawn))
   {
     const Wakeup& run = method.runs[r];
-    PlotSeries first;
-    first.title = "start " + std::to_string(run.start);
-    PlotSeries second;
-    second.title = "its rival";
+    PlotSeries first{"start " + std::to_string(run.start), {}, false, {}};
+    PlotSeries second{"its rival", {}, false, {}};
     for (const WakeupStep& step : run.steps)
     {
       first.points.emplace_back(step.travelled, step.claim.weights[0]);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "eval/reports/plot.h"
+#include "eval/scoring/statistics.h"
 #include "eval/wakeup/wakeup.h"
 
 namespace sigloc::detail
@@ -18,6 +19,7 @@ struct CalibrationBin
 {
   double low = 0;
   double high = 0;
+  bool claims = false;  ///< the steps that claimed (localized), whatever their weight
   Proportion wrong_steps;
   Proportion wrong_episodes;  ///< unbroken stretches in the bin; wrong when any step of it is
 };

@@ -5,9 +5,6 @@
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/serialization/CArchive.h>
 
-#include <nlohmann/json.hpp>
-
-#include "config/fixed_number.h"
 #include "sigloc/io/map_files.h"
 
 namespace sigloc
@@ -31,22 +28,23 @@ void MapStatistics::add(const FeatureMap& map, double seconds)
   build_seconds += seconds;
 }
 
-nlohmann::ordered_json toJson(const MapStatistics& statistics)
+Columns<MapStatistics> mapColumns()
 {
-  return {{"maps", statistics.maps},
-          {"features", statistics.features},
-          {"build_s", statistics.build_seconds},
-          {"bytes", statistics.bytes}};
+  using M = MapStatistics;
+  using C = Column<M>;
+  return {C("maps", &M::maps), C("features", &M::features, "", 0, {"features"}),
+          C("build_s", &M::build_seconds, "", 3, {"built in [s]"}, 1),
+          C("bytes", &M::bytes, "", 0, {"bytes, serialized"})};
 }
 
 std::string mapSection(const MapStatistics& statistics)
 {
-  return "\n## Map\n\n" +
-         (statistics.maps > 1
-              ? "* maps, of which these are sums: " + std::to_string(statistics.maps) + "\n"
-              : std::string()) +
-         "* features: " + std::to_string(statistics.features) +
-         "\n* bytes, serialized: " + std::to_string(statistics.bytes) +
-         "\n* built in [s]: " + fixedNumber(statistics.build_seconds, 3) + "\n";
+  std::string text = "\n## Map\n\n";
+  if (statistics.maps > 1)
+    text += "* maps, of which these are sums: " + std::to_string(statistics.maps) + "\n";
+  const Cells heads = tableHead(mapColumns());
+  const Cells cells = tableRow(mapColumns(), statistics);
+  for (std::size_t i = 0; i < heads.size(); ++i) text += "* " + heads[i] + ": " + cells[i] + "\n";
+  return text;
 }
 }  // namespace sigloc

@@ -3,9 +3,9 @@
 #pragma once
 
 #include <cstddef>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "config/columns.h"
 #include "sigloc/map/FeatureMap.h"
 
 namespace sigloc
@@ -22,7 +22,7 @@ struct MapStatistics
 };
 
 /// The object "map" of summary.json.
-nlohmann::ordered_json toJson(const MapStatistics& statistics);
+Columns<MapStatistics> mapColumns();
 
 /// The same as a section of report.md.
 std::string mapSection(const MapStatistics& statistics);

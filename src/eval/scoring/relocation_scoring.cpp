@@ -5,8 +5,9 @@
 #include <mrpt/math/wrap2pi.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numeric>
+#include <sstream>
 
 namespace sigloc
 {
@@ -15,34 +16,25 @@ using mrpt::math::TPose2D;
 namespace
 {
 constexpr std::size_t kListedCandidates = 10;
-constexpr double kZ95 = 1.959963984540054;  // two-sided 95 % of the normal distribution
+constexpr const char* kAddedLater = "cut_short";  // earlier versions did not write it
 
-// Centre and half width of Wilson's score interval.
-std::pair<double, double> wilson(std::size_t count, std::size_t cases)
-{
-  const auto n = static_cast<double>(cases);
-  const double p = static_cast<double>(count) / n;
-  const double z2 = kZ95 * kZ95;
-  const double centre = (p + z2 / (2 * n)) / (1 + z2 / n);
-  const double half = kZ95 / (1 + z2 / n) * std::sqrt(p * (1 - p) / n + z2 / (4 * n * n));
-  return {centre, half};
-}
 }  // namespace
 
 const char* toString(Claim claim)
 {
-  switch (claim)
-  {
-    case Claim::none:
-      return "none";
-    case Claim::right:
-      return "right";
-    case Claim::inaccurate:
-      return "inaccurate";
-    case Claim::wrong:
-      return "wrong";
-  }
-  return "unknown";
+  constexpr std::array kNames = {"none", "right", "inaccurate", "wrong"};
+  const auto i = static_cast<std::size_t>(claim);
+  return i < kNames.size() ? kNames[i] : "unknown";
+}
+
+Written written(const PoseError& error, int decimals)
+{
+  return {{}, {fixedNumber(error.distance, decimals), fixedNumber(error.angle_deg, decimals - 1)}};
+}
+
+bool parse(const Cells& cells, PoseError& error)
+{
+  return parse({cells[0]}, error.distance) && parse({cells[1]}, error.angle_deg);
 }
 
 PoseError poseError(const TPose2D& pose, const TPose2D& truth)
@@ -92,7 +84,6 @@ RelocationRecord judgeRelocation(const EvaluationQuery& query, const RelocationR
   record.query = query.name;
   record.truth = query.truth;
   record.valid_beams = countValidBeams(query.scans);
-  record.claims_verdict = claims_verdict;
   record.verdict = answer.verdict;
   record.probability = answer.probability;
   record.candidates = answer.candidates.size();
@@ -122,6 +113,7 @@ RelocationRecord judgeRelocation(const EvaluationQuery& query, const RelocationR
       record.proposed = std::any_of(proposals->begin(), proposals->end(), is_right);
     }
   }
+  if (claims_verdict) record.claim = Claim::none;
   if (claims_verdict && answer.verdict == Verdict::localized && record.first)
   {
     record.claim =
@@ -130,83 +122,43 @@ RelocationRecord judgeRelocation(const EvaluationQuery& query, const RelocationR
   return record;
 }
 
-double Proportion::value() const
+const Columns<RelocationRecord>& relocationColumns()
 {
-  if (cases == 0) return std::numeric_limits<double>::quiet_NaN();
-  return static_cast<double>(count) / static_cast<double>(cases);
+  using R = RelocationRecord;
+  using C = Column<R>;
+  static const Columns<R> kColumns = {
+      C("query", &R::query),
+      C("truth_x,truth_y,truth_phi", &R::truth, "[m, rad], in the map", 4),
+      C("valid_beams", &R::valid_beams, "beams with an echo; fewer than 10 see nothing"),
+      C("verdict", &R::verdict),
+      C("probability", &R::probability, "of the verdict", 6),
+      C("x,y,phi", &R::first, "the first candidate [m, rad], in the map", 4),
+      C("score", &R::first_score, "of the first candidate", 5),
+      C("error_m,error_deg", &R::error, "of the first candidate", 4),
+      C("candidates", &R::candidates, "how many were returned"),
+      C("rank_of_right", &R::rank_of_right, "from 1; 0: none of the first ten is right"),
+      C("proposals", &R::proposals, "poses that the method's features proposed"),
+      C("proposed", &R::proposed,
+        "whether a right one is among them; empty: not asked, or no truth"),
+      C("claim", &R::claim, "a confident answer, judged; empty for a method without a verdict"),
+      C("poses_scored", &R::poses_scored, "poses compared with the scan"),
+      C(kAddedLater, &R::cut_short, "the search ended at its budget"),
+      C("time_ms", &R::time_ms, "CPU time, from raw scan to ranked candidates")};
+  return kColumns;
 }
 
-double Proportion::low() const
+RelocationRecord storedRelocation(const detail::CsvTable& results, std::size_t row)
 {
-  if (cases == 0) return std::numeric_limits<double>::quiet_NaN();
-  const auto [centre, half] = wilson(count, cases);
-  return count == 0 ? 0 : centre - half;
-}
-
-double Proportion::high() const
-{
-  if (cases == 0) return std::numeric_limits<double>::quiet_NaN();
-  const auto [centre, half] = wilson(count, cases);
-  return count == cases ? 1 : centre + half;
-}
-
-Quantiles quantilesOf(std::vector<double> values)
-{
-  if (values.empty()) return {};
-  std::sort(values.begin(), values.end());
-  const auto n = static_cast<double>(values.size());
-  const auto nearest_rank = [&](double share)
-  { return values[static_cast<std::size_t>(std::max(1.0, std::ceil(share * n))) - 1]; };
-  return {nearest_rank(0.5), nearest_rank(0.95),
-          std::accumulate(values.begin(), values.end(), 0.0) / n};
-}
-
-RelocationSummary summarize(const std::vector<RelocationRecord>& records,
-                            const AccuracyGates& gates)
-{
-  RelocationSummary summary;
-  std::vector<double> times;
-  std::vector<double> scored;
-  std::vector<double> proposals;
-  std::vector<double> distances;
-  std::vector<double> angles;
-  for (const RelocationRecord& record : records)
+  RelocationRecord record;
+  for (const Column<RelocationRecord>& column : relocationColumns())
   {
-    ++summary.queries;
-    summary.claims_verdict = summary.claims_verdict || record.claims_verdict;
-    times.push_back(record.time_ms);
-    scored.push_back(static_cast<double>(record.poses_scored));
-    if (record.claim != Claim::none) ++summary.confident;
-    if (record.claim == Claim::right) ++summary.confident_right;
-    if (record.claim == Claim::inaccurate) ++summary.inaccurate;
-    if (record.claim == Claim::wrong) ++summary.confidently_wrong;
-    if (record.cut_short) ++summary.cut_short;
-    if (record.sawNothing()) ++summary.saw_nothing;
-    if (record.sawNothing() || !record.truth) continue;
-    const bool right = record.rank_of_right == 1;
-    ++summary.recall_at_1.cases;
-    ++summary.recall_at_1_tight.cases;
-    ++summary.recall_at_10.cases;
-    if (right)
-    {
-      ++summary.recall_at_1.count;
-      distances.push_back(record.error.distance);
-      angles.push_back(record.error.angle_deg);
-    }
-    if (right && record.error.angle_deg <= gates.tight_angle_deg) ++summary.recall_at_1_tight.count;
-    if (record.rank_of_right > 0) ++summary.recall_at_10.count;
-    if (record.proposed)
-    {
-      ++summary.proposed.cases;
-      if (*record.proposed) ++summary.proposed.count;
-      proposals.push_back(static_cast<double>(record.proposals));
-    }
+    if (column.name == kAddedLater && !results.has(column.name)) continue;
+    Cells cells;
+    std::istringstream names(column.name);
+    for (std::string name; std::getline(names, name, ',');)
+      cells.push_back(results.text(row, name));
+    if (!column.store(record, cells)) results.fail(row, column.name + ": bad value");
   }
-  summary.median_error_m = quantilesOf(distances).median;
-  summary.median_error_deg = quantilesOf(angles).median;
-  summary.time_ms = quantilesOf(times);
-  summary.poses_scored = quantilesOf(scored);
-  summary.proposals = quantilesOf(proposals);
-  return summary;
+  return record;
 }
 }  // namespace sigloc

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "config/columns.h"
+#include "eval/data/csv_table.h"
 #include "eval/data/evaluation_data.h"
 #include "sigloc/matching/SignatureMatcher.h"
 
@@ -46,6 +48,9 @@ struct PoseError
   double angle_deg = std::numeric_limits<double>::quiet_NaN();
 };
 PoseError poseError(const mrpt::math::TPose2D& pose, const mrpt::math::TPose2D& truth);
+/// Two cells of CSV, the heading with a digit less.
+Written written(const PoseError& error, int decimals);
+bool parse(const Cells& cells, PoseError& error);
 bool isRight(const PoseError& error, const AccuracyGates& gates);
 /// What a confident claim of a pose is worth; without truth (a foreign map) it is wrong.
 Claim judgeClaim(const std::optional<PoseError>& error, const AccuracyGates& gates);
@@ -69,8 +74,7 @@ struct RelocationRecord
   std::size_t rank_of_right = 0;  ///< from 1; 0: none of the first ten is right
   std::optional<bool> proposed;  ///< a right pose was proposed; none: not asked or no truth
   std::size_t proposals = 0;
-  bool claims_verdict = false;  ///< the method says whether it is sure
-  Claim claim = Claim::none;
+  std::optional<Claim> claim;  ///< none: the method does not say whether it is sure
   std::uint64_t poses_scored = 0;
   bool cut_short = false;  ///< the search ended at its budget, unfinished
   double time_ms = 0;
@@ -84,47 +88,10 @@ RelocationRecord judgeRelocation(const EvaluationQuery& query, const RelocationR
                                  const std::optional<std::vector<mrpt::math::TPose2D>>& proposals,
                                  const AccuracyGates& gates);
 
-/// A share with its Wilson 95 % interval; NaN when there are no cases.
-struct Proportion
-{
-  std::size_t count = 0;
-  std::size_t cases = 0;
-  double value() const;
-  double low() const;
-  double high() const;
-};
+/// What results.csv holds of a query, after the method's name.
+const Columns<RelocationRecord>& relocationColumns();
 
-struct Quantiles
-{
-  double median = std::numeric_limits<double>::quiet_NaN();
-  double p95 = std::numeric_limits<double>::quiet_NaN();
-  double mean = std::numeric_limits<double>::quiet_NaN();
-};
-/// Nearest-rank quantiles; NaN for an empty list.
-Quantiles quantilesOf(std::vector<double> values);
-
-struct RelocationSummary
-{
-  std::size_t queries = 0;
-  std::size_t saw_nothing = 0;  ///< counted in `queries`, left out of the shares
-  bool claims_verdict = false;
-  std::size_t confident = 0;
-  std::size_t confident_right = 0;
-  std::size_t confidently_wrong = 0;
-  std::size_t inaccurate = 0;
-  std::size_t cut_short = 0;  ///< answers of searches that ended at their budget
-  Proportion recall_at_1;
-  Proportion recall_at_1_tight;
-  Proportion recall_at_10;
-  Proportion proposed;
-  double median_error_m = std::numeric_limits<double>::quiet_NaN();  ///< of right answers
-  double median_error_deg = std::numeric_limits<double>::quiet_NaN();  ///< of right answers
-  Quantiles poses_scored;
-  Quantiles proposals;
-  Quantiles time_ms;
-  double ns_per_lookup = std::numeric_limits<double>::quiet_NaN();
-  double peak_rss_mb = 0;
-};
-RelocationSummary summarize(const std::vector<RelocationRecord>& records,
-                            const AccuracyGates& gates);
+/// Reads a row back that was written with these columns, to the digits that it has.
+/// Throws std::runtime_error ("path: line N: reason").
+RelocationRecord storedRelocation(const detail::CsvTable& results, std::size_t row);
 }  // namespace sigloc

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "config/columns.h"
 #include "eval/methods/TrackingMethod.h"
 #include "eval/scoring/failed_queries.h"
 #include "eval/scoring/map_statistics.h"
@@ -49,6 +50,7 @@ struct WakeupStep
   std::size_t step = 0;  ///< of the log
   double travelled = 0;  ///< [m] since the start
   double seconds = std::numeric_limits<double>::quiet_NaN();  ///< since the start, as the log tells
+  bool kidnapped = false;  ///< the robot has been carried
   bool saw_nothing = false;  ///< fewer than 10 valid beams, and no landmark
   TrackingClaim claim;
   PoseError error;  ///< NaN without truth
@@ -82,6 +84,12 @@ struct Wakeup
   /// After a kidnapping the first step that is not sure of a wrong place; none: never.
   std::optional<WakeupEvent> noticed_after;
 };
+
+/// What results.csv holds of a step, after the method's name and the run's start.
+const Columns<WakeupStep>& stepColumns();
+
+/// What runs.csv holds of a run, after the method's name.
+const Columns<Wakeup>& runColumns();
 
 /// Fills the judgements from the steps.
 void judgeRun(Wakeup& run);

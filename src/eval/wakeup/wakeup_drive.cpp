@@ -59,6 +59,7 @@ void judgeLeg(const WakeupLeg& leg, const std::vector<TimedClaim>& claims,
     record.claim = timed.claim;
     record.time_ms = timed.time_ms;
     record.step = i;
+    record.kidnapped = run.kidnapped_at > 0;
     record.travelled = before + steps[i].travelled - steps[leg.first].travelled;
     record.seconds = seconds_before + steps[i].step.time - steps[leg.first].step.time;
     record.saw_nothing =

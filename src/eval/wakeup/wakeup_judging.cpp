@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "eval/wakeup/wakeup.h"
 
@@ -10,6 +11,7 @@ namespace sigloc
 namespace
 {
 using Steps = std::vector<WakeupStep>;
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// Index of the first confident step from which the method stays confident to the end. Steps
 /// outside the mapped area are ignored.
@@ -54,7 +56,74 @@ void countWrong(Wakeup& run)
     if (i == 0 || run.steps[i - 1].judged != Claim::wrong) ++run.wrong_episodes;
   }
 }
+
+/// Reads a part of what is believed after a step; none of a method that has no belief.
+template <class Read>
+auto ofBelief(Read read)
+{
+  return [read](const WakeupStep& step)
+  { return step.claim.belief ? std::optional(std::invoke(read, step.claim)) : std::nullopt; };
+}
+
+/// The cells of an event, empty where it never came.
+auto ofEvent(std::optional<WakeupEvent> Wakeup::*event)
+{
+  return [event](const Wakeup& run)
+  {
+    const WakeupEvent at = (run.*event).value_or(WakeupEvent{kNone, kNone});
+    return Written{{}, {fixedNumber(at.metres, 3), fixedNumber(at.seconds, 3)}};
+  };
+}
 }  // namespace
+
+const Columns<WakeupStep>& stepColumns()
+{
+  using C = Column<WakeupStep>;
+  using S = WakeupStep;
+  using T = TrackingClaim;
+  static const Columns<S> kColumns = {
+      C("step", &S::step, "of the log"),
+      C("travelled_m", &S::travelled, "since the start"),
+      C("seconds", &S::seconds, "since the start, by the log"),
+      C("kidnapped", &S::kidnapped, "the robot has been carried"),
+      C("confident", [](const S& step) { return step.claim.confident; }),
+      C(
+          "x,y,phi",
+          [](const S& step)
+          { return step.claim.has_pose ? std::optional(step.claim.pose) : std::nullopt; },
+          "the claimed pose [m, rad], in the map", 4),
+      C("error_m,error_deg", &S::error, "of it; empty without truth", 4),
+      C("claim", &S::judged, "a confident claim, judged"),
+      C("verdict", ofBelief(&T::verdict)),
+      C("hypotheses", ofBelief(&T::hypotheses), "being tracked"),
+      C("weight", ofBelief([](const T& claim) { return claim.weights[0]; }),
+        "of the heaviest hypothesis", 5),
+      C("second_weight", ofBelief([](const T& claim) { return claim.weights[1]; }),
+        "of the next one", 5),
+      C("elsewhere", ofBelief(&T::elsewhere), "weight of all other poses", 5),
+      C(
+          "nees", [](const S& step) { return step.claim.belief ? step.nees : kNone; },
+          "squared normalised error, 3 degrees of freedom"),
+      C("mapped", &S::mapped, "the truth lies within 1 m of a mapped pose"),
+      C("time_ms", &S::time_ms, "CPU time")};
+  return kColumns;
+}
+
+const Columns<Wakeup>& runColumns()
+{
+  using C = Column<Wakeup>;
+  static const Columns<Wakeup> kColumns = {
+      C("start", &Wakeup::start, "step of the log, or number of the drive"),
+      C("group", &Wakeup::group, "kind of the simulated world"),
+      C("steps", [](const Wakeup& run) { return run.steps.size(); }),
+      C("right_at_end", &Wakeup::right_at_end),
+      C("settled_after_m,settled_after_s", ofEvent(&Wakeup::settled_after),
+        "empty where it never settles"),
+      C("wrong_steps", &Wakeup::wrong_steps, "off the mapped area too"),
+      C("wrong_episodes", &Wakeup::wrong_episodes, "unbroken stretches of them"),
+      C("noticed_after_m,noticed_after_s", ofEvent(&Wakeup::noticed_after), "after a kidnapping")};
+  return kColumns;
+}
 
 std::optional<std::size_t> judgedStep(const Wakeup& run)
 {
