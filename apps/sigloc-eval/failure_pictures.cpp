@@ -37,7 +37,7 @@ std::vector<std::string> titleOf(const FailedQuery& failure)
   if (record.error.distance >= 0)
   {
     second = fmt::format("off by {:.2f} m, {:.1f} deg; {}", record.error.distance,
-                         record.error.angle_deg, second);
+                         mrpt::RAD2DEG(record.error.angle), second);
   }
   std::string first =
       fmt::format("{}, query {}: {}", failure.method, failure.query.name, toString(record.verdict));

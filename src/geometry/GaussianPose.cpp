@@ -24,6 +24,12 @@ GaussianPose widened(const GaussianPose& pose, const MapErrorModel& error, doubl
 }
 }  // namespace
 
+PoseError errorBetween(const mrpt::math::TPose2D& pose, const mrpt::math::TPose2D& truth)
+{
+  return {std::hypot(pose.x - truth.x, pose.y - truth.y),
+          std::abs(mrpt::math::wrapToPi(pose.phi - truth.phi))};
+}
+
 GaussianPose composeWithMotion(const GaussianPose& map_from_previous,
                                const MotionIncrement& increment)
 {

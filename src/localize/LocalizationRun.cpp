@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sigloc/localize/LocalizationRun.h"
 
-#include <mrpt/core/bits_math.h>
 #include <mrpt/math/wrap2pi.h>
 
 #include <algorithm>
@@ -23,7 +22,6 @@ namespace sigloc
 namespace
 {
 namespace fs = std::filesystem;
-using mrpt::math::TPose2D;
 
 // What counts as right and as wrong is fixed, so that runs compare.
 constexpr double kRightDistance = 0.5;  // [m]
@@ -109,12 +107,6 @@ bool hasConverged(const StepRecord& step)
          errorBetween(pose.mean, *step.truth).distance < kConvergedDistance;
 }
 }  // namespace
-
-PoseError errorBetween(const TPose2D& pose, const TPose2D& truth)
-{
-  return {std::hypot(pose.x - truth.x, pose.y - truth.y),
-          std::abs(mrpt::math::wrapToPi(pose.phi - truth.phi))};
-}
 
 struct LocalizationRun::State
 {

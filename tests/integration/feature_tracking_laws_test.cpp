@@ -149,7 +149,7 @@ TEST(FeatureTracking, CovarianceIsHonestOnGatedDrives)
     {
       others << "drive " << run.start << " of " << run.steps.size() << " steps ends confident "
              << end.claim.confident << ", " << end.error.distance << " m and "
-             << end.error.angle_deg << " degrees off\n";
+             << mrpt::RAD2DEG(end.error.angle) << " degrees off\n";
       continue;
     }
     sum += end.nees;

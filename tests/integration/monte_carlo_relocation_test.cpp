@@ -56,7 +56,7 @@ TEST_F(MonteCarloRelocationTest, FindsARobotThatIsKnownToBeNear)
   {
     const RelocationResult found = localize(options, name);
     ASSERT_FALSE(found.candidates.empty());
-    EXPECT_TRUE(isRight(poseError(found.candidates.front().pose.mean, truth), {})) << name;
+    EXPECT_TRUE(isRight(errorBetween(found.candidates.front().pose.mean, truth), {})) << name;
     EXPECT_GE(found.counters.poses_scored, 40000U);
   }
 }

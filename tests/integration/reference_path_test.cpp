@@ -37,9 +37,9 @@ TEST(ReferencePath, FollowsTheTruthBackFromTheEnd)
   for (std::size_t i = 0; i < found.poses.size(); ++i)
   {
     const PoseError error =
-        poseError(found.poses[i].map_from_robot, *truth.at(i, found.poses[i].time));
+        errorBetween(found.poses[i].map_from_robot, *truth.at(i, found.poses[i].time));
     EXPECT_LT(error.distance, 0.1) << "step " << i;
-    EXPECT_LT(error.angle_deg, 2) << "step " << i;
+    EXPECT_LT(mrpt::RAD2DEG(error.angle), 2) << "step " << i;
   }
 
   const test::TemporaryFolder folder;

@@ -46,7 +46,7 @@ TEST(RelocationScoring, JudgesTheFirstCandidateAcrossTheHeadingsSeam)
   const auto answer = answerOf({{1.3, 2.4, -M_PI + 0.04}}, Verdict::localized);
   const auto record = judgeRelocation(query, answer, true, std::nullopt, {});
   EXPECT_NEAR(record.error.distance, 0.5, 1e-9);
-  EXPECT_NEAR(record.error.angle_deg, 0.05 / kDegree, 1e-6);
+  EXPECT_NEAR(record.error.angle, 0.05, 1e-8);
   EXPECT_EQ(record.rank_of_right, 1U);
   EXPECT_EQ(record.claim, Claim::right);
 }

@@ -3,6 +3,7 @@
 #include "eval/protocols/sweep.h"
 
 #include <gtest/gtest.h>
+#include <mrpt/core/bits_math.h>
 
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -78,9 +79,9 @@ TEST(Sweep, AsksEveryMethodTheSameQueriesAndEveryValueTheSamePlaces)
 TEST(Sweep, CountsEveryConfidentAnswerThatIsNotRightAsWrong)
 {
   const AccuracyGates gates = simulationGates();
-  EXPECT_EQ(judgeClaim(PoseError{0.4, 5}, gates), Claim::right);
-  EXPECT_EQ(judgeClaim(PoseError{0.6, 5}, gates), Claim::wrong);
-  EXPECT_EQ(judgeClaim(PoseError{0.1, 11}, gates), Claim::wrong);
+  EXPECT_EQ(judgeClaim(PoseError{0.4, mrpt::DEG2RAD(5.0)}, gates), Claim::right);
+  EXPECT_EQ(judgeClaim(PoseError{0.6, mrpt::DEG2RAD(5.0)}, gates), Claim::wrong);
+  EXPECT_EQ(judgeClaim(PoseError{0.1, mrpt::DEG2RAD(11.0)}, gates), Claim::wrong);
 }
 
 TEST(Sweep, KeepsTheFirstFailures)

@@ -5,6 +5,8 @@
 #include <mrpt/math/CMatrixFixed.h>
 #include <mrpt/math/TPose2D.h>
 
+#include <limits>
+
 namespace sigloc
 {
 /// A planar pose with its uncertainty. The mean is (x [m], y [m], phi [rad] in (-pi, pi]). The 3x3
@@ -22,6 +24,14 @@ struct MotionIncrement
   mrpt::math::TPose2D mean;
   mrpt::math::CMatrixDouble33 covariance;
 };
+
+/// How far a pose is from the truth; NaN where that is unknown.
+struct PoseError
+{
+  double distance = std::numeric_limits<double>::quiet_NaN();  ///< [m]
+  double angle = std::numeric_limits<double>::quiet_NaN();  ///< [rad], in [0, pi]
+};
+PoseError errorBetween(const mrpt::math::TPose2D& pose, const mrpt::math::TPose2D& truth);
 
 /// Returns `map_from_previous (+) increment` with first-order propagation of both covariances. The
 /// heading is wrapped. \cite algorithm eq. (8.1)

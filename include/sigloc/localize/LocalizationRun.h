@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -15,15 +14,6 @@
 
 namespace sigloc
 {
-/// How far a pose is from the truth.
-struct PoseError
-{
-  double distance = 0;  ///< [m]
-  double angle = 0;  ///< [rad], in [0, pi]
-};
-
-PoseError errorBetween(const mrpt::math::TPose2D& pose, const mrpt::math::TPose2D& truth);
-
 /// One step of a run: what is believed after it, how it compares with the truth, what it cost.
 struct StepRecord
 {

@@ -70,7 +70,7 @@ void GrowthMeter::ask(const FeatureHypothesisGenerator& generator, const GrowthS
   outcome.cut_short = counters_.cut_short > cut_before;
   outcome.right = !found.empty() && is_right(found.front());
   observed_ += static_cast<double>(scene.observed.size());
-  if (*outcome.right) outcome.error = poseError(found.front().pose.mean, scene.truth);
+  if (*outcome.right) outcome.error = errorBetween(found.front().pose.mean, scene.truth);
   if (!*outcome.right && row_.failures.size() < keep_failures_)
   {
     row_.failures.push_back(

@@ -79,7 +79,7 @@ ScaleRow runRow(const std::string& method, const std::vector<Place>& places, std
     const auto generator = meter.build(*scene.map, options.generator);
     meter.ask(*generator, scene,
               [&](const FeatureHypothesis& first)
-              { return isRight(poseError(first.pose.mean, place.truth), AccuracyGates{}); });
+              { return isRight(errorBetween(first.pose.mean, place.truth), AccuracyGates{}); });
   }
   return meter.row();
 }

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "eval/protocols/landmarks.h"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -92,7 +91,7 @@ Asked ask(const FeatureHypothesisGenerator& method, const LocalMap& local, std::
   record.answered = !asked.found.empty();
   record.truth_sure = data.steps[step].truth_sure;
   if (record.answered)
-    record.first_error = poseError(asked.found.front().pose.mean, data.steps[step].truth);
+    record.first_error = errorBetween(asked.found.front().pose.mean, data.steps[step].truth);
   record.right = record.answered && isRight(record.first_error, gatesOf(options.dataset));
   if (*record.right) record.error = record.first_error;
   record.saw_nothing = asked.features.empty();

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "eval/data/landmark_data.h"
 #include "eval/scoring/failed_queries.h"
 #include "eval/scoring/map_statistics.h"
 #include "eval/scoring/provenance.h"

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <mrpt/core/bits_math.h>
+
 #include "eval/process/cpu_time.h"
 #include "eval/protocols/landmarks.h"
 #include "eval/reports/query_plots.h"
@@ -74,7 +76,7 @@ Columns<LandmarkRecord> recordColumns()
           C("right", &R::right),
           C("truth_sure", &R::truth_sure),
           C("error_m", [](const R& r) { return r.first_error.distance; }),
-          C("error_deg", [](const R& r) { return r.first_error.angle_deg; }),
+          C("error_deg", [](const R& r) { return mrpt::RAD2DEG(r.first_error.angle); }),
           C("operations", &R::operations),
           C(
               "time_ms", [](const R& r) { return r.times_ms.front(); }, "", 4)};

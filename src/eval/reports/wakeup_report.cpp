@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/core.h>
+#include <mrpt/core/bits_math.h>
 
 #include <algorithm>
 #include <functional>
@@ -184,7 +185,7 @@ RelocationSummary endSummary(const WakeupMethodReport& method, const AccuracyGat
     outcome.inaccurate = last.judged == Claim::inaccurate;
     if (!judgedStep(run)) continue;
     outcome.right = isRight(last.error, gates);
-    outcome.tight = *outcome.right && last.error.angle_deg <= gates.tight_angle_deg;
+    outcome.tight = *outcome.right && mrpt::RAD2DEG(last.error.angle) <= gates.tight_angle_deg;
     if (*outcome.right) outcome.error = last.error;
   }
   return summary;

@@ -76,7 +76,7 @@ FailedQuery featureFailure(const std::string& name, std::shared_ptr<const Featur
     candidate.score = found[k].log_odds;
     failure.answer.candidates.push_back(candidate);
   }
-  if (!found.empty()) failure.record.error = poseError(found.front().pose.mean, truth);
+  if (!found.empty()) failure.record.error = errorBetween(found.front().pose.mean, truth);
   return failure;
 }
 }  // namespace sigloc

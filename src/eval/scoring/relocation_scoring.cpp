@@ -2,22 +2,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "eval/scoring/relocation_scoring.h"
 
-#include <mrpt/math/wrap2pi.h>
+#include <mrpt/core/bits_math.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <sstream>
 
 namespace sigloc
 {
+using mrpt::RAD2DEG;
 using mrpt::math::TPose2D;
 
 namespace
 {
 constexpr std::size_t kListedCandidates = 10;
 constexpr const char* kAddedLater = "cut_short";  // earlier versions did not write it
-
 }  // namespace
 
 const char* toString(Claim claim)
@@ -29,18 +28,15 @@ const char* toString(Claim claim)
 
 Written written(const PoseError& error, int decimals)
 {
-  return {{}, {fixedNumber(error.distance, decimals), fixedNumber(error.angle_deg, decimals - 1)}};
+  return {{},
+          {fixedNumber(error.distance, decimals), fixedNumber(RAD2DEG(error.angle), decimals - 1)}};
 }
 
 bool parse(const Cells& cells, PoseError& error)
 {
-  return parse({cells[0]}, error.distance) && parse({cells[1]}, error.angle_deg);
-}
-
-PoseError poseError(const TPose2D& pose, const TPose2D& truth)
-{
-  return {std::hypot(pose.x - truth.x, pose.y - truth.y),
-          std::abs(mrpt::math::angDistance(pose.phi, truth.phi)) * 180 / M_PI};
+  if (!parse({cells[0]}, error.distance) || !parse({cells[1]}, error.angle)) return false;
+  error.angle = mrpt::DEG2RAD(error.angle);
+  return true;
 }
 
 AccuracyGates simulationGates()
@@ -53,7 +49,7 @@ AccuracyGates simulationGates()
 
 bool isRight(const PoseError& error, const AccuracyGates& gates)
 {
-  return error.distance <= gates.right_distance && error.angle_deg <= gates.right_angle_deg;
+  return error.distance <= gates.right_distance && RAD2DEG(error.angle) <= gates.right_angle_deg;
 }
 
 Claim judgeClaim(const std::optional<PoseError>& error, const AccuracyGates& gates)
@@ -61,7 +57,7 @@ Claim judgeClaim(const std::optional<PoseError>& error, const AccuracyGates& gat
   if (!error) return Claim::wrong;
   if (isRight(*error, gates)) return Claim::right;
   const bool near =
-      error->distance <= gates.wrong_distance && error->angle_deg <= gates.wrong_angle_deg;
+      error->distance <= gates.wrong_distance && RAD2DEG(error->angle) <= gates.wrong_angle_deg;
   return near ? Claim::inaccurate : Claim::wrong;
 }
 
@@ -93,10 +89,10 @@ RelocationRecord judgeRelocation(const EvaluationQuery& query, const RelocationR
   {
     record.first = answer.candidates.front().pose.mean;
     record.first_score = answer.candidates.front().score;
-    if (query.truth) record.error = poseError(*record.first, *query.truth);
+    if (query.truth) record.error = errorBetween(*record.first, *query.truth);
   }
   const auto is_right = [&](const TPose2D& pose)
-  { return isRight(poseError(pose, *query.truth), gates); };
+  { return isRight(errorBetween(pose, *query.truth), gates); };
   if (query.truth)
   {
     const std::size_t listed = std::min(kListedCandidates, answer.candidates.size());

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,7 +10,8 @@
 #include "config/columns.h"
 #include "eval/data/csv_table.h"
 #include "eval/data/evaluation_data.h"
-#include "sigloc/matching/SignatureMatcher.h"
+#include "sigloc/geometry/GaussianPose.h"
+#include "sigloc/matching/RelocationResult.h"
 
 namespace sigloc
 {
@@ -41,14 +41,7 @@ enum class Claim : std::uint8_t
 };
 const char* toString(Claim claim);
 
-/// Distance and heading difference of a pose from the truth.
-struct PoseError
-{
-  double distance = std::numeric_limits<double>::quiet_NaN();  ///< [m]
-  double angle_deg = std::numeric_limits<double>::quiet_NaN();
-};
-PoseError poseError(const mrpt::math::TPose2D& pose, const mrpt::math::TPose2D& truth);
-/// Two cells of CSV, the heading with a digit less.
+/// Two cells of CSV: metres, and degrees with a digit less.
 Written written(const PoseError& error, int decimals);
 bool parse(const Cells& cells, PoseError& error);
 bool isRight(const PoseError& error, const AccuracyGates& gates);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "eval/scoring/relocation_summary.h"
 
+#include <mrpt/core/bits_math.h>
+
 namespace sigloc
 {
 namespace
@@ -63,7 +65,8 @@ void RelocationSummary::add(const RelocationRecord& record)
   outcome.times_ms = {record.time_ms};
   if (record.sawNothing() || !record.truth) return;
   outcome.right = record.rank_of_right == 1;
-  outcome.tight = *outcome.right && record.error.angle_deg <= AccuracyGates().tight_angle_deg;
+  outcome.tight =
+      *outcome.right && mrpt::RAD2DEG(record.error.angle) <= AccuracyGates().tight_angle_deg;
   outcome.among_ten = record.rank_of_right > 0;
   outcome.proposed = record.proposed;
   if (*outcome.right) outcome.error = record.error;
@@ -102,7 +105,8 @@ Columns<Summary> summaryColumns()
         part(&Quantiles::median, quantiles([](const O& o) { return o.error.distance; })),
         "of right first candidates", 3, {"error m"}, kCosts),
       C("median_error_deg",
-        part(&Quantiles::median, quantiles([](const O& o) { return o.error.angle_deg; })),
+        part(&Quantiles::median,
+             quantiles([](const O& o) { return mrpt::RAD2DEG(o.error.angle); })),
         "of right first candidates", 2, {"error deg"}, kCosts),
       C("poses_scored", quantiles(&O::poses_scored), "poses compared with the scan"),
       C("proposals", quantiles(&O::proposals), "poses proposed"),

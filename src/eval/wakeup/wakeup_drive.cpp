@@ -23,7 +23,7 @@ void judge(const WakeupDriveStep& step, bool foreign, const AccuracyGates& gates
     return;
   }
   if (!step.truth || !claim.has_pose) return;
-  record.error = poseError(claim.pose, *step.truth);
+  record.error = errorBetween(claim.pose, *step.truth);
   if (claim.confident) record.judged = judgeClaim(record.error, gates);
   if (claim.belief) record.nees = squaredNormalisedError(claim, *step.truth);
 }
