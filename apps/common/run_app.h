@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "sigloc/io/file_output.h"
-#include "sigloc/localize/LocalizationSetup.h"
 
 namespace sigloc
 {

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <iostream>
 #include <limits>
 #include <stdexcept>
@@ -26,9 +25,8 @@ constexpr double kFar = 1e7;  // [m], [deg]
 void CommonOptions::declareRunning(CLI::App& command)
 {
   command.add_option("--seed", seed, "of everything random")->capture_default_str();
-  command.add_option("--threads", threads, "queries asked at a time; each is timed on its own")
-      ->capture_default_str()
-      ->check(numberFrom(1, 256));
+  addNumber(command, "--threads", threads, "queries asked at a time; each is timed on its own", 1,
+            256);
   command.add_flag("--quiet", quiet, "no progress bar, no table");
   command
       .add_option("--out", out,
@@ -101,19 +99,6 @@ std::optional<PoseRegion> CommonOptions::poseRegion() const
   return prior;
 }
 
-CLI::Validator numberFrom(double low, double high)
-{
-  const std::string range = fmt::format("from {:g} to {:g}", low, high);
-  const auto check = [low, high, range](const std::string& input) -> std::string
-  {
-    char* end = nullptr;
-    const double value = std::strtod(input.c_str(), &end);
-    const bool whole = end != input.c_str() && *end == '\0';
-    return whole && value >= low && value <= high ? "" : input + ": not a number " + range;
-  };
-  return {check, range};
-}
-
 CLI::Option* addPoseOption(CLI::App& command, const std::string& name, std::vector<double>& values,
                            const std::string& description)
 {
@@ -145,7 +130,7 @@ int exitCode(bool complete, const std::filesystem::path& rawlog)
   return 2;
 }
 
-std::function<void(const std::string&, double)> progressBar(bool quiet)
+ShowProgress progressBar(bool quiet)
 {
   if (quiet || isatty(STDERR_FILENO) == 0) return {};
   return [](const std::string& what, double share)

@@ -3,15 +3,15 @@
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
-#include <CLI/CLI.hpp>
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "eval/process/run_parallel.h"
+#include "number_option.h"
 #include "sigloc/matching/SignatureMatcher.h"
 
 namespace sigloc
@@ -46,13 +46,18 @@ struct CommonOptions
   /// dense field: `has_field` is whether its maps have one.
   void checkDense(const std::vector<std::string>& methods_run, bool has_field) const;
 
+  /// Sets the methods, if any are named, the failures to keep and the command line.
+  template <class Options>
+  void passTo(Options& options, const std::string& command_line) const
+  {
+    if (!methods.empty()) options.methods = methods;
+    options.keep_failures = draw_failures;
+    options.command = command_line;
+  }
+
   /// The prior that --region and --heading give together.
   std::optional<PoseRegion> poseRegion() const;
 };
-
-/// Returns the check of an option that must be a number from `low` to `high`. Unlike CLI11's own
-/// check it refuses "nan", and a negative count that wraps around.
-CLI::Validator numberFrom(double low, double high);
 
 /// Adds an option "x,y,deg", a pose whose numbers are bounded.
 CLI::Option* addPoseOption(CLI::App& command, const std::string& name, std::vector<double>& values,
@@ -71,5 +76,5 @@ std::vector<std::filesystem::path> inputFiles(const std::filesystem::path& map,
 int exitCode(bool complete, const std::filesystem::path& rawlog);
 
 /// Returns a progress bar on stderr, or an empty function when it is no terminal or `quiet`.
-std::function<void(const std::string&, double)> progressBar(bool quiet);
+ShowProgress progressBar(bool quiet);
 }  // namespace sigloc

@@ -42,12 +42,10 @@ struct LandmarksFlags
   int run(const std::string& command_line)
   {
     checkReportFolder(common.out, {});
-    if (!common.methods.empty()) options.methods = common.methods;
+    common.passTo(options, command_line);
     options.first_half_map = map_part == "first-half";
     options.max_queries = common.max_queries;
-    options.keep_failures = common.draw_failures;
     options.seed = common.seed;
-    options.command = command_line;
     if (!common.quiet)
     {
       options.progress = [](const std::string& line) { std::cerr << line << "\n"; };
@@ -76,18 +74,13 @@ std::function<int()> setUpLandmarks(CLI::App& command, const std::string& comman
       ->delimiter(',');
   command.add_option("--map-part", flags->map_part, "dlr: map of the first half, or as given")
       ->check(CLI::IsMember({"first-half", "given"}));
-  command
-      .add_option("--visited-share", options.visited_share,
-                  "dlr: a query is a later visit when more than this share of its discs is mapped")
-      ->check(numberFrom(0, 1));
-  command
-      .add_option("--visited-distance", options.visited_distance,
-                  "dlr: and when a pose of the first half is so near, m")
-      ->check(numberFrom(1e-3, 1e3));
-  command.add_option("--max-travel", options.max_travel, "victoria-park: m, longest local map")
-      ->check(numberFrom(1e-3, 1e6));
-  command.add_option("--stride", options.query_stride, "every so many steps is a query")
-      ->check(numberFrom(1, 1e6));
+  addNumber(command, "--visited-share", options.visited_share,
+            "dlr: a query is a later visit when more than this share of its discs is mapped", 0, 1);
+  addNumber(command, "--visited-distance", options.visited_distance,
+            "dlr: and when a pose of the first half is so near, m", 1e-3, 1e3);
+  addNumber(command, "--max-travel", options.max_travel, "victoria-park: m, longest local map",
+            1e-3, 1e6);
+  addNumber(command, "--stride", options.query_stride, "every so many steps is a query", 1, 1e6);
   flags->common.declare(command, featureMethodNames());
   return [flags, command_line, &command]
   {

@@ -35,12 +35,8 @@ std::function<int()> setUpReliability(CLI::App& command, const std::string& comm
 {
   const auto flags = std::make_shared<ReliabilityFlags>();
   ReliabilityOptions& options = flags->options;
-  command.add_option("--worlds", options.worlds, "simulated buildings")
-      ->check(numberFrom(1, 1e6))
-      ->capture_default_str();
-  command.add_option("--poses", options.poses, "scans a building")
-      ->check(numberFrom(1, 1e6))
-      ->capture_default_str();
+  addNumber(command, "--worlds", options.worlds, "simulated buildings", 1, 1e6);
+  addNumber(command, "--poses", options.poses, "scans a building", 1, 1e6);
   command.add_option("--clutter", options.clutter, "shares of beams that end too early")
       ->delimiter(',')
       ->check(numberFrom(0, 1));

@@ -28,15 +28,13 @@ struct RelocateFlags
     options.sources = sources;
     options.sources.map_from_queries = poseOfFlag(map_from_queries);
     options.sources.max_queries = common.max_queries;
-    if (!common.methods.empty()) options.methods = common.methods;
+    common.passTo(options, command_line);
     common.checkDense(options.methods, true);
     options.method.region = common.poseRegion();
     options.method.use_dense_field = !common.no_dense;
     options.method.seed = common.seed;
     if (simulated) options.gates = simulationGates();
     options.threads = common.threads;
-    options.keep_failures = common.draw_failures;
-    options.command = command_line;
     options.progress = progressBar(common.quiet);
     const RelocateReport report = runRelocate(options);
     writeRelocateReport(report, common.out);

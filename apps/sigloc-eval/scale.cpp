@@ -32,11 +32,9 @@ struct ScaleFlags
       options.poses = std::min<std::size_t>(options.poses, common.max_queries);
       options.slow_poses = std::min<std::size_t>(options.slow_poses, common.max_queries);
     }
-    if (!common.methods.empty()) options.methods = common.methods;
-    options.keep_failures = common.draw_failures;
+    common.passTo(options, command_line);
     options.seed = common.seed;
     options.generator.seed = common.seed;
-    options.command = command_line;
     if (!common.quiet)
     {
       options.progress = [](const std::string& line) { std::cerr << line << "\n"; };
@@ -71,20 +69,16 @@ std::function<int()> setUpScale(CLI::App& command, const std::string& command_li
                   "counts that the observed features are thinned to, in the first map")
       ->check(numberFrom(1, kMostFeatures))
       ->delimiter(',');
-  command.add_option("--density", options.world.density, "features per m^2")
-      ->check(numberFrom(1e-3, 100));
-  command.add_option("--range", options.world.range, "m, within which features are seen")
-      ->check(numberFrom(0.1, 1000));
-  command.add_option("--noise", options.world.observation_sigma, "m, of the observations")
-      ->check(numberFrom(0, 10));
-  command.add_option("--spurious", options.world.spurious, "share of the observed features")
-      ->check(numberFrom(0, 0.95));
-  command.add_option("--poses", options.poses, "poses a row")->check(numberFrom(1, kMostPoses));
-  command
-      .add_option("--slow-poses", options.slow_poses, "poses a row of methods linear in the map")
-      ->check(numberFrom(1, kMostPoses));
-  command.add_option("--slow-limit", options.slow_limit, "largest map for those")
-      ->check(numberFrom(0, kMostFeatures));
+  addNumber(command, "--density", options.world.density, "features per m^2", 1e-3, 100);
+  addNumber(command, "--range", options.world.range, "m, within which features are seen", 0.1,
+            1000);
+  addNumber(command, "--noise", options.world.observation_sigma, "m, of the observations", 0, 10);
+  addNumber(command, "--spurious", options.world.spurious, "share of the observed features", 0,
+            0.95);
+  addNumber(command, "--poses", options.poses, "poses a row", 1, kMostPoses);
+  addNumber(command, "--slow-poses", options.slow_poses, "poses a row of methods linear in the map",
+            1, kMostPoses);
+  addNumber(command, "--slow-limit", options.slow_limit, "largest map for those", 0, kMostFeatures);
   CLI::Option* const dlr = command.add_option(
       "--dlr", options.dlr, "folder of the DLR log: growth on it, not in simulated worlds");
   command.add_option("--local-map-steps", options.local_map_steps, "on the log: of a local map")

@@ -24,7 +24,7 @@ struct SweepFlags
   {
     common.refusePrior("sweep");
     checkReportFolder(common.out, {});
-    if (!common.methods.empty()) options.methods = common.methods;
+    common.passTo(options, command_line);
     for (const std::string& world : worlds) options.worlds.push_back(worldKindFrom(world));
     common.checkDense(options.methods, true);
     options.use_dense_field = !common.no_dense;
@@ -34,8 +34,6 @@ struct SweepFlags
     }
     options.seed = common.seed;
     options.threads = common.threads;
-    options.keep_failures = common.draw_failures;
-    options.command = command_line;
     options.progress = progressBar(common.quiet);
     const SweepReport report = runSweep(options);
     writeSweepReport(report, common.out);
@@ -69,12 +67,8 @@ std::function<int()> setUpSweep(CLI::App& command, const std::string& command_li
   command.add_option("--world", flags->worlds, "kinds of world (default: where it matters)")
       ->delimiter(',')
       ->check(CLI::IsMember({"office", "corridor", "hall", "park"}));
-  command.add_option("--worlds-per-kind", options.worlds_per_kind, "worlds of each kind")
-      ->check(numberFrom(1, 1000))
-      ->capture_default_str();
-  command.add_option("--queries", options.queries_per_world, "robots asked in each world")
-      ->check(numberFrom(1, 1e6))
-      ->capture_default_str();
+  addNumber(command, "--worlds-per-kind", options.worlds_per_kind, "worlds of each kind", 1, 1000);
+  addNumber(command, "--queries", options.queries_per_world, "robots asked in each world", 1, 1e6);
   flags->common.declare(command, relocationMethodNames());
   return [flags, command_line] { return flags->run(command_line); };
 }

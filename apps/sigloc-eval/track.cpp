@@ -77,15 +77,13 @@ struct TrackFlags
     }
     options.map_from_truth = poseOfFlag(map_from_truth);
     if (landmarks) options.methods = {"signature"};
-    if (!common.methods.empty()) options.methods = common.methods;
+    common.passTo(options, command_line);
     checkUse(options.methods, landmarks);
-    options.keep_failures = common.draw_failures;
     options.method.seed = common.seed;
     options.method.region = common.poseRegion();
     options.method.use_dense_field = !common.no_dense;
     if (common.max_queries > 0) options.starts = std::min(options.starts, common.max_queries);
     options.threads = common.threads;
-    options.command = command_line;
     options.progress = progressBar(common.quiet);
     return runWakeups(options);
   }
@@ -96,19 +94,17 @@ struct TrackFlags
     simulated.travel = options.travel;
     simulated.kidnap = options.kidnap;
     simulated.foreign = options.foreign;
-    if (!common.methods.empty()) simulated.methods = common.methods;
+    common.passTo(simulated, command_line);
     checkUse(simulated.methods,
              !simulated.kinds.empty() &&
                  std::all_of(simulated.kinds.begin(), simulated.kinds.end(),
                              [](WorldKind kind) { return kind == WorldKind::points; }));
-    simulated.keep_failures = common.draw_failures;
     simulated.method.seed = common.seed;
     simulated.method.particles = options.method.particles;
     simulated.method.region = common.poseRegion();
     simulated.method.use_dense_field = !common.no_dense;
     if (common.max_queries > 0) simulated.drives = std::min(simulated.drives, common.max_queries);
     simulated.threads = common.threads;
-    simulated.command = command_line;
     simulated.progress = progressBar(common.quiet);
     return runSimulatedTrack(simulated);
   }
@@ -142,20 +138,14 @@ void declareSimulation(CLI::App& command, TrackFlags& flags)
       ->capture_default_str();
   command.add_option("--worlds", flags.worlds, "office,corridor,hall,park,points: kinds, in turn")
       ->delimiter(',');
-  command.add_option("--clutter", options.clutter_share, "share of beams that end too early")
-      ->check(numberFrom(0, 1))
-      ->capture_default_str();
-  command.add_option("--moved-share", options.moved_share, "share of furniture moved since mapped")
-      ->check(numberFrom(0, 1))
-      ->capture_default_str();
+  addNumber(command, "--clutter", options.clutter_share, "share of beams that end too early", 0, 1);
+  addNumber(command, "--moved-share", options.moved_share, "share of furniture moved since mapped",
+            0, 1);
   command.add_option("--unmapped", options.extra_items, "pieces of furniture added since mapped")
       ->capture_default_str();
-  command.add_option("--mapped-share", options.mapped_share, "share of the world that is mapped")
-      ->check(numberFrom(1e-3, 1))
-      ->capture_default_str();
-  command.add_option("--map-sigma", options.map_sigma, "[m] error common to all of a map")
-      ->check(numberFrom(0, 100))
-      ->capture_default_str();
+  addNumber(command, "--mapped-share", options.mapped_share, "share of the world that is mapped",
+            1e-3, 1);
+  addNumber(command, "--map-sigma", options.map_sigma, "[m] error common to all of a map", 0, 100);
   command.add_flag("!--no-odometry", options.odometry, "scans alone");
   simulate->group(group);
   for (const char* of_simulations :
@@ -182,15 +172,11 @@ std::function<int()> setUpTrack(CLI::App& command, const std::string& command_li
       .add_option("--starts", options.starts,
                   "places to wake up at, spaced along the drive; more than it has are refused")
       ->capture_default_str();
-  command.add_option("--travel", options.travel, "[m] driven after each")
-      ->check(numberFrom(0, 1e6))
-      ->capture_default_str();
+  addNumber(command, "--travel", options.travel, "[m] driven after each", 0, 1e6);
   command.add_option("--start-from", options.start_from,
                      "simplemap: wake up only where its key frames were taken");
-  command
-      .add_option("--particles", options.method.particles,
-                  "of the particle filters, instead of their own number")
-      ->check(numberFrom(1, kMostParticles));
+  addNumber(command, "--particles", options.method.particles,
+            "of the particle filters, instead of their own number", 1, kMostParticles);
   command.add_flag("--foreign", options.foreign,
                    "the map is of another place: every claim is wrong, and no truth is read");
   command.add_flag("--kidnap", options.kidnap, "half-way, carry the robot to another start");

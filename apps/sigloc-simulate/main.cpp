@@ -8,7 +8,6 @@
 #include <functional>
 #include <limits>
 #include <map>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -17,6 +16,7 @@
 #include "eval/worlds/robot_simulation.h"
 #include "eval/worlds/simulation_files.h"
 #include "eval/worlds/world_generators.h"
+#include "number_option.h"
 #include "run_app.h"
 #include "sigloc/config/option_fields.h"
 
@@ -81,21 +81,6 @@ struct Settings
   }
 };
 
-/// Refuses what is no number of the type T within a range, both ends included.
-template <class T>
-CLI::Validator numberFrom(T low, T high)
-{
-  namespace text = sigloc::detail;
-  const auto check = [low, high](const std::string& given) -> std::string
-  {
-    const std::optional<T> value = text::parseValue<T>(given);
-    if (value && *value >= low && *value <= high) return "";
-    return given + ": not a number from " + text::formatValue(low) + " to " +
-           text::formatValue(high);
-  };
-  return {check, ""};
-}
-
 /// Adds one flag for each field of an options table, named after its key: range_sigma becomes
 /// --range-sigma. Short names that people type are given as aliases. Returns the options by key.
 template <class Options>
@@ -111,10 +96,11 @@ std::map<std::string, const CLI::Option*> addFlags(
         std::replace(name.begin(), name.end(), '_', '-');
         const auto alias = aliases.find(field.key);
         if (alias != aliases.end()) name = alias->second + "," + name;
-        added[field.key] = app.add_option(name, options.*(field.member), field.description)
-                               ->check(numberFrom(field.minimum, field.maximum))
-                               ->group(group)
-                               ->capture_default_str();
+        added[field.key] =
+            app.add_option(name, options.*(field.member), field.description)
+                ->check(sigloc::numberFrom<decltype(field.minimum)>(field.minimum, field.maximum))
+                ->group(group)
+                ->capture_default_str();
       });
   return added;
 }
@@ -140,7 +126,8 @@ void describeOptions(CLI::App& app, Settings& settings)
   app.add_option("--world", settings.world, "office, corridor, hall, park or points")
       ->check(CLI::IsMember({"office", "corridor", "hall", "park", "points"}))
       ->capture_default_str();
-  const auto is_seed = numberFrom(std::uint64_t{0}, std::numeric_limits<std::uint64_t>::max());
+  const auto is_seed =
+      sigloc::numberFrom<std::uint64_t>(0, std::numeric_limits<std::uint64_t>::max());
   app.add_option("--seed", settings.seed, "of the world and, by default, of the drive")
       ->check(is_seed)
       ->capture_default_str();

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <fmt/core.h>
 #include <mrpt/math/TPose2D.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -15,11 +17,17 @@
 #include <utility>
 #include <vector>
 
-#include "config/fixed_number.h"
 #include "sigloc/config/option_fields.h"
 
 namespace sigloc
 {
+/// A number in fixed notation, spelled alike in every locale; an empty string for NaN, so that a
+/// cell of a table stays empty.
+inline std::string fixedNumber(double value, int decimals)
+{
+  return std::isnan(value) ? "" : fmt::format("{:.{}f}", value, decimals);
+}
+
 /// Cells of a row, as text.
 using Cells = std::vector<std::string>;
 

@@ -15,7 +15,6 @@
 namespace sigloc
 {
 using mrpt::math::TPoint2D;
-using mrpt::math::TPose2D;
 
 namespace
 {
@@ -353,7 +352,7 @@ FeatureExtractorOptions thresholdsFor(double range_sigma, FeatureExtractorOption
 }
 }  // namespace
 
-void appendScan(ScanPoints scan, const TPose2D& robot_from_sensor, double range_sigma,
+void appendScan(ScanPoints scan, const mrpt::math::TPose2D& robot_from_sensor, double range_sigma,
                 const FeatureExtractorOptions& configured, ObservedScene& scene)
 {
   const FeatureExtractorOptions options = thresholdsFor(range_sigma, configured);

@@ -3,17 +3,10 @@
 #include "geometry/chi_square.h"
 
 #include <boost/math/distributions/chi_squared.hpp>
-#include <cmath>
 #include <stdexcept>
 
 namespace sigloc
 {
-double logGamma(double x)
-{
-  int sign = 0;
-  return lgamma_r(x, &sign);
-}
-
 double chiSquareGate(double probability, int degrees)
 {
   if (!(probability > 0) || !(probability < 1) || degrees < 1)

@@ -6,10 +6,6 @@
 
 namespace sigloc
 {
-/// Returns the logarithm of the gamma function of `x` > 0. Unlike std::lgamma it writes no global
-/// variable, so it may run in several threads.
-double logGamma(double x);
-
 /// Returns the value below which a chi-square variable stays with the given probability.
 /// Throws std::invalid_argument unless 0 < probability < 1 and degrees >= 1.
 double chiSquareGate(double probability, int degrees);

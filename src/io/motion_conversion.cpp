@@ -15,7 +15,6 @@ namespace sigloc::detail
 {
 using mrpt::math::CMatrixDouble33;
 using mrpt::poses::CPose2D;
-using mrpt::poses::CPosePDF;
 using mrpt::poses::CPosePDFGaussian;
 
 namespace

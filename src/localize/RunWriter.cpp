@@ -2,18 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sigloc/localize/RunWriter.h"
 
+#include <fmt/core.h>
 #include <mrpt/core/bits_math.h>
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/opengl/COpenGLScene.h>
 #include <mrpt/serialization/CArchive.h>
 
 #include <cmath>
-#include <iomanip>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "config/columns.h"
-#include "config/TextStream.h"
 #include "localize/pf_localization_files.h"
 #include "localize/run_folder.h"
 #include "sigloc/io/file_output.h"
@@ -24,23 +22,20 @@ namespace sigloc
 namespace
 {
 namespace fs = std::filesystem;
-using nlohmann::ordered_json;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 std::string pathRows(const std::vector<StepRecord>& steps)
 {
-  TextStream file;
-  file << "# time x y z qx qy qz qw: first hypothesis of each step, map frame\n" << std::fixed;
+  std::string rows = "# time x y z qx qy qz qw: first hypothesis of each step, map frame\n";
   for (const StepRecord& step : steps)
   {
     if (step.belief.hypotheses.empty()) continue;
     const mrpt::math::TPose2D& pose = step.belief.hypotheses.front().pose.mean;
-    file << std::setprecision(6) << step.time << ' ' << pose.x << ' ' << pose.y << " 0 0 0 "
-         << std::setprecision(9) << std::sin(0.5 * pose.phi) << ' ' << std::cos(0.5 * pose.phi)
-         << '\n';
+    rows += fmt::format("{:.6f} {:.6f} {:.6f} 0 0 0 {:.9f} {:.9f}\n", step.time, pose.x, pose.y,
+                        std::sin(0.5 * pose.phi), std::cos(0.5 * pose.phi));
   }
-  return file.str();
+  return rows;
 }
 
 /// The first hypothesis and its standard deviations.
@@ -72,23 +67,24 @@ Columns<StepRecord> stepColumns()
 {
   using S = StepRecord;
   using C = Column<S>;
-  return {C("step", &S::number),
-          C("time", &S::time, "[s]", 6),
-          C("travelled_m", &S::travelled, "", 6),
-          C("verdict", [](const S& step) { return step.belief.verdict; }),
-          C(
-              "probability", [](const S& step) { return step.belief.probability; }, "", 6),
-          C(
-              "reliability", [](const S& step) { return step.belief.reliability; }, "", 6),
-          C("hypotheses", [](const S& step) { return step.belief.hypotheses.size(); }),
-          C(
-              "elsewhere", [](const S& step) { return step.belief.elsewhere; }, "", 6),
-          C("relocated", &S::relocated),
-          C("x,y,phi_deg,sd_x,sd_y,sd_phi_deg", firstPose),
-          C("error_m,error_deg,any_right,confidently_wrong", judgement),
-          C("extraction_ms", &S::extraction_ms, "", 6),
-          C("tracking_ms", &S::tracking_ms, "", 6),
-          C("reason", [](const S& step) { return ordered_json(step.belief.reason).dump(); })};
+  return {
+      C("step", &S::number),
+      C("time", &S::time, "[s]", 6),
+      C("travelled_m", &S::travelled, "", 6),
+      C("verdict", [](const S& step) { return step.belief.verdict; }),
+      C(
+          "probability", [](const S& step) { return step.belief.probability; }, "", 6),
+      C(
+          "reliability", [](const S& step) { return step.belief.reliability; }, "", 6),
+      C("hypotheses", [](const S& step) { return step.belief.hypotheses.size(); }),
+      C(
+          "elsewhere", [](const S& step) { return step.belief.elsewhere; }, "", 6),
+      C("relocated", &S::relocated),
+      C("x,y,phi_deg,sd_x,sd_y,sd_phi_deg", firstPose),
+      C("error_m,error_deg,any_right,confidently_wrong", judgement),
+      C("extraction_ms", &S::extraction_ms, "", 6),
+      C("tracking_ms", &S::tracking_ms, "", 6),
+      C("reason", [](const S& step) { return nlohmann::ordered_json(step.belief.reason).dump(); })};
 }
 
 /// What summary.json is made of.
@@ -130,16 +126,15 @@ Columns<Figures> summaryColumns()
 /// Rows `weight x y phi C11 C22 C33 C12 C13 C23`, as MRPT writes them.
 std::string modeRows(const mrpt::poses::CPosePDFSOG& sum)
 {
-  TextStream rows;
-  rows << std::scientific;
+  std::string rows;
   for (const auto& mode : sum)
   {
     const auto& c = mode.cov;
-    rows << std::exp(mode.log_w) << ' ' << mode.mean.x() << ' ' << mode.mean.y() << ' '
-         << mode.mean.phi() << ' ' << c(0, 0) << ' ' << c(1, 1) << ' ' << c(2, 2) << ' ' << c(0, 1)
-         << ' ' << c(0, 2) << ' ' << c(1, 2) << '\n';
+    rows += fmt::format("{:e} {:e} {:e} {:e} {:e} {:e} {:e} {:e} {:e} {:e}\n", std::exp(mode.log_w),
+                        mode.mean.x(), mode.mean.y(), mode.mean.phi(), c(0, 0), c(1, 1), c(2, 2),
+                        c(0, 1), c(0, 2), c(1, 2));
   }
-  return rows.str();
+  return rows;
 }
 
 /// An object as MRPT stores it in a file that is not compressed.

@@ -15,10 +15,9 @@ namespace sigloc
 namespace
 {
 using mrpt::serialization::CArchive;
-using mrpt::serialization::CSerializable;
 
 /// Returns the log's next object, or null at its end or where it cannot be read any further.
-CSerializable::Ptr nextObject(detail::GzipInput& input)
+mrpt::serialization::CSerializable::Ptr nextObject(detail::GzipInput& input)
 {
   try
   {

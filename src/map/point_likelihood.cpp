@@ -4,7 +4,6 @@
 
 #include "map/NearestFeature.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace sigloc

@@ -2,10 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sigloc/matching/SignatureMatcher.h"
 
-#include <mrpt/math/wrap2pi.h>
-
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
 #include "geometry/same_place.h"

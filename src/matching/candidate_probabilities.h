@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "matching/dense/DenseVerifier.h"
+#include "matching/dense/DenseEvidence.h"
 #include "sigloc/matching/SignatureMatcher.h"
 
 namespace sigloc

@@ -8,7 +8,6 @@
 #include <memory>
 #include <optional>
 
-#include "sigloc/config/option_fields.h"
 #include "sigloc/io/RawlogReader.h"
 #include "sigloc/plugin/SignatureMap.h"
 #include "sigloc/plugin/SignatureMonteCarlo2D.h"

@@ -7,7 +7,6 @@
 #include <mrpt/serialization/CArchive.h>
 
 #include <algorithm>
-#include <sstream>
 
 #include "io/options_archive.h"
 #include "plugin/map_builder_archive.h"

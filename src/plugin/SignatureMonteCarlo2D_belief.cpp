@@ -20,7 +20,6 @@
 namespace sigloc
 {
 using mrpt::math::TPose2D;
-using mrpt::math::wrapToPi;
 
 namespace
 {

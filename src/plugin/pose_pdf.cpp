@@ -15,7 +15,6 @@
 
 namespace sigloc
 {
-using mrpt::poses::CPose2D;
 
 namespace
 {
@@ -36,7 +35,7 @@ std::vector<double> normalizedWeights(const Belief& belief)
   return weights;
 }
 
-CPose2D toPose(const mrpt::math::TPose2D& pose)
+mrpt::poses::CPose2D toPose(const mrpt::math::TPose2D& pose)
 {
   return {pose.x, pose.y, mrpt::math::wrapToPi(pose.phi)};
 }

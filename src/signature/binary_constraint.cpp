@@ -275,18 +275,4 @@ bool binaryCompatible(const DirectedFeature& observed_first, const DirectedFeatu
   return bearingsAgree(observed_first, observed_second, mapped_first, mapped_second, error,
                        gates.scalar);
 }
-
-int sideOf(const Feature& a, const Feature& b, const Feature& c, double gate)
-{
-  const TPoint2D base = b.position - a.position;
-  const double length = std::hypot(base.x, base.y);
-  if (!(length > 0)) return 0;
-  const TPoint2D across{-base.y / length, base.x / length};
-  const double height = dot(c.position - a.position, across);
-  const double along = dot(c.position - a.position, base) / (length * length);
-  const double variance = varianceAlong(c, across) + square(1 - along) * varianceAlong(a, across) +
-                          square(along) * varianceAlong(b, across) + kRoundingVariance;
-  if (square(height) <= gate * variance) return 0;
-  return height > 0 ? 1 : -1;
-}
 }  // namespace sigloc

@@ -31,11 +31,6 @@ bool binaryCompatible(const DirectedFeature& observed_first, const DirectedFeatu
                       const DirectedFeature& mapped_first, const DirectedFeature& mapped_second,
                       const MapErrorModel& error, const BinaryGates& gates);
 
-/// Returns the side of the directed line from `a` to `b` on which `c` lies: +1 left, -1 right, 0
-/// when it is within the gate of the line. This separates mirror images, which distances do not.
-/// \cite algorithm eq. (3.8)
-int sideOf(const Feature& a, const Feature& b, const Feature& c, double gate);
-
 /// |sin| of the angle between two lines below which they count as parallel.
 constexpr double kParallelSine = 0.3;
 }  // namespace sigloc

@@ -7,7 +7,6 @@
 
 #include <mrpt/math/wrap2pi.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace sigloc

@@ -3,11 +3,8 @@
 #include "sigloc/tracking/HypothesisTracker.h"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
-#include <vector>
 
-#include "geometry/pose_fusion.h"
 #include "matching/candidate_probabilities.h"
 #include "matching/dense/DenseVerifier.h"
 #include "tracking/belief_verdict.h"

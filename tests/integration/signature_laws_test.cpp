@@ -82,23 +82,6 @@ TEST(BinaryConstraint, RightPairsPassTheGatesAsOftenAsTheySay)
   EXPECT_GT(passed, 0.98 * tried);
 }
 
-TEST(BinaryConstraint, ChiralTriplesNeverPairWithTheirMirrorImage)
-{
-  Random random(3);
-  const double gate = chiSquareGate(0.995, 1);
-  int told = 0;
-  for (int round = 0; round < 500; ++round)
-  {
-    const FeatureWorld world = makeFeatureWorld(3, {}, random);
-    const std::vector<Feature> image = mirrored(world.mapped);
-    const int side = sideOf(world.mapped[0], world.mapped[1], world.mapped[2], gate);
-    const int mirror = sideOf(image[0], image[1], image[2], gate);
-    EXPECT_EQ(side, -mirror);
-    told += side != 0;
-  }
-  EXPECT_GT(told, 400);
-}
-
 TEST(UnaryConstraint, TypesLabelsAndSizes)
 {
   Feature wall;

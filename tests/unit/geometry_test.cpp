@@ -20,13 +20,6 @@ GaussianPose examplePose()
   return pose;
 }
 
-TEST(LogGamma, IsTheLogarithmOfFactorials)
-{
-  EXPECT_NEAR(logGamma(1), 0, 1e-15);
-  EXPECT_NEAR(logGamma(6), std::log(120), 1e-12);
-  EXPECT_NEAR(logGamma(0.5), 0.5 * std::log(M_PI), 1e-12);
-}
-
 TEST(ChiSquare, MatchesTables)
 {
   EXPECT_NEAR(chiSquareGate(0.95, 1), 3.841459, 1e-5);

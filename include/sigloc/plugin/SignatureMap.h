@@ -8,7 +8,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "sigloc/map/FeatureMap.h"
 #include "sigloc/map/map_building.h"

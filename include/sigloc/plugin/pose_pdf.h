@@ -10,7 +10,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "sigloc/matching/SignatureMatcher.h"
 #include "sigloc/tracking/Belief.h"
 
 namespace sigloc

@@ -5,7 +5,6 @@
 #include <mrpt/math/TPose2D.h>
 
 #include <filesystem>
-#include <string>
 #include <vector>
 
 #include "sigloc/features/Feature.h"

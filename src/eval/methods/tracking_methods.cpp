@@ -2,13 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <limits>
-#include <stdexcept>
 
 #include "eval/data/method_names.h"
 #include "eval/methods/TrackingMethod.h"
 #include "eval/process/cpu_time.h"
 #include "plugin/ParticleTracker.h"
-#include "sigloc/features/observe_scans.h"
 #include "sigloc/tracking/HypothesisTracker.h"
 
 namespace sigloc

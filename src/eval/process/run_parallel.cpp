@@ -12,9 +12,11 @@
 namespace sigloc
 {
 void runParallel(std::size_t count, std::size_t threads,
-                 const std::function<void(std::size_t)>& work)
+                 const std::function<void(std::size_t)>& work, const std::string& what,
+                 const ShowProgress& progress)
 {
   std::atomic<std::size_t> next{0};
+  std::size_t done = 0;
   std::exception_ptr failure;
   std::mutex mutex;
   const auto worker = [&]
@@ -24,6 +26,9 @@ void runParallel(std::size_t count, std::size_t threads,
       try
       {
         work(i);
+        const std::lock_guard<std::mutex> lock(mutex);
+        ++done;
+        if (progress) progress(what, static_cast<double>(done) / static_cast<double>(count));
       }
       catch (...)
       {

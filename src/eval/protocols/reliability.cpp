@@ -6,16 +6,13 @@
 #include <mrpt/obs/CObservation2DRangeScanWithUncertainty.h>
 #include <mrpt/poses/CPosePDFGaussian.h>
 
-#include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <mutex>
 #include <optional>
 #include <stdexcept>
 
 #include "eval/data/evaluation_data.h"
 #include "eval/data/occupancy_grid.h"
-#include "eval/process/run_parallel.h"
 #include "eval/worlds/robot_simulation.h"
 #include "eval/worlds/simulation_files.h"
 #include "eval/worlds/world_generators.h"
@@ -86,7 +83,7 @@ std::optional<std::pair<ReliabilityCase, ReliabilityCase>> MappedWorld::ask(doub
   std::vector<TPose2D> look_alikes;
   for (const Candidate& candidate : matcher_.localize(scene).candidates)
   {
-    const PoseError error = poseError(candidate.pose.mean, truth);
+    const PoseError error = errorBetween(candidate.pose.mean, truth);
     if (judgeClaim(error, {}) == Claim::wrong) look_alikes.push_back(candidate.pose.mean);
   }
   const std::size_t chosen = look_alikes.empty() ? 0 : random_.index(look_alikes.size());
@@ -105,7 +102,7 @@ ReliabilityCase MappedWorld::judge(const LaserScan& scan, const DenseScan& dense
 {
   const DenseVerifier& verifier = *matcher_.verifier();
   ReliabilityCase judged;
-  judged.error = poseError(pose, truth);
+  judged.error = errorBetween(pose, truth);
   judged.signature = reliabilityOf(verifier.evaluate(dense, pose));
   judged.mrpt = mrptsMeasure(
       scan, withCommonError({pose, verifier.covarianceAt(dense, pose)}, map_.features->error()));
@@ -141,28 +138,25 @@ ReliabilityReport runReliability(const ReliabilityOptions& options)
   constexpr WorldKind kKinds[] = {WorldKind::office, WorldKind::corridor, WorldKind::hall};
   std::vector<std::vector<ReliabilityCase>> of_world(options.worlds);
   std::atomic<std::size_t> skipped{0};
-  std::atomic<std::size_t> done{0};
-  std::mutex mutex;
-  runParallel(options.worlds, options.threads,
-              [&](std::size_t i)
-              {
-                MappedWorld world(kKinds[i % std::size(kKinds)], options.seed * 1000003U + i);
-                for (const double clutter : options.clutter)
-                {
-                  for (std::uint32_t k = 0; k < options.poses; ++k)
-                  {
-                    const auto pair = world.ask(clutter);
-                    if (!pair) ++skipped;
-                    if (!pair) continue;
-                    of_world[i].push_back(pair->first);
-                    of_world[i].push_back(pair->second);
-                  }
-                }
-                for (ReliabilityCase& judged : of_world[i]) judged.world = i;
-                const double share = static_cast<double>(++done) / options.worlds;
-                const std::lock_guard<std::mutex> lock(mutex);
-                if (options.progress) options.progress("worlds", share);
-              });
+  runParallel(
+      options.worlds, options.threads,
+      [&](std::size_t i)
+      {
+        MappedWorld world(kKinds[i % std::size(kKinds)], options.seed * 1000003U + i);
+        for (const double clutter : options.clutter)
+        {
+          for (std::uint32_t k = 0; k < options.poses; ++k)
+          {
+            const auto pair = world.ask(clutter);
+            if (!pair) ++skipped;
+            if (!pair) continue;
+            of_world[i].push_back(pair->first);
+            of_world[i].push_back(pair->second);
+          }
+        }
+        for (ReliabilityCase& judged : of_world[i]) judged.world = i;
+      },
+      "worlds", options.progress);
   ReliabilityReport report;
   for (const auto& cases : of_world)
   {

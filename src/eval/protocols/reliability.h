@@ -4,10 +4,10 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
+#include "eval/process/run_parallel.h"
 #include "eval/scoring/provenance.h"
 #include "eval/scoring/relocation_scoring.h"
 
@@ -24,7 +24,7 @@ struct ReliabilityOptions
   std::uint32_t seed = 1;
   std::uint32_t threads = 1;  ///< worlds at a time
   std::string command;
-  std::function<void(const std::string& what, double share)> progress;
+  ShowProgress progress;
 };
 
 /// One scan judged at one pose.

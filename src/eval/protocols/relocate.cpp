@@ -2,14 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "eval/protocols/relocate.h"
 
-#include <algorithm>
 #include <limits>
-#include <mutex>
-#include <stdexcept>
 
 #include "eval/data/method_names.h"
 #include "eval/process/cpu_time.h"
-#include "eval/process/run_parallel.h"
 
 namespace sigloc
 {
@@ -36,12 +32,8 @@ RelocateMethodReport runMethod(const std::string& name, const EvaluationData& da
   const double before = threadCpuSeconds();
   const auto method = makeRelocationMethod(name, data.map, options.method);
   report.prepare_seconds = threadCpuSeconds() - before;
-  const auto done = [&](std::size_t count)
-  {
-    if (!options.progress) return;
-    options.progress(name, static_cast<double>(count) / static_cast<double>(data.queries.size()));
-  };
-  report.records = askQueries(*method, data.queries, options.gates, options.threads, done);
+  report.records =
+      askQueries(*method, data.queries, options.gates, options.threads, name, options.progress);
   report.ns_per_lookup = nsPerLookup(*method, report.records);
   report.peak_rss_mb = peakMemoryMb();
   report.failures =
@@ -53,11 +45,9 @@ RelocateMethodReport runMethod(const std::string& name, const EvaluationData& da
 std::vector<RelocationRecord> askQueries(const RelocationMethod& method,
                                          const std::vector<EvaluationQuery>& queries,
                                          const AccuracyGates& gates, std::uint32_t threads,
-                                         const std::function<void(std::size_t)>& done)
+                                         const std::string& what, const ShowProgress& progress)
 {
   std::vector<RelocationRecord> records(queries.size());
-  std::size_t answered = 0;
-  std::mutex mutex;
   const auto ask = [&](std::size_t i)
   {
     const EvaluationQuery& query = queries[i];
@@ -67,10 +57,8 @@ std::vector<RelocationRecord> askQueries(const RelocationMethod& method,
     records[i] =
         judgeRelocation(query, answer, method.claimsVerdict(), method.propose(query.scans), gates);
     records[i].time_ms = 1e3 * time;
-    const std::lock_guard<std::mutex> lock(mutex);
-    done(++answered);
   };
-  runParallel(queries.size(), threads, ask);
+  runParallel(queries.size(), threads, ask, what, progress);
   return records;
 }
 

@@ -3,11 +3,11 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "eval/methods/RelocationMethod.h"
+#include "eval/process/run_parallel.h"
 #include "eval/scoring/failed_queries.h"
 #include "eval/scoring/map_statistics.h"
 #include "eval/scoring/provenance.h"
@@ -26,7 +26,7 @@ struct RelocateOptions
   std::size_t keep_failures = 0;  ///< how many failed queries of each method the report keeps
   std::string command;  ///< for the report
   /// Called now and then with the method and the share of its queries that are done.
-  std::function<void(const std::string& method, double share)> progress;
+  ShowProgress progress;
 };
 
 struct RelocateMethodReport
@@ -50,11 +50,11 @@ struct RelocateReport
 };
 
 /// Asks one method every query, on up to `threads` threads, and judges the answers; each query is
-/// timed on its own. `done` is called after each with the number answered so far.
+/// timed on its own. `progress` is told after each, `what` being the name of it all.
 std::vector<RelocationRecord> askQueries(const RelocationMethod& method,
                                          const std::vector<EvaluationQuery>& queries,
                                          const AccuracyGates& gates, std::uint32_t threads,
-                                         const std::function<void(std::size_t)>& done);
+                                         const std::string& what, const ShowProgress& progress);
 
 /// Throws std::invalid_argument for an empty list or a name that is no method of relocation.
 void checkRelocationMethods(const std::vector<std::string>& names);

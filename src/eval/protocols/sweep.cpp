@@ -225,15 +225,13 @@ class WorldRun
     const double method_share = share / static_cast<double>(methods_.size());
     for (std::size_t k = 0; k < methods_.size(); ++k)
     {
-      const auto done = [&](std::size_t count)
+      const auto progress = [&](const std::string& world, double asked)
       {
         if (!options_.progress) return;
-        const double within = static_cast<double>(k) +
-                              static_cast<double>(count) / static_cast<double>(queries.size());
-        options_.progress(name.text(), share_before + method_share * within);
+        options_.progress(world, share_before + method_share * (static_cast<double>(k) + asked));
       };
-      const auto records =
-          askQueries(*methods_[k], queries, simulationGates(), options_.threads, done);
+      const auto records = askQueries(*methods_[k], queries, simulationGates(), options_.threads,
+                                      name.text(), progress);
       SweepRow& row = report_.rows[value * methods_.size() + k];
       for (const RelocationRecord& record : records) row.records.push_back({name.text(), record});
       auto failures = collectFailures(row.method, *methods_[k], map_, queries, records,

@@ -3,11 +3,10 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
-#include "eval/methods/RelocationMethod.h"
+#include "eval/process/run_parallel.h"
 #include "eval/scoring/failed_queries.h"
 #include "eval/scoring/map_statistics.h"
 #include "eval/scoring/provenance.h"
@@ -32,7 +31,7 @@ struct SweepOptions
   std::size_t keep_failures = 0;  ///< of each method at each value
   std::string command;  ///< for the report
   /// Called now and then with a text about the current work and the share of the run that is done.
-  std::function<void(const std::string& what, double share)> progress;
+  ShowProgress progress;
 };
 
 /// A query's answer, judged, and its world.

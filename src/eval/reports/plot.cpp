@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "eval/reports/plot.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <system_error>
 
-#include "config/TextStream.h"
 #include "eval/process/child_process.h"
 #include "sigloc/io/file_output.h"
 
@@ -27,19 +27,20 @@ std::string quoted(const std::string& text)
   return out + "\"";
 }
 
-void writePoints(const PlotSeries& series, std::ostream& script)
+/// A data block of gnuplot's.
+std::string blockOf(const PlotSeries& series, std::size_t number)
 {
+  std::string block = fmt::format("$series{} << END_OF_DATA\n", number);
   for (std::size_t i = 0; i < series.points.size(); ++i)
   {
     const auto& [x, y] = series.points[i];
     if (!std::isfinite(x) || !std::isfinite(y)) continue;
-    script << x << " " << y;
+    block += fmt::format("{:.9g} {:.9g}", x, y);
     if (!series.intervals.empty())
-    {
-      script << " " << series.intervals[i].first << " " << series.intervals[i].second;
-    }
-    script << "\n";
+      block += fmt::format(" {:.9g} {:.9g}", series.intervals[i].first, series.intervals[i].second);
+    block += "\n";
   }
+  return block + "END_OF_DATA\n";
 }
 
 const char* styleOf(const PlotSeries& series)
@@ -50,32 +51,20 @@ const char* styleOf(const PlotSeries& series)
 
 std::string scriptOf(const Plot& plot)
 {
-  TextStream script;
-  script << std::setprecision(9);
-  for (std::size_t i = 0; i < plot.series.size(); ++i)
-  {
-    script << "$series" << i << " << END_OF_DATA\n";
-    writePoints(plot.series[i], script);
-    script << "END_OF_DATA\n";
-  }
-  script << "set terminal pngcairo size 900,600 noenhanced\n"
-         << "set title " << quoted(plot.title) << "\n"
-         << "set xlabel " << quoted(plot.x_label) << "\n"
-         << "set ylabel " << quoted(plot.y_label) << "\n"
-         << "set grid\nset key outside right top\n";
-  if (plot.log_x) script << "set logscale x\n";
-  if (plot.log_y) script << "set logscale y\n";
-  script << "plot ";
-  bool first = true;
+  std::string script = fmt::format(
+      "set terminal pngcairo size 900,600 noenhanced\nset title {}\nset xlabel {}\n"
+      "set ylabel {}\nset grid\nset key outside right top\n{}{}",
+      quoted(plot.title), quoted(plot.x_label), quoted(plot.y_label),
+      plot.log_x ? "set logscale x\n" : "", plot.log_y ? "set logscale y\n" : "");
+  std::string curves;
   for (std::size_t i = 0; i < plot.series.size(); ++i)
   {
     if (plot.series[i].points.empty()) continue;
-    script << (first ? "" : ", ") << "$series" << i << " using " << styleOf(plot.series[i])
-           << " linewidth 2 title " << quoted(plot.series[i].title);
-    first = false;
+    script += blockOf(plot.series[i], i);
+    curves += fmt::format("{}$series{} using {} linewidth 2 title {}", curves.empty() ? "" : ", ",
+                          i, styleOf(plot.series[i]), quoted(plot.series[i].title));
   }
-  script << "\n";
-  return first ? std::string() : script.str();
+  return curves.empty() ? std::string() : script + "plot " + curves + "\n";
 }
 }  // namespace
 

@@ -7,7 +7,6 @@
 #include <set>
 
 #include "config/columns.h"
-#include "config/fixed_number.h"
 #include "eval/protocols/reliability.h"
 #include "eval/reports/plot.h"
 #include "eval/reports/report_files.h"

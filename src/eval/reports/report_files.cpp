@@ -10,7 +10,6 @@
 #include <set>
 #include <stdexcept>
 
-#include "config/TextStream.h"
 #include "eval/data/folder_output.h"
 #include "sigloc/io/file_output.h"
 
@@ -108,22 +107,17 @@ std::string markdownTable(const std::vector<std::vector<std::string>>& rows)
     widths.resize(std::max(widths.size(), row.size()), 3);
     for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
   }
-  TextStream out;
+  std::string out;
   for (std::size_t r = 0; r < rows.size(); ++r)
   {
-    out << "|";
     for (std::size_t i = 0; i < widths.size(); ++i)
-    {
-      const std::string cell = i < rows[r].size() ? rows[r][i] : "";
-      out << " " << cell << std::string(widths[i] - cell.size(), ' ') << " |";
-    }
-    out << "\n";
+      out += fmt::format("| {:{}} ", i < rows[r].size() ? rows[r][i] : "", widths[i]);
+    out += "|\n";
     if (r > 0) continue;
-    out << "|";
-    for (const std::size_t width : widths) out << std::string(width + 2, '-') << "|";
-    out << "\n";
+    for (const std::size_t width : widths) out += "|" + std::string(width + 2, '-');
+    out += "|\n";
   }
-  return out.str();
+  return out;
 }
 
 void writeRunReport(const RunReport& report, const std::filesystem::path& folder)

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "config/fixed_number.h"
 #include "eval/process/cpu_time.h"
 #include "eval/protocols/scale.h"
 #include "eval/reports/report_files.h"

@@ -10,7 +10,6 @@
 #include <map>
 
 #include "config/columns.h"
-#include "config/fixed_number.h"
 #include "eval/reports/report_files.h"
 
 namespace sigloc::detail

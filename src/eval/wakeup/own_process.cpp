@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "sigloc/io/file_output.h"
-#include "sigloc/localize/LocalizationSetup.h"
 
 namespace sigloc::detail
 {

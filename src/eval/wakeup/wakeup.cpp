@@ -6,15 +6,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 #include <stdexcept>
 
 #include "eval/process/cpu_time.h"
-#include "eval/process/run_parallel.h"
 #include "eval/wakeup/wakeup_drive.h"
 #include "io/GroundTruth.h"
 #include "sigloc/config/plural.h"
-#include "sigloc/io/map_files.h"
 
 namespace sigloc
 {
@@ -230,19 +227,14 @@ WakeupMethodReport runMethod(const std::string& name, const detail::LoggedDrive&
   WakeupMethodReport method;
   method.name = name;
   method.runs.resize(starts.size());
-  std::size_t done = 0;
-  std::mutex mutex;
   const auto wake_up = [&](std::size_t i)
   {
     const std::uint32_t seed =
         options.method.seed * 1000003U + static_cast<std::uint32_t>(starts[i]);
     method.runs[i] =
         detail::runLegs(*factory, legsOf(log.drive, starts, i, options), seed, options.gates);
-    const std::lock_guard<std::mutex> lock(mutex);
-    const double share = static_cast<double>(++done) / static_cast<double>(starts.size());
-    if (options.progress) options.progress(name, share);
   };
-  runParallel(starts.size(), options.threads, wake_up);
+  runParallel(starts.size(), options.threads, wake_up, name, options.progress);
   method.peak_rss_mb = peakMemoryMb();
   for (std::size_t i = 0; i < starts.size() && method.failures.size() < options.keep_failures; ++i)
   {

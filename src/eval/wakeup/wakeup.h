@@ -3,7 +3,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -11,6 +10,7 @@
 
 #include "config/columns.h"
 #include "eval/methods/TrackingMethod.h"
+#include "eval/process/run_parallel.h"
 #include "eval/scoring/failed_queries.h"
 #include "eval/scoring/map_statistics.h"
 #include "eval/scoring/provenance.h"
@@ -41,7 +41,7 @@ struct WakeupOptions
   std::uint32_t threads = 1;  ///< runs at a time
   std::size_t keep_failures = 0;  ///< how many failed runs of each method the report keeps
   std::string command;
-  std::function<void(const std::string& method, double share)> progress;
+  ShowProgress progress;
 };
 
 /// One step of a run, judged.

@@ -10,7 +10,6 @@
 #include <stdexcept>
 
 #include "eval/process/cpu_time.h"
-#include "eval/process/run_parallel.h"
 #include "eval/wakeup/wakeup_drive.h"
 #include "eval/worlds/robot_simulation.h"
 #include "eval/worlds/simulation_files.h"
@@ -20,8 +19,6 @@ namespace sigloc
 namespace
 {
 using detail::WakeupDrive;
-using detail::WakeupDriveStep;
-using mrpt::math::TPose2D;
 
 /// Failed drives of a method by their numbers, because worlds end in any order.
 using NumberedFailures = std::map<std::size_t, FailedQuery>;
@@ -196,14 +193,14 @@ class DrivenPlace
   {
     DriveOptions how;
     how.metres = options_.travel;
-    const std::vector<TPose2D> truth = simulateTruth(space_, how, seed);
+    const std::vector<mrpt::math::TPose2D> truth = simulateTruth(space_, how, seed);
     const std::vector<MotionIncrement> motions = simulateOdometry(truth, {}, seed);
     Random random(seed, 12);
     WakeupDrive drive;
     drive.foreign = options_.foreign;
     for (std::size_t i = 0; i < truth.size(); ++i)
     {
-      WakeupDriveStep step;
+      detail::WakeupDriveStep step;
       step.step.time = how.step_time * static_cast<double>(i);
       if (options_.odometry) step.step.motion = motions[i];
       step.step.frame = mrpt::obs::CSensoryFrame::Create();
@@ -328,7 +325,6 @@ WakeupReport runSimulatedTrack(const SimulatedTrackOptions& options)
   std::vector<NumberedFailures> failures(options.methods.size());
   const std::size_t worlds =
       (options.drives + options.drives_per_world - 1) / options.drives_per_world;
-  std::size_t done = 0;
   std::mutex mutex;
   const auto run_world = [&](std::size_t index)
   {
@@ -355,10 +351,8 @@ WakeupReport runSimulatedTrack(const SimulatedTrackOptions& options)
     const std::lock_guard<std::mutex> lock(mutex);
     for (std::size_t m = 0; m < failures.size(); ++m) failures[m].merge(failed[m]);
     report.map.add(*map.features, map.build_seconds);
-    const double share = static_cast<double>(++done) / static_cast<double>(worlds);
-    if (options.progress) options.progress("worlds", share);
   };
-  runParallel(worlds, options.threads, run_world);
+  runParallel(worlds, options.threads, run_world, "worlds", options.progress);
   for (std::size_t m = 0; m < failures.size(); ++m)
   {
     WakeupMethodReport& method = report.methods[m];

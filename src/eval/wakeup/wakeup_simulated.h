@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -35,7 +34,7 @@ struct SimulatedTrackOptions
   std::uint32_t threads = 1;
   std::size_t keep_failures = 0;  ///< how many failed runs of each method the report keeps
   std::string command;
-  std::function<void(const std::string& method, double share)> progress;
+  ShowProgress progress;
 };
 
 /// Runs the drives; results depend on the options and the seed only. Claims are judged by the gates

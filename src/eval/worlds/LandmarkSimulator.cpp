@@ -9,7 +9,6 @@
 namespace sigloc
 {
 using mrpt::math::TPoint2D;
-using mrpt::math::TPose2D;
 
 namespace
 {
@@ -58,7 +57,7 @@ std::size_t LandmarkSimulator::cellOf(const TPoint2D& p) const
   return clamped(p.y - bounds_.y_min, rows_) * columns_ + clamped(p.x - bounds_.x_min, columns_);
 }
 
-LandmarkObservation LandmarkSimulator::observe(const TPose2D& world_from_robot,
+LandmarkObservation LandmarkSimulator::observe(const mrpt::math::TPose2D& world_from_robot,
                                                Random& random) const
 {
   std::vector<std::pair<TPoint2D, std::int32_t>> seen;

@@ -5,7 +5,6 @@
 #include <mrpt/math/TPose2D.h>
 
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "eval/worlds/Random.h"

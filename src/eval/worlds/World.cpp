@@ -9,13 +9,12 @@
 
 namespace sigloc
 {
-using mrpt::math::TPoint2D;
 
 std::vector<WallSegment> outlineOf(const Furniture& furniture)
 {
   const double dx = 0.5 * furniture.length;
   const double dy = 0.5 * furniture.width;
-  const std::vector<TPoint2D> corners = {
+  const std::vector<mrpt::math::TPoint2D> corners = {
       furniture.pose.composePoint({-dx, -dy}), furniture.pose.composePoint({dx, -dy}),
       furniture.pose.composePoint({dx, dy}), furniture.pose.composePoint({-dx, dy})};
   return {{corners[0], corners[1]},

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "eval/worlds/motion_model.h"
 
-#include <mrpt/poses/CPosePDFGaussian.h>
-
 namespace sigloc
 {
 mrpt::obs::CActionRobotMovement2D odometryAction(const mrpt::math::TPose2D& increment,

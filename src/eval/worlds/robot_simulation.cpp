@@ -6,10 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Core>
 
 namespace sigloc
 {

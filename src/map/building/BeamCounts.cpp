@@ -11,7 +11,6 @@
 namespace sigloc
 {
 using mrpt::math::TPoint2D;
-using mrpt::math::TPose2D;
 
 namespace
 {
@@ -27,7 +26,7 @@ void forEachReturn(const PosedScans& look, double max_range, Visit&& visit)
 {
   for (const LaserScan& scan : look.scans)
   {
-    const TPose2D map_from_sensor = look.map_from_robot + scan.robot_from_sensor;
+    const mrpt::math::TPose2D map_from_sensor = look.map_from_robot + scan.robot_from_sensor;
     const TPoint2D origin(map_from_sensor.x, map_from_sensor.y);
     if (!std::isfinite(origin.x) || !std::isfinite(origin.y) || !std::isfinite(map_from_sensor.phi))
     {

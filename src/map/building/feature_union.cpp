@@ -12,7 +12,6 @@
 
 namespace sigloc
 {
-using mrpt::math::TPoint2D;
 
 namespace
 {
@@ -28,7 +27,7 @@ bool covers(const Feature& mapped, const Feature& feature, const MapBuildingOpti
            (!hasBearing(feature.type) || turn <= 3 * options.merge_angle);
   }
   if (turn > options.merge_angle) return false;
-  const auto lies_on = [&](const TPoint2D& end)
+  const auto lies_on = [&](const mrpt::math::TPoint2D& end)
   { return (nearestPlaceOn(mapped, end) - end).norm() <= options.merge_offset; };
   return lies_on(segmentStart(feature)) && lies_on(segmentEnd(feature));
 }

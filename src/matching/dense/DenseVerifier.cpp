@@ -19,7 +19,6 @@
 
 namespace sigloc
 {
-using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
 using mrpt::math::wrapToPi;
 

@@ -10,7 +10,6 @@
 
 #include "matching/dense/DenseEvidence.h"
 #include "matching/dense/DenseScan.h"
-#include "sigloc/geometry/GaussianPose.h"
 #include "sigloc/map/DenseField.h"
 
 namespace sigloc

@@ -7,6 +7,7 @@
 #include "signature/unary_constraint.h"
 
 #include <algorithm>
+#include <boost/math/special_functions/beta.hpp>
 #include <cmath>
 #include <limits>
 
@@ -379,20 +380,12 @@ double FeatureVerifier::expectedByChance(const PreparedScene& scene, std::uint32
 {
   const auto n = static_cast<double>(scene.size());
   const double trials = n - base_size;
-  const double p = scene.mean_chance;
   const double needed = static_cast<double>(support) - base_size;
   const double retrieved = static_cast<double>(std::max<std::uint64_t>(1, bases));
   if (needed <= 0 || trials <= 0) return retrieved;
-  const double odds = p / (1 - p);
-  double term =
-      std::exp(logGamma(trials + 1) - logGamma(needed + 1) - logGamma(trials - needed + 1) +
-               needed * std::log(p) + (trials - needed) * std::log1p(-p));
-  double tail = 0;
-  for (double hits = needed; hits <= trials; ++hits)
-  {
-    tail += term;
-    term *= odds * (trials - hits) / (hits + 1);
-  }
-  return retrieved * tail;
+  if (needed > trials) return 0;
+  // The upper tail of the binomial distribution is an incomplete beta function.
+  return retrieved *
+         boost::math::ibeta(needed, trials - needed + 1, std::min(1.0, scene.mean_chance));
 }
 }  // namespace sigloc

@@ -6,7 +6,6 @@
 #include "sigloc/map/FeatureMap.h"
 
 #include <array>
-#include <cstdint>
 #include <vector>
 
 namespace sigloc

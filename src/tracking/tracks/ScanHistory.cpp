@@ -15,7 +15,6 @@
 namespace sigloc
 {
 using mrpt::math::TPose2D;
-using mrpt::math::wrapToPi;
 
 namespace
 {
@@ -42,7 +41,7 @@ class ScanHistory::Replay
     pose_ = verifier_.refine(stored.scan, predicted, kSteps, stored.scan.size());
     odometry_ = stored.odometry;
     const double off = std::hypot(pose_.x - predicted.x, pose_.y - predicted.y) / kWaySigma;
-    const double turned = wrapToPi(pose_.phi - predicted.phi) / kWayTurnSigma;
+    const double turned = mrpt::math::wrapToPi(pose_.phi - predicted.phi) / kWayTurnSigma;
     const double detour = std::min(kMaxRelative, 0.5 * (off * off + turned * turned));
     auto explained = verifier_.explainedReturns(stored.scan, pose_);
     const double unexplained = explained_.addScan(stored.view, explained, -stored.travelled);

@@ -12,7 +12,6 @@
 namespace sigloc
 {
 using mrpt::math::TPose2D;
-using mrpt::math::wrapToPi;
 
 namespace
 {
@@ -51,7 +50,7 @@ TPose2D searchedPose(const TPose2D& predicted, const DenseScan& scan, const Dens
   {
     if (k != 0) attempt(k * kDrive, 0);
   }
-  best.phi = wrapToPi(best.phi);
+  best.phi = mrpt::math::wrapToPi(best.phi);
   return best;
 }
 }  // namespace

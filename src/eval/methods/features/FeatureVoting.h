@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <mrpt/math/TPose2D.h>
-
 #include <cstdint>
 #include <optional>
 #include <vector>

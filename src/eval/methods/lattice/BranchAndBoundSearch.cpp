@@ -4,14 +4,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <deque>
 
 #include "eval/methods/lattice/lattice_search.h"
 
 namespace sigloc
 {
-using mrpt::math::TPoint2D;
 
 namespace
 {
@@ -150,7 +148,8 @@ struct BranchAndBoundSearch::Run
   }
 };
 
-LatticeSearchResult BranchAndBoundSearch::search(const std::vector<TPoint2D>& points) const
+LatticeSearchResult BranchAndBoundSearch::search(
+    const std::vector<mrpt::math::TPoint2D>& points) const
 {
   Run run{*this, detail::BestLatticePoses(space_.options().refined), {}, 0};
   for (const std::uint32_t heading : space_.headings())

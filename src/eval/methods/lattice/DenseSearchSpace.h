@@ -4,7 +4,6 @@
 
 #include <mrpt/math/TPose2D.h>
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>

@@ -6,7 +6,6 @@
 
 namespace sigloc
 {
-using mrpt::math::TPoint2D;
 
 namespace
 {
@@ -35,7 +34,7 @@ std::vector<Place> freePlaceList(const DenseSearchSpace& space)
 }  // namespace
 
 LatticeSearchResult searchExhaustively(const DenseSearchSpace& space,
-                                       const std::vector<TPoint2D>& points)
+                                       const std::vector<mrpt::math::TPoint2D>& points)
 {
   const std::vector<Place> places = freePlaceList(space);
   const std::uint8_t* values = space.coarse().values().data();

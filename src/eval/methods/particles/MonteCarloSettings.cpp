@@ -7,7 +7,6 @@
 #include <mrpt/io/CFileGZInputStream.h>
 #include <mrpt/maps/COccupancyGridMap2D.h>
 #include <mrpt/maps/CSimpleMap.h>
-#include <mrpt/maps/TMetricMapInitializer.h>
 #include <mrpt/obs/CActionRobotMovement2D.h>
 #include <mrpt/serialization/CArchive.h>
 

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <mrpt/math/wrap2pi.h>
 #include <mrpt/poses/CPosePDFParticles.h>
 
 #include <algorithm>
