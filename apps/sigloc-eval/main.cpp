@@ -19,7 +19,7 @@ struct Command
 };
 
 constexpr std::array kCommands = {
-    Command{"relocate", "find robots from one look each, method by method", sigloc::setUpRelocate},
+    Command{"relocate", "find robots from one scan each, method by method", sigloc::setUpRelocate},
     Command{"scale", "cost of the feature modes against the size of map and scene",
             sigloc::setUpScale},
     Command{"landmarks", "relocation from landmarks alone, with local maps",
@@ -29,7 +29,7 @@ constexpr std::array kCommands = {
     Command{"track", "wake up lost and drive on, method by method", sigloc::setUpTrack},
     Command{"reference", "truth for a log of which only the last pose is known",
             sigloc::setUpReference},
-    Command{"reliability", "does one look tell right poses from wrong ones?",
+    Command{"reliability", "does one scan tell right poses from wrong ones?",
             sigloc::setUpReliability},
     Command{"merge", "pool what several runs wrote", sigloc::setUpMerge},
 };

@@ -357,7 +357,7 @@ void appendScan(ScanPoints scan, const mrpt::math::TPose2D& robot_from_sensor, d
 {
   const FeatureExtractorOptions options = thresholdsFor(range_sigma, configured);
   // The second pass finds speckles that others have hidden in the first.
-  for (int look = 0; look < 2; ++look) dropSpeckles(scan, options);
+  for (int pass = 0; pass < 2; ++pass) dropSpeckles(scan, options);
   startAtBreak(scan, options);
 
   const auto origin = static_cast<std::uint32_t>(scene.sensor_origins.size());

@@ -67,7 +67,7 @@ std::size_t countRanges(const CSensoryFrame& frame)
 
 /// Returns how many landmark observations of a frame are from a sensor with a valid pose on the
 /// robot.
-std::size_t countUsableLandmarkLooks(const CSensoryFrame& frame)
+std::size_t countUsableLandmarkScans(const CSensoryFrame& frame)
 {
   return static_cast<std::size_t>(std::count_if(
       frame.begin(), frame.end(),
@@ -286,7 +286,7 @@ std::optional<RawlogStep> RawlogReader::State::makeStep(const CSensoryFrame::Ptr
   step.scans = laserScansOf(*frame);
   step.landmarks = landmarksOf(*frame);
   left_out.observations +=
-      countRanges(*frame) - step.scans.size() - countUsableLandmarkLooks(*frame);
+      countRanges(*frame) - step.scans.size() - countUsableLandmarkScans(*frame);
   if (step.scans.empty() && step.landmarks.empty()) return std::nullopt;
   step.time = time.value_or(latest_time);
   step.motion = takeMotion(odometry_now, step.time);

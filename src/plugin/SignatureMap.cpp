@@ -239,18 +239,18 @@ bool SignatureMap::internal_insertObservation(const CObservation& observation,
   {
     return false;
   }
-  PosedScans look;
-  if (robot_pose) look.map_from_robot = CPose2D(*robot_pose).asTPose();
-  if (const auto reason = detail::beyondReach(look.map_from_robot.x, look.map_from_robot.y))
+  PosedScans posed;
+  if (robot_pose) posed.map_from_robot = CPose2D(*robot_pose).asTPose();
+  if (const auto reason = detail::beyondReach(posed.map_from_robot.x, posed.map_from_robot.y))
   {
     throw std::invalid_argument("SignatureMap: a pose that " + *reason);
   }
-  look.scans.push_back(std::move(*scan));
+  posed.scans.push_back(std::move(*scan));
   const std::lock_guard<std::mutex> lock(learnt_->mutex);
   // Only the builder with the scan is kept.
   std::optional<MapBuilder> first;
   if (!learnt_->builder) first.emplace(insertion_options.building, baseMap());
-  (first ? *first : *learnt_->builder).add(look, insertion_options.extraction);
+  (first ? *first : *learnt_->builder).add(posed, insertion_options.extraction);
   if (first) learnt_->builder = std::move(first);
   learnt_->model.reset();
   return true;

@@ -95,7 +95,7 @@ void SignatureMonteCarlo2D::useExtraction(const FeatureExtractorOptions& extract
 void SignatureMonteCarlo2D::forget(const std::optional<PoseRegion>& region)
 {
   lost_ = true;
-  looked_ = false;
+  relocated_since_lost_ = false;
   region_ = region;
   elsewhere_ = 1;
   score_ = mean_score_ = 0;

@@ -29,7 +29,7 @@ constexpr double kMaxConfirmed = 6.0;  // log-odds
 constexpr double kMaxAgainst = 2.0;  // log-odds a metre
 constexpr double kSure = 0.9;  // a relocation that overrules the particles
 constexpr double kFarBetter = 4.0;  // log-likelihood
-constexpr double kHeldWeight = 0.01;  // share of the particles that covers a candidate
+constexpr double kCoveredWeight = 0.01;  // share of the particles that covers a candidate
 constexpr double kLeastProbability = 0.001;  // of a candidate that the relocation left out
 constexpr double kSameDistance = 0.75;  // [m], a mode from one step to the next
 constexpr double kSameAngle = 20.0 * M_PI / 180.0;
@@ -144,7 +144,7 @@ void SignatureMonteCarlo2D::addLostLogOdds(double log_odds)
 /// ones while the pose is not localized, longer ones to confirm it.
 bool SignatureMonteCarlo2D::wantsRelocation() const
 {
-  if (lost_ && !looked_) return true;
+  if (lost_ && !relocated_since_lost_) return true;
   if (!lost_ && score_ < mean_score_ - tracking_.score_drop) return true;
   return travel_since_relocation_ >= (belief_.verdict == Verdict::localized
                                           ? tracking_.confirmation_distance
@@ -157,7 +157,7 @@ void SignatureMonteCarlo2D::relocate(const ObservedScene& scene)
   const double fresh_share =
       lost_ ? 1.0 : std::min(1.0, travel_since_relocation_ / tracking_.evidence_distance);
   const RelocationResult result = matcher_->localize(scene, lost_ ? region_ : std::nullopt);
-  relocated_ = looked_ = true;
+  relocated_ = relocated_since_lost_ = true;
   travel_since_relocation_ = 0;
   if (result.verdict == Verdict::too_little_seen) return;
   const bool contradicts = !lost_;
@@ -180,14 +180,15 @@ void SignatureMonteCarlo2D::relocate(const ObservedScene& scene)
 double SignatureMonteCarlo2D::leadOfRivals(const RelocationResult& result) const
 {
   const bool dense = matcher_->verifier() != nullptr;
-  double held = dense ? score_ : kLeastProbability;
+  double covered = dense ? score_ : kLeastProbability;
   double rival = dense ? tracking_.lost_score : kLeastProbability;
   for (const Candidate& candidate : result.candidates)
   {
-    double& best = weightNear(*this, candidate.pose.mean) >= kHeldWeight ? held : rival;
+    double& best = weightNear(*this, candidate.pose.mean) >= kCoveredWeight ? covered : rival;
     best = std::max(best, dense ? candidate.score : candidate.probability);
   }
-  return dense ? logLikelihoodOfScore(rival) - logLikelihoodOfScore(held) : std::log(rival / held);
+  return dense ? logLikelihoodOfScore(rival) - logLikelihoodOfScore(covered)
+               : std::log(rival / covered);
 }
 
 /// Confirms the modes, eq. (9.3). Weighs the candidates that they cover against the others, eq.
@@ -203,12 +204,12 @@ void SignatureMonteCarlo2D::weighAgainst(const RelocationResult& result, double 
     if (mode.confirmed >= tracking_.confirmation && !far_better) evidence = std::max(evidence, 0.0);
     mode.confirmed = std::min(kMaxConfirmed, mode.confirmed + fresh_share * evidence);
   }
-  const bool held = !modes_.empty() && modes_.front().confirmed >= tracking_.confirmation;
-  const double for_lost = std::clamp(lead, -kMaxLost, held && !far_better ? 0.0 : kMaxLost);
+  const bool confirmed = !modes_.empty() && modes_.front().confirmed >= tracking_.confirmation;
+  const double for_lost = std::clamp(lead, -kMaxLost, confirmed && !far_better ? 0.0 : kMaxLost);
   addLostLogOdds(fresh_share * for_lost);
   const bool overruled = !result.candidates.empty() &&
                          result.candidates.front().probability >= kSure &&
-                         weightNear(*this, result.candidates.front().pose.mean) < kHeldWeight;
+                         weightNear(*this, result.candidates.front().pose.mean) < kCoveredWeight;
   if (overruled) elsewhere_ = std::max(elsewhere_, tracking_.suspicion);
 }
 

@@ -80,7 +80,7 @@ void writeTile(const CellIndex& name, const BeamCounts::Tile& tile, CArchive& ou
   {
     planes[i] = tile.counts[i].hits;
     planes[kCells + i] = tile.counts[i].passes;
-    planes[2 * kCells + i] = tile.counts[i].looks;
+    planes[2 * kCells + i] = tile.counts[i].scans;
     sums[i] = tile.counts[i].sum_x;
     sums[kCells + i] = tile.counts[i].sum_y;
   }
@@ -100,7 +100,7 @@ BeamCounts::Tile readTile(CArchive& in, bool with_sums)
   {
     tile.counts[i].hits = planes[i];
     tile.counts[i].passes = planes[kCells + i];
-    tile.counts[i].looks = planes[2 * kCells + i];
+    tile.counts[i].scans = planes[2 * kCells + i];
     tile.counts[i].sum_x = sums[i];
     tile.counts[i].sum_y = sums[kCells + i];
   }

@@ -253,7 +253,7 @@ void HypothesisTracker::State::relocate(const ObservedScene& scene, const DenseS
   confirm(result, scan, fresh_share);
   weighElsewhere(result, fresh_share);
   set.dealOut(result, [&](std::size_t k) { return startAt(result, k, scan); });
-  set.weighFirstLook();
+  set.weighFirstScan();
   past.weighNewcomers(set, scan, *matcher->verifier(), travelled);
 }
 

@@ -131,7 +131,7 @@ TEST(TrackSetStanding, KnowsHowFarTheRobotSeesAndHowMuchFits)
     set.predict(MotionIncrement{});
     set.update(scan, verifier);
     set.weigh(scan, verifier, travel, travel);
-    return set.circumstances();
+    return set.claimContext();
   };
   constexpr double kMedian = 4.06;  // of the ranges to the walls of the room
   EXPECT_NEAR(after(0, 0).range, kMedian, 0.02) << "the first addScan tells at once";
@@ -153,7 +153,7 @@ TEST(WeighFirstLook, TheMilderOfScoreAndGroundCounts)
   // worse by both, more.
   TrackSet set = setOf({newcomer(0.81, 1, 0), newcomer(0.09, 0.9, 0.2), newcomer(0.09, 0.9, 0.5),
                         newcomer(0.01, 0.8, 6)});
-  set.weighFirstLook();
+  set.weighFirstScan();
   const double cost = set.costOfUnexplained();
   const double first = set.tracks[0].hypothesis.weight;
   EXPECT_NEAR(set.tracks[1].hypothesis.weight / first, std::exp(-0.2 * cost), 1e-6);
@@ -167,7 +167,7 @@ TEST(WeighFirstLook, TheMilderOfScoreAndGroundCounts)
 TEST(WeighFirstLook, RemembersWhatTheOtherJudgeSaid)
 {
   TrackSet set = setOf({newcomer(0.5, 1, 0), newcomer(0.5, 1, 4)});
-  set.weighFirstLook();
+  set.weighFirstScan();
   EXPECT_NEAR(set.tracks[1].hypothesis.weight, 0.5, 1e-9);
   EXPECT_NEAR(set.tracks[1].deficit.by_score, 0, 1e-9);
   EXPECT_NEAR(set.tracks[1].deficit.by_cells, -4 * set.costOfUnexplained(), 1e-5);
@@ -178,7 +178,7 @@ TEST(WeighFirstLook, LeavesTracksAloneThatAreOlder)
   TrackSet set = setOf({newcomer(0.6, 1, 0), newcomer(0.3, 0.9, 0.1), newcomer(0.1, 0.8, 0)});
   set.tracks[0].hypothesis.age = 7;
   const double cost = set.costOfUnexplained();
-  set.weighFirstLook();
+  set.weighFirstScan();
   EXPECT_EQ(set.tracks[0].hypothesis.weight, 0.6);
   EXPECT_EQ(set.tracks[0].deficit.by_cells, 0);
   EXPECT_NEAR(set.tracks[1].hypothesis.weight + set.tracks[2].hypothesis.weight, 0.4, 1e-9);
@@ -190,7 +190,7 @@ TEST(WeighFirstLook, ExpectsChangeWhereTheBestExplainsLittle)
   const auto cost_after = [](double score)
   {
     TrackSet set = setOf({newcomer(1, score, 0)});
-    set.weighFirstLook();
+    set.weighFirstScan();
     EXPECT_EQ(set.tracks[0].hypothesis.weight, 1);
     return set.costOfUnexplained();
   };
@@ -203,10 +203,10 @@ TEST(WeighFirstLook, ExpectsChangeWhereTheBestExplainsLittle)
 TEST(WeighFirstLook, NoTracksAreNoTrouble)
 {
   TrackSet set = setOf({});
-  set.weighFirstLook();
+  set.weighFirstScan();
   EXPECT_TRUE(set.tracks.empty());
   set.tracks = {newcomer(0, 1, 0)};
-  set.weighFirstLook();
+  set.weighFirstScan();
   EXPECT_EQ(set.tracks[0].hypothesis.weight, 0);
 }
 }  // namespace

@@ -124,7 +124,7 @@ class SignatureMonteCarlo2D : public mrpt::slam::CMonteCarloLocalization2D
   std::shared_ptr<const SignatureMatcher> matcher_;
   bool own_matcher_ = true;
   bool lost_ = true;
-  bool looked_ = false;  // a relocation has run since it is lost
+  bool relocated_since_lost_ = false;  // a relocation has run since it is lost
   std::optional<PoseRegion> region_;  // the region that a lost robot is in
   double elsewhere_ = 1;
   std::vector<Mode> modes_;  // heaviest first

@@ -34,7 +34,7 @@ struct TrackerOptions
   {
     using O = TrackerOptions;
     visit(OptionField{"max_hypotheses", &O::max_hypotheses, 1U, 1000U,
-                      "[-] how many hypotheses are followed at most"});
+                      "[-] how many hypotheses are tracked at most"});
     visit(OptionField{"localized_probability", &O::localized_probability, 0.5, 1.0,
                       "[-] the verdict is localized from this probability on"});
     visit(OptionField{"prune_weight", &O::prune_weight, 0.0, 0.1,
@@ -51,9 +51,9 @@ struct TrackerOptions
     visit(OptionField{"min_elsewhere", &O::min_elsewhere, 0.0, 0.5,
                       "[-] the weight of somewhere else never falls below this"});
     visit(OptionField{"relocation_distance", &O::relocation_distance, 0.0, 100.0,
-                      "[m] travel between two relocations while nothing is held"});
+                      "[m] travel between two relocations while no pose is known"});
     visit(OptionField{"confirmation_distance", &O::confirmation_distance, 0.0, 1000.0,
-                      "[m] travel between two relocations while one pose is held"});
+                      "[m] travel between two relocations while one pose is known"});
     visit(OptionField{"score_drop", &O::score_drop, 0.01, 1.0,
                       "[-] fall of the score below its running mean that calls for a relocation"});
     visit(OptionField{

@@ -88,8 +88,8 @@ std::optional<std::pair<ReliabilityCase, ReliabilityCase>> MappedWorld::ask(doub
   }
   const std::size_t chosen = look_alikes.empty() ? 0 : random_.index(look_alikes.size());
   if (look_alikes.empty()) return std::nullopt;
-  const TPose2D held = matcher_.verifier()->refine(dense, predicted, kRefineSteps, dense.size());
-  auto right = judge(scan, dense, held, truth);
+  const TPose2D refined = matcher_.verifier()->refine(dense, predicted, kRefineSteps, dense.size());
+  auto right = judge(scan, dense, refined, truth);
   auto wrong = judge(scan, dense, look_alikes[chosen], truth);
   if (!isRight(right.error, {})) return std::nullopt;
   right.right = true;

@@ -83,10 +83,10 @@ Columns<LandmarkRecord> recordColumns()
 }
 
 /// One curve a method and length of the local maps.
-std::vector<detail::LookCurve> curvesOf(const LandmarksReport& report)
+std::vector<detail::QueryCurve> curvesOf(const LandmarksReport& report)
 {
   const auto error = [](const LandmarkRecord& record) { return record.first_error.distance; };
-  std::vector<detail::LookCurve> curves;
+  std::vector<detail::QueryCurve> curves;
   for (const Row& row : rowsOf(report))
   {
     curves.push_back({row.method, values(error)(row), values(&LandmarkRecord::times_ms)(row)});
@@ -109,7 +109,7 @@ void writeLandmarksReport(const LandmarksReport& report, const std::filesystem::
   json["map"] = toJson(mapColumns(), report.map);
   files.results = csvFile(recordColumns(), report.records);
   files.text = "# Landmarks: " + report.dataset + "\n\n" + landmarksTable(report);
-  files.plots = detail::lookPlots(curvesOf(report), "Time from landmarks to ranked candidates");
+  files.plots = detail::queryPlots(curvesOf(report), "Time from landmarks to ranked candidates");
   files.notes = legend("What the columns mean", rowColumns()) + mapSection(report.map);
   files.provenance = report.provenance;
   writeRunReport(files, folder);

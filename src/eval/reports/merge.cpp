@@ -178,7 +178,7 @@ RunReport mergeRelocations(const std::vector<Run>& runs)
   }
   Columns<SummaryOfRun> columns = {{"", &SummaryOfRun::run, "", 0, {"run"}}};
   for (const auto& column : summaryColumns()) columns.emplace_back(column);
-  report.text = "# Relocation from one look, " + std::to_string(runs.size()) + " runs\n\n" +
+  report.text = "# Relocation from one scan, " + std::to_string(runs.size()) + " runs\n\n" +
                 markdownTable(table(summaryColumns(), pooled)) + "\n## Run by run\n\n" +
                 markdownTable(table(columns, by_run));
   report.notes = relocationDefinitions();

@@ -6,8 +6,8 @@
 
 namespace sigloc::detail
 {
-std::vector<std::pair<std::string, Plot>> lookPlots(const std::vector<LookCurve>& curves,
-                                                    const std::string& timed)
+std::vector<std::pair<std::string, Plot>> queryPlots(const std::vector<QueryCurve>& curves,
+                                                     const std::string& timed)
 {
   Plot errors{"Error of the first candidate",
               "distance from the truth [m]",
@@ -16,7 +16,7 @@ std::vector<std::pair<std::string, Plot>> lookPlots(const std::vector<LookCurve>
               false,
               {}};
   Plot times{timed, "CPU time [ms]", "share of queries", true, false, {}};
-  for (const LookCurve& curve : curves)
+  for (const QueryCurve& curve : curves)
   {
     std::vector<double> distances;
     // A logarithmic axis has no zero: a millimetre stands for less.

@@ -11,7 +11,7 @@
 namespace sigloc::detail
 {
 /// What queries of one kind came to.
-struct LookCurve
+struct QueryCurve
 {
   std::string title;
   std::vector<double> errors_m;  ///< of the first answers, where there was one
@@ -20,6 +20,6 @@ struct LookCurve
 
 /// Returns `errors.png` and `times.png`: the share of the queries that erred, and that took, at
 /// most so much. `timed` says what the times are of.
-std::vector<std::pair<std::string, Plot>> lookPlots(const std::vector<LookCurve>& curves,
-                                                    const std::string& timed);
+std::vector<std::pair<std::string, Plot>> queryPlots(const std::vector<QueryCurve>& curves,
+                                                     const std::string& timed);
 }  // namespace sigloc::detail

@@ -69,10 +69,10 @@ std::string remarks(const RelocateReport& report)
   return text;
 }
 
-std::vector<detail::LookCurve> curvesOf(const RelocateReport& report)
+std::vector<detail::QueryCurve> curvesOf(const RelocateReport& report)
 {
   const auto error = [](const RelocationRecord& record) { return record.error.distance; };
-  std::vector<detail::LookCurve> curves;
+  std::vector<detail::QueryCurve> curves;
   for (const RelocateMethodReport& method : report.methods)
   {
     curves.push_back(
@@ -104,8 +104,8 @@ void writeRelocateReport(const RelocateReport& report, const std::filesystem::pa
   files.summary["complete"] = report.complete;
   files.summary["without_truth"] = report.without_truth;
   files.results = resultsCsv(report);
-  files.text = "# Relocation from one look\n\n" + relocateTable(report) + "\n" + remarks(report);
-  files.plots = detail::lookPlots(curvesOf(report), "Time from raw scan to ranked candidates");
+  files.text = "# Relocation from one scan\n\n" + relocateTable(report) + "\n" + remarks(report);
+  files.plots = detail::queryPlots(curvesOf(report), "Time from raw scan to ranked candidates");
   files.notes = relocationDefinitions() + mapSection(report.map);
   files.provenance = report.provenance;
   writeRunReport(files, folder);

@@ -14,7 +14,7 @@ using mrpt::math::TPoint2D;
 
 namespace
 {
-constexpr std::uint16_t kSolidLooks = 2;  // least scans that hit a solid wall, eq. (6.2)
+constexpr std::uint16_t kSolidScans = 2;  // least scans that hit a solid wall, eq. (6.2)
 constexpr double kBorder = 1.5;  // [m] around the outermost return
 constexpr double kMaxCells = 4e8;  // bound of the extent, checked before allocating
 constexpr double kMaxIndex = 1e9;  // bound of a cell's index, in either direction
@@ -22,11 +22,11 @@ constexpr std::int32_t kTile = BeamCounts::kTileCells;
 
 /// Calls `visit(sensor origin, end point)` in the map frame for every valid return within range.
 template <class Visit>
-void forEachReturn(const PosedScans& look, double max_range, Visit&& visit)
+void forEachReturn(const PosedScans& posed, double max_range, Visit&& visit)
 {
-  for (const LaserScan& scan : look.scans)
+  for (const LaserScan& scan : posed.scans)
   {
-    const mrpt::math::TPose2D map_from_sensor = look.map_from_robot + scan.robot_from_sensor;
+    const mrpt::math::TPose2D map_from_sensor = posed.map_from_robot + scan.robot_from_sensor;
     const TPoint2D origin(map_from_sensor.x, map_from_sensor.y);
     if (!std::isfinite(origin.x) || !std::isfinite(origin.y) || !std::isfinite(map_from_sensor.phi))
     {
@@ -96,7 +96,7 @@ std::int32_t placeInCell(double p, double anchor, double resolution, std::int32_
 bool isPossible(const BeamCounts::Count& count)
 {
   const double most = 0.5 / BeamCounts::kPlaceUnit * count.hits;
-  return count.looks <= count.hits && std::abs(static_cast<double>(count.sum_x)) <= most &&
+  return count.scans <= count.hits && std::abs(static_cast<double>(count.sum_x)) <= most &&
          std::abs(static_cast<double>(count.sum_y)) <= most;
 }
 
@@ -108,7 +108,7 @@ WallHits hitsOf(const BeamCounts::Count& count)
     const double units = sum * (BeamCounts::kPlaceUnit / WallHits::kUnit) / count.hits;
     return static_cast<std::int8_t>(std::lround(units));
   };
-  const auto weight = std::min<std::uint16_t>(count.looks, WallHits::kMostWeight);
+  const auto weight = std::min<std::uint16_t>(count.scans, WallHits::kMostWeight);
   return {mean(count.sum_x), mean(count.sum_y), static_cast<std::uint8_t>(weight)};
 }
 
@@ -129,10 +129,10 @@ BeamCounts::BeamCounts(double resolution, const TPoint2D& anchor)
 {
 }
 
-void BeamCounts::add(const PosedScans& look, double max_range)
+void BeamCounts::add(const PosedScans& posed, double max_range)
 {
   Extent extent = extent_;
-  forEachReturn(look, max_range,
+  forEachReturn(posed, max_range,
                 [&](const TPoint2D& origin, const TPoint2D& end)
                 {
                   extent.add(origin);
@@ -151,9 +151,9 @@ void BeamCounts::add(const PosedScans& look, double max_range)
     throw std::invalid_argument("the scans spread over too large an area");
   }
   extent_ = extent;
-  ++look_;
+  ++scan_;
   Cursor cursor;
-  forEachReturn(look, max_range,
+  forEachReturn(posed, max_range,
                 [&](const TPoint2D& origin, const TPoint2D& end) { addBeam(origin, end, cursor); });
 }
 
@@ -199,9 +199,9 @@ void BeamCounts::addBeam(const TPoint2D& origin, const TPoint2D& end, Cursor& cu
     hit.sum_y += placeInCell(end.y, anchor.y, resolution, hit_cell.y);
   }
   increase(hit.hits);
-  if (hit.last_look == look_) return;
-  hit.last_look = look_;
-  increase(hit.looks);
+  if (hit.last_scan == scan_) return;
+  hit.last_scan = scan_;
+  increase(hit.scans);
   touchNeighbours(hit_cell);
 }
 
@@ -234,7 +234,7 @@ const BeamCounts::Count* BeamCounts::find(const CellIndex& cell) const
 
 /// True when a cell was hit often enough together with its neighbours, because a far wall spreads
 /// over two or three cells. Eq. (6.1)
-bool BeamCounts::hitOftenAround(const CellIndex& cell, std::uint32_t min_looks) const
+bool BeamCounts::hitOftenAround(const CellIndex& cell, std::uint32_t min_scans) const
 {
   std::uint32_t sum = 0;
   for (std::int32_t y = cell.y - 1; y <= cell.y + 1; ++y)
@@ -242,13 +242,13 @@ bool BeamCounts::hitOftenAround(const CellIndex& cell, std::uint32_t min_looks) 
     for (std::int32_t x = cell.x - 1; x <= cell.x + 1; ++x)
     {
       const Count* beside = find({x, y});
-      if (beside != nullptr) sum += beside->looks;
+      if (beside != nullptr) sum += beside->scans;
     }
   }
-  return sum >= min_looks;
+  return sum >= min_scans;
 }
 
-BeamCounts::TileCells BeamCounts::cellsOf(const CellIndex& name, std::uint32_t min_looks) const
+BeamCounts::TileCells BeamCounts::cellsOf(const CellIndex& name, std::uint32_t min_scans) const
 {
   TileCells cells;
   const auto tile = tiles_.find(keyOf(name));
@@ -256,9 +256,9 @@ BeamCounts::TileCells BeamCounts::cellsOf(const CellIndex& name, std::uint32_t m
   const auto state_of = [&](const CellIndex& cell, const Count& count)
   {
     const bool wall =
-        count.looks > 0 && (count.looks >= min_looks || hitOftenAround(cell, min_looks));
+        count.scans > 0 && (count.scans >= min_scans || hitOftenAround(cell, min_scans));
     if (!wall) return count.passes > 0 ? CellState::free : CellState::unknown;
-    const bool solid = count.looks >= kSolidLooks && count.hits >= count.passes;
+    const bool solid = count.scans >= kSolidScans && count.hits >= count.passes;
     return solid ? CellState::solid_wall : CellState::wall;
   };
   std::size_t i = 0;
@@ -293,7 +293,7 @@ RasterFrame BeamCounts::frameOf(const CellBox& box) const
   return frame;
 }
 
-OccupancyRaster BeamCounts::raster(const CellBox& box, std::uint32_t min_looks) const
+OccupancyRaster BeamCounts::raster(const CellBox& box, std::uint32_t min_scans) const
 {
   const RasterFrame frame = frameOf(box);
   OccupancyRaster raster{frame, {}, {}};
@@ -301,7 +301,7 @@ OccupancyRaster BeamCounts::raster(const CellBox& box, std::uint32_t min_looks) 
   raster.hits.resize(raster.cells.size());
   for (const CellIndex& name : tileNames())
   {
-    const TileCells tile = cellsOf(name, min_looks);
+    const TileCells tile = cellsOf(name, min_scans);
     for (std::size_t i = 0; i < tile.states.size(); ++i)
     {
       const std::int64_t column = name.x - box.low.x + static_cast<std::int64_t>(i % kTile);
@@ -367,7 +367,7 @@ OccupancyRaster rasterFromScans(const std::vector<PosedScans>& scans,
                                 const MapBuildingOptions& options)
 {
   BeamCounts counts(options.raster_resolution);
-  for (const PosedScans& look : scans) counts.add(look, options.raster_range);
+  for (const PosedScans& posed : scans) counts.add(posed, options.raster_range);
   if (counts.empty()) throw std::invalid_argument("rasterFromScans: no scan has a valid return");
   return counts.raster(counts.box(), options.min_hits);
 }

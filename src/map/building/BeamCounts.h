@@ -41,10 +41,10 @@ class BeamCounts
 
   struct Count
   {
-    std::uint32_t last_look = 0;  ///< last scan that hit it; 0: none, or one before restore()
+    std::uint32_t last_scan = 0;  ///< last scan that hit it; 0: none, or one before restore()
     std::uint16_t hits = 0;  ///< beams that ended here; all counts saturate
     std::uint16_t passes = 0;  ///< beams that passed
-    std::uint16_t looks = 0;  ///< scans that hit it
+    std::uint16_t scans = 0;  ///< scans that hit it
     /// Sums of the positions of the hits, from the middle of the cell, in kPlaceUnit.
     std::int32_t sum_x = 0, sum_y = 0;
   };
@@ -68,7 +68,7 @@ class BeamCounts
 
   /// Counts the beams of one scan up to `max_range` [m]. Throws std::invalid_argument, with nothing
   /// counted, for a pose that is not finite or where the area seen would become too large.
-  void add(const PosedScans& look, double max_range);
+  void add(const PosedScans& posed, double max_range);
 
   /// The present state of each cell of a tile, row by row; unknown where there is no tile.
   /// Eq. (6.1), (6.2), (6.12)
@@ -77,13 +77,13 @@ class BeamCounts
     std::array<CellState, static_cast<std::size_t>(kTileCells) * kTileCells> states{};
     std::array<WallHits, static_cast<std::size_t>(kTileCells) * kTileCells> hits{};  ///< of walls
   };
-  TileCells cellsOf(const CellIndex& name, std::uint32_t min_looks) const;
+  TileCells cellsOf(const CellIndex& name, std::uint32_t min_scans) const;
 
   /// Returns the box of all that was counted, with a border. Must not be called on an empty extent.
   CellBox box() const;
   RasterFrame frameOf(const CellBox& box) const;
   /// Returns all cells of a box.
-  OccupancyRaster raster(const CellBox& box, std::uint32_t min_looks) const;
+  OccupancyRaster raster(const CellBox& box, std::uint32_t min_scans) const;
 
   /// True when cells may have changed since `takeChangedTiles` was called last.
   bool changed() const { return !changed_.empty(); }
@@ -115,14 +115,14 @@ class BeamCounts
   const Count* find(const CellIndex& cell) const;
   void touchNeighbours(const CellIndex& hit);
   void addBeam(const mrpt::math::TPoint2D& origin, const mrpt::math::TPoint2D& end, Cursor& cursor);
-  bool hitOftenAround(const CellIndex& cell, std::uint32_t min_looks) const;
+  bool hitOftenAround(const CellIndex& cell, std::uint32_t min_scans) const;
 
   double resolution_;
   mrpt::math::TPoint2D anchor_;
   std::unordered_map<std::uint64_t, Tile> tiles_;
   std::vector<std::uint64_t> changed_;  // keys of changed tiles, each once
   Extent extent_;
-  std::uint32_t look_ = 0;
+  std::uint32_t scan_ = 0;
   std::uint64_t cells_counted_ = 0;
 };
 }  // namespace sigloc

@@ -100,13 +100,13 @@ GrowingField::GrowingField(DenseField base)
 {
 }
 
-void GrowingField::update(BeamCounts& counts, std::uint32_t min_looks)
+void GrowingField::update(BeamCounts& counts, std::uint32_t min_scans)
 {
   if (!counts.changed()) return;
   if (field_.cells.empty())
   {
     counts.takeChangedTiles();
-    OccupancyRaster raster = counts.raster(counts.box(), min_looks);
+    OccupancyRaster raster = counts.raster(counts.box(), min_scans);
     field_ = buildDenseField(raster);
     hits_ = std::move(raster.hits);
     tight_ = box_ = counts.box();
@@ -120,7 +120,7 @@ void GrowingField::update(BeamCounts& counts, std::uint32_t min_looks)
   for (const CellIndex& name : counts.takeChangedTiles())
   {
     CellBox box{};
-    if (takeCells(name, counts.cellsOf(name, min_looks), box)) changed.push_back(box);
+    if (takeCells(name, counts.cellsOf(name, min_scans), box)) changed.push_back(box);
   }
   solveAround(changed);
   const double r = field_.frame.resolution;

@@ -25,7 +25,7 @@ class GrowingField
 
   /// Updates the field by what has changed in `counts`, which must always be the same object. Where
   /// a cell of the counts is unknown, the field stays.
-  void update(BeamCounts& counts, std::uint32_t min_looks);
+  void update(BeamCounts& counts, std::uint32_t min_scans);
 
   /// Returns the present field, with some unknown cells around it to grow into.
   const DenseField& field() const { return field_; }

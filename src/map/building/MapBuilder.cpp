@@ -31,11 +31,11 @@ MapBuilder::MapBuilder(const MapBuildingOptions& options, std::shared_ptr<const 
   if (base_ && base_->field()) field_ = GrowingField(*base_->field());
 }
 
-void MapBuilder::add(const PosedScans& look, const FeatureExtractorOptions& extraction)
+void MapBuilder::add(const PosedScans& posed, const FeatureExtractorOptions& extraction)
 {
-  const ObservedScene scene = observeScene(look.scans, extraction);
-  counts_.add(look, options_.raster_range);
-  merger_.add(inMap(scene, look.map_from_robot));
+  const ObservedScene scene = observeScene(posed.scans, extraction);
+  counts_.add(posed, options_.raster_range);
+  merger_.add(inMap(scene, posed.map_from_robot));
 }
 
 std::vector<Feature> MapBuilder::features() const

@@ -35,7 +35,7 @@ class MapBuilder
 
   /// Adds one scan. Throws std::invalid_argument, with nothing added, for a pose that is not finite
   /// or too far from the rest, or an inconsistent scan.
-  void add(const PosedScans& look, const FeatureExtractorOptions& extraction = {});
+  void add(const PosedScans& posed, const FeatureExtractorOptions& extraction = {});
 
   /// True before the first return of a laser.
   bool empty() const { return counts_.empty(); }

@@ -13,7 +13,7 @@ FeatureMap extendMap(const FeatureMap& map, const std::vector<PosedScans>& scans
                      const MapBuildingOptions& options, const FeatureExtractorOptions& extraction)
 {
   MapBuilder builder(options, std::make_shared<FeatureMap>(map));
-  for (const PosedScans& look : scans) builder.add(look, extraction);
+  for (const PosedScans& posed : scans) builder.add(posed, extraction);
   if (builder.empty()) throw std::invalid_argument("extendMap: no scan has a valid return");
   return builder.map();
 }

@@ -173,9 +173,9 @@ std::vector<PairIndexGenerator::Lookup> PairIndexGenerator::lookupsOfExplained(
   return rankedLookups(scene, explained, drawsNeeded(failure, rivalShare(explained.size(), 2)));
 }
 
-void PairIndexGenerator::lookAgain(const PreparedScene& scene, HypothesisSet& found,
-                                   FeatureVerifier::Workspace& workspace,
-                                   MatchingCounters& counters, std::uint64_t budget) const
+void PairIndexGenerator::searchAgain(const PreparedScene& scene, HypothesisSet& found,
+                                     FeatureVerifier::Workspace& workspace,
+                                     MatchingCounters& counters, std::uint64_t budget) const
 {
   const std::vector<Lookup> lookups = lookupsOfExplained(scene, found);
   if (basesOf(lookups) > budget) return;

@@ -27,9 +27,9 @@ class PairIndexGenerator : public FeatureHypothesisGenerator
   /// Searches for poses that explain nearly as much as the best hypothesis, with pairs of the
   /// features that it explains, eq. (4.4). Does nothing where that could take more than `budget`
   /// bases.
-  void lookAgain(const PreparedScene& scene, HypothesisSet& found,
-                 FeatureVerifier::Workspace& workspace, MatchingCounters& counters,
-                 std::uint64_t budget) const;
+  void searchAgain(const PreparedScene& scene, HypothesisSet& found,
+                   FeatureVerifier::Workspace& workspace, MatchingCounters& counters,
+                   std::uint64_t budget) const;
 
   /// Returns how many bases a search would retrieve at most, without retrieving them.
   std::uint64_t basesFor(const PreparedScene& scene) const;

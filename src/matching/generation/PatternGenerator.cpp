@@ -198,16 +198,16 @@ bool PatternGenerator::search(const PreparedScene& scene, Query& query, Hypothes
   if (!settled()) return false;
 
   // 2. Patterns of what the answer explains.
-  lookAgain(scene, query, found, workspace, counters);
+  searchAgain(scene, query, found, workspace, counters);
   return true;
 }
 
 /// Look-alike poses share most of what the best one explains. Only patterns that the index has at
 /// the best pose are drawn, because most likely it has them at look-alike poses too. Where there
 /// are too few of them, pairs are looked up.
-void PatternGenerator::lookAgain(const PreparedScene& scene, Query& query, HypothesisSet& found,
-                                 FeatureVerifier::Workspace& workspace,
-                                 MatchingCounters& counters) const
+void PatternGenerator::searchAgain(const PreparedScene& scene, Query& query, HypothesisSet& found,
+                                   FeatureVerifier::Workspace& workspace,
+                                   MatchingCounters& counters) const
 {
   query.partners.assign(scene.size(), 0);
   for (const FeaturePairing& pairing : found.best()->pairings)
@@ -232,7 +232,7 @@ void PatternGenerator::lookAgain(const PreparedScene& scene, Query& query, Hypot
   }
   if (drawn >= wanted) return;
   const std::uint64_t before = counters.hypotheses;
-  pairs_.lookAgain(scene, found, workspace, counters, kFewPairBases);
+  pairs_.searchAgain(scene, found, workspace, counters, kFewPairBases);
   query.pair_bases = counters.hypotheses - before;
 }
 

@@ -40,8 +40,8 @@ class PatternGenerator : public FeatureHypothesisGenerator
                      std::uint32_t wanted, Query& query, HypothesisSet& found,
                      FeatureVerifier::Workspace& workspace, MatchingCounters& counters,
                      const Done& done) const;
-  void lookAgain(const PreparedScene& scene, Query& query, HypothesisSet& found,
-                 FeatureVerifier::Workspace& workspace, MatchingCounters& counters) const;
+  void searchAgain(const PreparedScene& scene, Query& query, HypothesisSet& found,
+                   FeatureVerifier::Workspace& workspace, MatchingCounters& counters) const;
   bool search(const PreparedScene& scene, Query& query, HypothesisSet& found,
               FeatureVerifier::Workspace& workspace, MatchingCounters& counters) const;
   bool isSignificant(const PreparedScene& scene, const HypothesisSet& found,

@@ -177,7 +177,7 @@ void TrackSet::showTo(Track& track, const DenseScan& scan, const DenseVerifier& 
   track.explained.addScan(view_, explained, travelled);
 }
 
-void TrackSet::weighFirstLook()
+void TrackSet::weighFirstScan()
 {
   double dealt = 0;
   double most = 0;

@@ -49,7 +49,7 @@ class TrackSet
 
   /// Weighs the tracks that the last relocation has started against each other by their observed
   /// cells too, where the relocation has used scores alone. Eq. (8.27)
-  void weighFirstLook();
+  void weighFirstScan();
 
   /// Log-odds that an unexplained cell costs against a rival that explains it. Eq. (8.26)
   double costOfUnexplained() const;
@@ -85,13 +85,13 @@ class TrackSet
   Track* trackAt(const mrpt::math::TPose2D& pose);
 
   /// What a claim of the first track depends on besides the track. The tracks must be sorted.
-  ClaimContext circumstances() const
+  ClaimContext claimContext() const
   {
     return {tracks.size() > 1 ? tracks[1].hypothesis.weight : 0.0, range_, unexplained_};
   }
 
   /// Claim log-odds of the first track. The tracks must be sorted, and not empty.
-  double claimLogOdds() const { return tracks.front().claimLogOdds(circumstances()); }
+  double claimLogOdds() const { return tracks.front().claimLogOdds(claimContext()); }
 
   /// The heaviest track. Must not be called on an empty set.
   const Track& heaviest() const;
