@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/gzip_input.h"
 
-#include <mrpt/serialization/CArchive.h>
 #include <zlib.h>
 
 #include <algorithm>

@@ -13,7 +13,6 @@
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
-#include <vector>
 
 #include "io/gzip_input.h"
 #include "io/text_rows.h"

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <map>
 
-#include "eval/reports/report_files.h"
 #include "eval/reports/sweep_report.h"
 #include "eval/scoring/relocation_summary.h"
 

@@ -88,9 +88,13 @@ auto values(Read read)
     {
       const auto& value = std::invoke(read, record);
       if constexpr (std::is_arithmetic_v<std::decay_t<decltype(value)>>)
+      {
         found.push_back(static_cast<double>(value));
+      }
       else
+      {
         found.insert(found.end(), value.begin(), value.end());
+      }
     }
     const auto is_nan = [](double value) { return std::isnan(value); };
     found.erase(std::remove_if(found.begin(), found.end(), is_nan), found.end());

@@ -19,7 +19,6 @@
 #include <iterator>
 #include <set>
 #include <stdexcept>
-#include <string>
 
 #include "eval/worlds/motion_model.h"
 #include "sigloc/io/file_output.h"

@@ -8,7 +8,6 @@
 #include <array>
 #include <cmath>
 #include <stdexcept>
-#include <vector>
 
 #include "geometry/same_place.h"
 #include "matching/dense/CellView.h"

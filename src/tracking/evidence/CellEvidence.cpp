@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tracking/evidence/CellEvidence.h"
 
-#include <algorithm>
 #include <iterator>
 
 namespace sigloc
