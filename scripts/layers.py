@@ -23,7 +23,7 @@ MAX_LINES = 400
 # The rooms of src/, lowest first: a room may include itself and the rooms before it in its line.
 CORE = [
     "config", "geometry", "features", "signature", "map", "map/building",
-    "matching/dense", "matching/features", "matching/generation", "matching",
+    "matching/dense", "matching/keypoints", "matching/features", "matching/generation", "matching",
     "tracking/evidence", "tracking/tracks", "tracking/landmarks", "tracking",
 ]  # fmt: skip
 BRIDGE = CORE + ["io", "io/maps", "plugin", "localize"]

@@ -1,0 +1,367 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "matching/keypoints/KeyPairIndex.h"
+
+#include <mrpt/math/wrap2pi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <unordered_map>
+
+#include "geometry/cell_key.h"
+
+namespace sigloc
+{
+using mrpt::math::TPoint2D;
+using mrpt::math::wrapToPi;
+
+namespace
+{
+constexpr double kGate = 7.879;  // chi-square with one degree of freedom, 99.5 %
+constexpr std::uint32_t kBearingBins = 48;
+constexpr std::uint32_t kTurnBins = 32;
+constexpr double kMaxRange = 12.0;  // [m] between the key points of a pair
+constexpr std::size_t kRangeSteps = 48;  // in which the range is chosen
+constexpr std::size_t kLeastSteps = 8;  // 2 m
+constexpr std::size_t kPartners = 64;  // of a key point within the range, on average
+constexpr std::size_t kSmallIndex = 200000;  // pairs that any map may have
+constexpr std::size_t kEntriesPerCell = 2;  // on average, before distances are cut finer
+constexpr std::size_t kMinDistanceBins = 8;
+constexpr std::size_t kMaxDistanceBins = 128;
+constexpr double kMaxRadius = 2.55;  // [m]; larger circles count as of this radius
+constexpr double kCell = 4.0;  // [m] of the hash that finds neighbours
+constexpr double kFullTurn = 65536;  // parts of a stored bearing
+
+constexpr std::size_t kCodes = 32;  // of a standard deviation, in five bits
+constexpr double kLeastDeviation = 0.002;  // [m or rad]
+constexpr double kDeviationRatio = 1.25;  // from one code to the next
+
+/// The variances that the codes stand for.
+const std::array<float, kCodes>& codedVariances()
+{
+  static const std::array<float, kCodes> variances = []
+  {
+    std::array<float, kCodes> table{};
+    double deviation = kLeastDeviation;
+    for (float& variance : table)
+    {
+      variance = static_cast<float>(deviation * deviation);
+      deviation *= kDeviationRatio;
+    }
+    return table;
+  }();
+  return variances;
+}
+
+/// Returns the code of the least variance that is not below the given one, or the last code.
+std::uint32_t codeOf(double variance)
+{
+  const auto& variances = codedVariances();
+  const auto at = std::lower_bound(variances.begin(), variances.end() - 1, variance);
+  return static_cast<std::uint32_t>(at - variances.begin());
+}
+
+std::size_t tableOf(KeyPointKind first, KeyPointKind second)
+{
+  return static_cast<std::size_t>(first) * kKeyPointKinds + static_cast<std::size_t>(second);
+}
+
+double square(double value)
+{
+  return value * value;
+}
+
+double along(const Symmetric2& covariance, double x, double y)
+{
+  return covariance.xx * x * x + 2 * covariance.xy * x * y + covariance.yy * y * y;
+}
+
+/// Calls visit(a, b) for the ordered pairs of points within a range [m] that the index may hold.
+template <class Visit>
+void forEachPair(const std::vector<KeyPoint>& points, double range, Visit&& visit)
+{
+  const auto cellOf = [](double x, double y)
+  {
+    return cellKey(static_cast<std::int64_t>(std::floor(x / kCell)),
+                   static_cast<std::int64_t>(std::floor(y / kCell)));
+  };
+  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells;
+  for (std::uint32_t k = 0; k < points.size(); ++k)
+  {
+    cells[cellOf(points[k].position.x, points[k].position.y)].push_back(k);
+  }
+  const int reach = static_cast<int>(std::ceil(range / kCell));
+  for (std::uint32_t i = 0; i < points.size(); ++i)
+  {
+    const TPoint2D& from = points[i].position;
+    for (int dx = -reach; dx <= reach; ++dx)
+    {
+      for (int dy = -reach; dy <= reach; ++dy)
+      {
+        const auto cell = cells.find(cellOf(from.x + dx * kCell, from.y + dy * kCell));
+        if (cell == cells.end()) continue;
+        for (const std::uint32_t j : cell->second)
+        {
+          if (i == j || points[j].kind < points[i].kind) continue;
+          const TPoint2D between = points[j].position - from;
+          const double squared = square(between.x) + square(between.y);
+          if (squared < square(KeyPairIndex::kMinDistance)) continue;
+          if (squared < square(range)) visit(points[i], points[j]);
+        }
+      }
+    }
+  }
+}
+}  // namespace
+
+KeyPair keyPair(const KeyPoint& first, const KeyPoint& second)
+{
+  const TPoint2D between = second.position - first.position;
+  const double squared = square(between.x) + square(between.y);
+  const double distance = std::sqrt(squared);
+  const double ux = between.x / distance;
+  const double uy = between.y / distance;
+  KeyPair pair;
+  pair.table = tableOf(first.kind, second.kind);
+  pair.distance = distance;
+  pair.bearing = std::atan2(between.y, between.x);
+  pair.x = 0.5 * (first.position.x + second.position.x);
+  pair.y = 0.5 * (first.position.y + second.position.y);
+  pair.distance_variance = along(first.covariance, ux, uy) + along(second.covariance, ux, uy);
+  if (first.kind == KeyPointKind::circle)
+  {
+    pair.first = first.radius;
+    pair.first_variance = first.radius_variance;
+  }
+  else
+  {
+    const double across = along(first.covariance, -uy, ux) + along(second.covariance, -uy, ux);
+    pair.first = wrapToPi(pair.bearing - first.direction);
+    pair.first_variance = first.direction_variance + across / squared;
+  }
+  if (second.kind == KeyPointKind::circle)
+  {
+    pair.second = second.radius;
+    pair.second_variance = second.radius_variance;
+  }
+  else
+  {
+    pair.second = wrapToPi(second.direction - first.direction);
+    pair.second_variance = first.direction_variance + second.direction_variance;
+  }
+  return pair;
+}
+
+KeyPairIndex::KeyPairIndex(const std::vector<KeyPoint>& points, const MapErrorModel& error)
+{
+  layOutTables();
+  const std::size_t pairs = chooseRange(points);
+  distance_bins_ = static_cast<std::uint32_t>(std::clamp<std::size_t>(
+      pairs / (rows_ * kEntriesPerCell), kMinDistanceBins, kMaxDistanceBins));
+  // Pairs are counted by cell first, so that the entries are allocated once.
+  cells_.assign(std::size_t{rows_} * distance_bins_ + 1, 0);
+  forEachPair(points, range_,
+              [&](const KeyPoint& a, const KeyPoint& b) { ++cells_[cellOf(keyPair(a, b))]; });
+  std::exclusive_scan(cells_.begin(), cells_.end(), cells_.begin(), 0U);
+  entries_.resize(pairs);
+  std::vector<std::uint32_t> next(cells_.begin(), cells_.end() - 1);
+  forEachPair(points, range_,
+              [&](const KeyPoint& a, const KeyPoint& b)
+              {
+                const KeyPair pair = keyPair(a, b);
+                Entry& entry = entries_[next[cellOf(pair)]++];
+                entry = entryOf(pair, error);
+                noteVariances(pair.table, entry);
+              });
+}
+
+/// Sets the range, and returns how many pairs lie within it. In a sparse map it is longer, because
+/// near partners are few, and the pairs that tell most are those of far ones.
+std::size_t KeyPairIndex::chooseRange(const std::vector<KeyPoint>& points)
+{
+  std::vector<std::size_t> counts(kRangeSteps, 0);
+  forEachPair(points, kMaxRange,
+              [&](const KeyPoint& a, const KeyPoint& b)
+              {
+                const double share = (b.position - a.position).norm() / kMaxRange;
+                ++counts[std::min(kRangeSteps - 1, static_cast<std::size_t>(share * kRangeSteps))];
+              });
+  const std::size_t most = std::max(kPartners * points.size(), kSmallIndex);
+  std::size_t steps = 0;
+  std::size_t pairs = 0;
+  while (steps < kRangeSteps && (pairs + counts[steps] <= most || steps < kLeastSteps))
+  {
+    pairs += counts[steps++];
+  }
+  range_ = kMaxRange * static_cast<double>(steps) / kRangeSteps;
+  pairs = 0;
+  forEachPair(points, range_, [&](const KeyPoint&, const KeyPoint&) { ++pairs; });
+  return pairs;
+}
+
+/// Gives each table its axes and rows.
+void KeyPairIndex::layOutTables()
+{
+  const auto angle = [](std::uint32_t bins) { return Axis{-M_PI, 2 * M_PI / bins, bins, true}; };
+  const Axis radius{0, kMaxRadius, 1, false};
+  for (std::size_t a = 0; a < kKeyPointKinds; ++a)
+  {
+    for (std::size_t b = a; b < kKeyPointKinds; ++b)
+    {
+      const auto round = [](std::size_t kind)
+      { return static_cast<KeyPointKind>(kind) == KeyPointKind::circle; };
+      Table& table = tables_[a * kKeyPointKinds + b];
+      table.first = round(a) ? radius : angle(kBearingBins);
+      table.second = round(b) ? radius : angle(kTurnBins);
+      table.row = rows_;
+      rows_ += table.first.bins * table.second.bins;
+    }
+  }
+}
+
+KeyPairIndex::Binned KeyPairIndex::binned(const Axis& axis, double value)
+{
+  const double at = std::clamp((value - axis.low) / axis.width, 0.0, axis.bins * (1 - 1e-12));
+  const auto bin = static_cast<std::uint32_t>(at);
+  return {bin, static_cast<std::uint8_t>((at - bin) * 256)};
+}
+
+std::uint32_t KeyPairIndex::rowOf(const KeyPair& pair) const
+{
+  const Table& table = tables_[pair.table];
+  return table.row + binned(table.first, pair.first).bin * table.second.bins +
+         binned(table.second, pair.second).bin;
+}
+
+std::uint32_t KeyPairIndex::distanceBin(double distance) const
+{
+  const double share = (distance - kMinDistance) / (range_ - kMinDistance);
+  const double last = distance_bins_ - 1;
+  return static_cast<std::uint32_t>(std::clamp(share * distance_bins_, 0.0, last));
+}
+
+std::size_t KeyPairIndex::cellOf(const KeyPair& pair) const
+{
+  return std::size_t{rowOf(pair)} * distance_bins_ + distanceBin(pair.distance);
+}
+
+KeyPairIndex::Entry KeyPairIndex::entryOf(const KeyPair& pair, const MapErrorModel& error) const
+{
+  const Table& table = tables_[pair.table];
+  const double relative = square(error.relativeSigma(pair.distance));
+  const double turned = table.first.is_angle ? relative / square(pair.distance) : 0.0;
+  const std::uint32_t deviations =
+      codeOf(std::min(pair.distance_variance + relative, kMostOfDistance)) |
+      codeOf(std::min(pair.first_variance + turned, kMostOfOthers)) << 5U |
+      codeOf(std::min(pair.second_variance, kMostOfOthers)) << 10U;
+  Entry entry{};
+  entry.x = static_cast<float>(pair.x);
+  entry.y = static_cast<float>(pair.y);
+  entry.distance = static_cast<std::uint16_t>(std::lround(pair.distance / kDistanceUnit));
+  entry.bearing = static_cast<std::uint16_t>(
+      static_cast<std::int32_t>(std::lround(pair.bearing / (2 * M_PI) * kFullTurn)));
+  entry.first = binned(table.first, pair.first).residue;
+  entry.second = binned(table.second, pair.second).residue;
+  entry.deviations = static_cast<std::uint16_t>(deviations);
+  return entry;
+}
+
+void KeyPairIndex::noteVariances(std::size_t table, const Entry& entry)
+{
+  const auto& variances = codedVariances();
+  const auto note = [&](double& largest, std::uint32_t shift)
+  { largest = std::max<double>(largest, variances[entry.deviations >> shift & 31U]); };
+  note(tables_[table].distance_variance, 0);
+  note(tables_[table].first_variance, 5);
+  note(tables_[table].second_variance, 10);
+}
+
+std::size_t KeyPairIndex::find(const KeyPair& observed, std::vector<Run>& runs) const
+{
+  const Table& table = tables_[observed.table];
+  /// The bins of an axis that a gate reaches: `count` of them from `begin` on, wrapping around.
+  struct Bins
+  {
+    std::int64_t begin, count;
+  };
+  const auto reached = [](const Axis& axis, double value, double variance)
+  {
+    if (!axis.is_angle) return Bins{0, 1};
+    const double tolerance = std::sqrt(kGate * variance) + axis.width / 512;
+    const auto low =
+        static_cast<std::int64_t>(std::floor((value - tolerance - axis.low) / axis.width));
+    const auto high =
+        static_cast<std::int64_t>(std::floor((value + tolerance - axis.low) / axis.width));
+    return Bins{low + axis.bins, std::min<std::int64_t>(high - low + 1, axis.bins)};
+  };
+  const Bins first =
+      reached(table.first, observed.first, observed.first_variance + table.first_variance);
+  const Bins second =
+      reached(table.second, observed.second, observed.second_variance + table.second_variance);
+  const double tolerance =
+      std::sqrt(kGate * (observed.distance_variance + table.distance_variance));
+  const std::uint32_t nearest = distanceBin(observed.distance - tolerance);
+  const std::uint32_t farthest = distanceBin(observed.distance + tolerance);
+  std::size_t count = 0;
+  for (std::int64_t a = first.begin; a < first.begin + first.count; ++a)
+  {
+    const auto base =
+        table.row + static_cast<std::uint32_t>(a % table.first.bins) * table.second.bins;
+    for (std::int64_t b = second.begin; b < second.begin + second.count; ++b)
+    {
+      const auto row = base + static_cast<std::uint32_t>(b % table.second.bins);
+      const std::size_t cell = std::size_t{row} * distance_bins_;
+      const Run run{row, cells_[cell + nearest], cells_[cell + farthest + 1]};
+      if (run.begin == run.end) continue;
+      runs.push_back(run);
+      count += run.end - run.begin;
+    }
+  }
+  return count;
+}
+
+void KeyPairIndex::collect(const KeyPair& observed, const Run& run,
+                           std::vector<Match>& matches) const
+{
+  const auto& variances = codedVariances();
+  const Table& table = tables_[observed.table];
+  const std::uint32_t bin = run.row - table.row;
+  // The differences at the lower border of the row's bins, and what a 256th of a bin adds.
+  const auto difference = [](const Axis& axis, std::uint32_t axis_bin, double value)
+  {
+    const double low = axis.low + axis.width * (axis_bin + 0.5 / 256) - value;
+    return static_cast<float>(axis.is_angle ? wrapToPi(low) : low);
+  };
+  const float first_low = difference(table.first, bin / table.second.bins, observed.first);
+  const float second_low = difference(table.second, bin % table.second.bins, observed.second);
+  const auto first_step = static_cast<float>(table.first.width / 256);
+  const auto second_step = static_cast<float>(table.second.width / 256);
+  const auto unit = static_cast<float>(kDistanceUnit);
+  const auto seen = static_cast<float>(observed.distance);
+  const auto gate = static_cast<float>(kGate);
+  const auto of_distance = static_cast<float>(observed.distance_variance);
+  const auto of_first = static_cast<float>(observed.first_variance);
+  const auto of_second = static_cast<float>(observed.second_variance);
+  for (std::uint32_t k = run.begin; k < run.end; ++k)
+  {
+    const Entry& entry = entries_[k];
+    const float distance = entry.distance * unit - seen;
+    const float first = first_low + first_step * entry.first;
+    const float second = second_low + second_step * entry.second;
+    const bool fits =
+        (distance * distance <= gate * (of_distance + variances[entry.deviations & 31U])) &
+        (first * first <= gate * (of_first + variances[entry.deviations >> 5U & 31U])) &
+        (second * second <= gate * (of_second + variances[entry.deviations >> 10U & 31U]));
+    if (!fits) continue;
+    const auto bearing =
+        static_cast<float>(static_cast<std::int16_t>(entry.bearing) * (2 * M_PI / kFullTurn));
+    matches.push_back({entry.x, entry.y, bearing, first, second});
+  }
+}
+
+std::size_t KeyPairIndex::bytes() const
+{
+  return entries_.capacity() * sizeof(Entry) + cells_.capacity() * sizeof(std::uint32_t);
+}
+}  // namespace sigloc
