@@ -28,9 +28,9 @@ CORE = [
 ]  # fmt: skip
 BRIDGE = CORE + ["io", "io/maps", "plugin", "localize"]
 EVAL = BRIDGE + [
-    "eval/process", "eval/data", "eval/worlds", "eval/methods/lattice", "eval/methods/features",
-    "eval/methods/particles", "eval/methods", "eval/scoring", "eval/protocols", "eval/wakeup",
-    "eval/reports",
+    "eval/process", "eval/data", "eval/worlds", "eval/worlds/buildings", "eval/methods/lattice",
+    "eval/methods/features", "eval/methods/particles", "eval/methods", "eval/scoring",
+    "eval/protocols", "eval/wakeup", "eval/reports",
 ]  # fmt: skip
 ROOMS = {room: line[: line.index(room) + 1] for line in (EVAL, BRIDGE, CORE) for room in line}
 ROOMS["render"] = BRIDGE + ["render"]

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "eval/data/folder_output.h"
+#include "eval/worlds/buildings/buildings.h"
 #include "eval/worlds/robot_simulation.h"
 #include "eval/worlds/simulation_files.h"
 #include "eval/worlds/world_generators.h"
@@ -60,6 +61,7 @@ struct Settings
   std::string out;
   MapOptions maps;
   sigloc::WorldOptions layout;
+  sigloc::BuildingOptions buildings;
   sigloc::WorldChangeOptions changes;
   sigloc::LaserOptions laser;
   sigloc::LandmarkSensorOptions landmarks;
@@ -140,6 +142,11 @@ void describeOptions(CLI::App& app, Settings& settings)
   limit(addFlags(app, settings.maps, "Maps", ""), scanned);
   limit(addFlags(app, settings.layout, "World", "", {{"furniture_per_room", "--furniture"}}),
         by_key);
+  limit(addFlags(app, settings.buildings, "Buildings", ""), scanned);
+  settings.of_some_worlds.push_back(
+      {app.add_flag("--identical", settings.buildings.identical, "the buildings share one seed")
+           ->group("Buildings"),
+       isScanned});
   limit(addFlags(app, settings.changes, "What the drive finds changed since the map was made",
                  "drive-", {{"moved_share", "--moved-share"}, {"extra_items", "--unmapped"}}),
         by_key);
@@ -156,9 +163,11 @@ void describeOptions(CLI::App& app, Settings& settings)
 }
 
 void simulateLandmarks(const Settings& settings, const std::filesystem::path& out,
-                       const sigloc::World& world, const std::string& command)
+                       const std::vector<sigloc::PlacedWorld>& buildings,
+                       const std::string& command)
 {
   using namespace sigloc;
+  const World& world = buildings.front().world;
   const LandmarkSimulator sensor(world, settings.landmarks);
   Random random(settings.seed, 20);
   const auto steps = simulateLandmarkDrive(world, settings.drive, settings.odometry,
@@ -176,29 +185,40 @@ void simulateLandmarks(const Settings& settings, const std::filesystem::path& ou
 }
 
 void simulateLaser(const Settings& settings, const std::filesystem::path& out,
-                   const sigloc::World& world, const std::string& command)
+                   const std::vector<sigloc::PlacedWorld>& buildings, const std::string& command)
 {
   using namespace sigloc;
   checkOptions(settings.maps);
-  const auto mapping = simulateMapping(world, settings.maps.map_spacing, settings.drive.clearance,
+  const double clearance = settings.drive.clearance;
+  const auto mapping = simulateMapping(buildings, settings.maps.map_spacing, clearance,
                                        settings.laser, settings.seed);
-  const World driven = changedWorld(world, settings.changes, settings.seed);
-  const auto steps =
-      simulateDrive(driven, settings.drive, settings.odometry, settings.laser, settings.drive_seed);
+  writeSimpleMap(mapping, out / "map.simplemap");
+  writeGridMap(buildings, settings.maps.resolution, out / "map.gridmap.gz");
+  const auto driven = changedBuildings(buildings, settings.changes, settings.seed);
+  const auto steps = simulateDrive(driven.front().world, settings.drive, settings.odometry,
+                                   settings.laser, settings.drive_seed);
   const auto kind =
       settings.log == "observations" ? RawlogKind::observations : RawlogKind::action_frame;
-  writeSimpleMap(mapping, out / "map.simplemap");
-  writeGridMap(world, settings.maps.resolution, out / "map.gridmap.gz");
   writeRawlog(steps, settings.odometry, kind, out / "drive.rawlog");
   writeTruth(steps, out / "truth.txt");
-  writeSimulationNote(command,
-                      "* `map.simplemap`: mapping scans with their exact poses\n"
-                      "* `map.gridmap.gz`: the same world as an occupancy grid\n"
-                      "* `drive.rawlog`: odometry and scans of a drive; the mapping scans are not "
-                      "in it\n"
-                      "* `truth.txt`: the true path, rows `time x y phi`\n",
-                      out);
+  std::string files =
+      "* `map.simplemap`: mapping scans with their exact poses\n"
+      "* `map.gridmap.gz`: the same world as an occupancy grid\n"
+      "* `drive.rawlog`: odometry and scans of a drive; the mapping scans are not "
+      "in it\n"
+      "* `truth.txt`: the true path, rows `time x y phi`\n";
+  if (settings.buildings.queries > 0)
+  {
+    writeSimpleMap(simulateQueries(driven, settings.buildings.queries, clearance, settings.laser,
+                                   settings.drive_seed),
+                   out / "queries.simplemap");
+    files +=
+        "* `queries.simplemap`: scans at random poses of random buildings, with their exact "
+        "poses\n";
+  }
+  writeSimulationNote(command, files, out);
 }
+
 /// The command that makes the same files again.
 std::string commandOf(int argc, char** argv)
 {
@@ -225,10 +245,11 @@ void simulate(const Settings& settings, const std::string& command)
   const sigloc::WorldKind kind = sigloc::worldKindFrom(settings.world);
   settings.checkUse(kind);
   sigloc::checkSimulationFolder(settings.out);
-  const sigloc::World world = sigloc::makeWorld(kind, settings.layout, settings.seed);
+  const auto buildings =
+      sigloc::makeBuildings(kind, settings.layout, settings.buildings, settings.seed);
   const auto write = isScanned(kind) ? simulateLaser : simulateLandmarks;
   sigloc::fillFolder(settings.out, [&](const std::filesystem::path& part)
-                     { write(settings, part, world, command); });
+                     { write(settings, part, buildings, command); });
 }
 }  // namespace
 

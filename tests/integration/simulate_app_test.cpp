@@ -48,6 +48,21 @@ TEST(SimulateApp, WritesEveryWorldTheSameTwice)
   }
 }
 
+TEST(SimulateApp, ManyBuildingsAndQueriesAreTheSameTwice)
+{
+  const test::TemporaryFolder folder;
+  for (const char* name : {"a", "b"})
+  {
+    ASSERT_EQ(simulate(folder, "--metres 5 --map-spacing 6 --buildings 3 --queries 4 --out " +
+                                   (folder / name).string()),
+              0);
+  }
+  for (const char* file : {"map.simplemap", "map.gridmap.gz", "queries.simplemap"})
+  {
+    EXPECT_EQ(test::readBytes(folder / "a" / file), test::readBytes(folder / "b" / file)) << file;
+  }
+}
+
 TEST(SimulateApp, NamesTheFlagThatIsBad)
 {
   for (const auto& [arguments, flag] :
@@ -65,14 +80,29 @@ TEST(SimulateApp, NamesTheFlagThatIsBad)
 
 TEST(SimulateApp, BadArgumentsGiveOneLineAndNothingElse)
 {
-  for (const char* arguments :
-       {"--world moon --out DIR", "--seed x --out DIR", "--clutter 2 --out DIR",
-        "--metres nan --out DIR", "--width 3 --out DIR", "--clearance 5 --out DIR",
-        "--world office --copies 3 --out DIR", "--world hall --door-width 1 --out DIR",
-        "--world points --fov 180 --out DIR", "--world park --landmark-range 9 --out DIR",
-        "--world points --map-spacing 2 --out DIR", "--world corridor --points 9 --out DIR",
-        "--world park --moved-share 0.5 --out DIR", "--world points --width 40 --out DIR",
-        "--no-such-flag --out DIR", "--out /proc/none", "", "--out DIR/err/below"})
+  for (const char* arguments : {"--world moon --out DIR",
+                                "--seed x --out DIR",
+                                "--clutter 2 --out DIR",
+                                "--metres nan --out DIR",
+                                "--width 3 --out DIR",
+                                "--clearance 5 --out DIR",
+                                "--world office --copies 3 --out DIR",
+                                "--world hall --door-width 1 --out DIR",
+                                "--world points --fov 180 --out DIR",
+                                "--world park --landmark-range 9 --out DIR",
+                                "--world points --map-spacing 2 --out DIR",
+                                "--world corridor --points 9 --out DIR",
+                                "--world park --moved-share 0.5 --out DIR",
+                                "--world points --width 40 --out DIR",
+                                "--world park --buildings 2 --out DIR",
+                                "--world points --buildings 2 --out DIR",
+                                "--buildings 0 --out DIR",
+                                "--world points --queries 3 --out DIR",
+                                "--world points --identical --out DIR",
+                                "--no-such-flag --out DIR",
+                                "--out /proc/none",
+                                "",
+                                "--out DIR/err/below"})
   {
     const test::TemporaryFolder folder;
     std::string text = arguments;

@@ -66,6 +66,13 @@ struct World
   std::vector<mrpt::math::TPoint2D> points;  ///< landmarks, which no laser sees
 };
 
+/// A world, and where its origin lies in the map [m].
+struct PlacedWorld
+{
+  World world;
+  mrpt::math::TPoint2D origin;
+};
+
 /// Returns every straight surface a laser sees: walls, furniture outlines and closed doors.
 std::vector<WallSegment> visibleSegments(const World& world);
 

@@ -68,13 +68,55 @@ mrpt::obs::CSensoryFrame frameOf(const DriveStep& step)
   return frame;
 }
 
+/// Returns the box around worlds in the frame of the map.
+Bounds boundsOf(const std::vector<PlacedWorld>& worlds)
+{
+  Bounds all{1e12, -1e12, 1e12, -1e12};
+  for (const auto& [world, origin] : worlds)
+  {
+    all.x_min = std::min(all.x_min, origin.x + world.bounds.x_min);
+    all.x_max = std::max(all.x_max, origin.x + world.bounds.x_max);
+    all.y_min = std::min(all.y_min, origin.y + world.bounds.y_min);
+    all.y_max = std::max(all.y_max, origin.y + world.bounds.y_max);
+  }
+  return all;
+}
+
+/// Sets the cells that a robot of no size reaches.
+void drawFreeSpace(const PlacedWorld& placed, double resolution,
+                   mrpt::maps::COccupancyGridMap2D& grid)
+{
+  constexpr float kFree = 0.99F;
+  const FreeSpace space(placed.world, 0.0, resolution);
+  // Free space ends up to a cell before a surface; the cells between are free unless drawn over.
+  const auto near_free_space = [&](double x, double y)
+  {
+    return space.contains({x, y}) || space.contains({x - resolution, y}) ||
+           space.contains({x + resolution, y}) || space.contains({x, y - resolution}) ||
+           space.contains({x, y + resolution});
+  };
+  const Bounds b = boundsOf({placed});
+  const auto column_of = [&](double x) { return grid.x2idx(static_cast<float>(x)); };
+  const auto row_of = [&](double y) { return grid.y2idx(static_cast<float>(y)); };
+  for (int row = row_of(b.y_min) - 2; row <= row_of(b.y_max) + 2; ++row)
+  {
+    for (int column = column_of(b.x_min) - 2; column <= column_of(b.x_max) + 2; ++column)
+    {
+      const double x = grid.idx2x(column) - placed.origin.x;
+      const double y = grid.idx2y(row) - placed.origin.y;
+      if (near_free_space(x, y)) grid.setCell(column, row, kFree);
+    }
+  }
+}
+
 /// Sets every cell that a surface runs through.
-void drawSurfaces(const World& world, mrpt::maps::COccupancyGridMap2D& grid)
+void drawSurfaces(const PlacedWorld& placed, mrpt::maps::COccupancyGridMap2D& grid)
 {
   constexpr float kOccupied = 0.01F;
+  const auto& [world, origin] = placed;
   const double stride = 0.25 * static_cast<double>(grid.getResolution());
-  const auto mark = [&](double x, double y)
-  { grid.setPos(static_cast<float>(x), static_cast<float>(y), kOccupied); };
+  const auto mark = [&, o = origin](double x, double y)
+  { grid.setPos(static_cast<float>(o.x + x), static_cast<float>(o.y + y), kOccupied); };
   for (const WallSegment& segment : visibleSegments(world))
   {
     const auto along = segment.end - segment.start;
@@ -142,37 +184,26 @@ void writeSimpleMap(const std::vector<PosedScans>& scans, const fs::path& path)
 
 void writeGridMap(const World& world, double resolution, const fs::path& path)
 {
-  constexpr float kFree = 0.99F;
-  constexpr double kMargin = 0.5;  // [m] of unknown around the world
+  writeGridMap(std::vector<PlacedWorld>{{world, {0, 0}}}, resolution, path);
+}
+
+void writeGridMap(const std::vector<PlacedWorld>& worlds, double resolution, const fs::path& path)
+{
   if (!(resolution >= 0.005 && resolution <= 1))
   {
     throw std::invalid_argument("the resolution of a grid map must lie in [0.005, 1] m");
   }
-  const Bounds& b = world.bounds;
+  constexpr double kMargin = 0.5;  // [m] of unknown around the worlds
+  const Bounds b = boundsOf(worlds);
   mrpt::maps::COccupancyGridMap2D grid;
   grid.setSize(static_cast<float>(b.x_min - kMargin), static_cast<float>(b.x_max + kMargin),
                static_cast<float>(b.y_min - kMargin), static_cast<float>(b.y_max + kMargin),
                static_cast<float>(resolution), 0.5F);
-  const FreeSpace space(world, 0.0, resolution);
-  // Free space ends up to a cell before a surface; the cells between are free unless drawn over.
-  const auto near_free_space = [&](int c, int r)
+  for (const PlacedWorld& placed : worlds)
   {
-    const double x = grid.idx2x(c);
-    const double y = grid.idx2y(r);
-    return space.contains({x, y}) || space.contains({x - resolution, y}) ||
-           space.contains({x + resolution, y}) || space.contains({x, y - resolution}) ||
-           space.contains({x, y + resolution});
-  };
-  for (unsigned row = 0; row < grid.getSizeY(); ++row)
-  {
-    for (unsigned column = 0; column < grid.getSizeX(); ++column)
-    {
-      const auto c = static_cast<int>(column);
-      const auto r = static_cast<int>(row);
-      if (near_free_space(c, r)) grid.setCell(c, r, kFree);
-    }
+    drawFreeSpace(placed, resolution, grid);
+    drawSurfaces(placed, grid);
   }
-  drawSurfaces(world, grid);
   writeObjects(
       path, [&](CArchive& archive) { archive << grid; }, kBestCompression);
 }
@@ -207,8 +238,9 @@ void writeRawlog(const std::vector<DriveStep>& steps, const OdometryOptions& odo
 
 void checkSimulationFolder(const fs::path& folder)
 {
-  static const std::set<std::string> kNames = {"map.simplemap", "map.gridmap.gz", "map.txt",
-                                               "drive.rawlog",  "truth.txt",      kNote};
+  static const std::set<std::string> kNames = {
+      "map.simplemap", "map.gridmap.gz",    "map.txt", "drive.rawlog",
+      "truth.txt",     "queries.simplemap", kNote};
   const auto writes = [](const std::string& name) { return kNames.count(name) > 0; };
   const auto is_own = [](const fs::path& path)
   {

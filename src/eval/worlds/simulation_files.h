@@ -34,6 +34,10 @@ void writeSimpleMap(const std::vector<PosedScans>& scans, const std::filesystem:
 /// reaches free, the others unknown. `resolution` in metres.
 void writeGridMap(const World& world, double resolution, const std::filesystem::path& path);
 
+/// The same for several worlds that do not overlap.
+void writeGridMap(const std::vector<PlacedWorld>& worlds, double resolution,
+                  const std::filesystem::path& path);
+
 /// Writes a `.rawlog`. Steps with a scan get a CObservation2DRangeScan, steps with landmarks a
 /// CObservationBearingRange without identities.
 void writeRawlog(const std::vector<DriveStep>& steps, const OdometryOptions& odometry,
