@@ -16,6 +16,9 @@
 
 namespace sigloc
 {
+/// Returns a progress bar on stderr, or an empty function when it is no terminal or `quiet`.
+ShowProgress progressBar(bool quiet);
+
 /// The options that every sub-command takes.
 struct CommonOptions
 {
@@ -55,6 +58,17 @@ struct CommonOptions
     options.command = command_line;
   }
 
+  /// Sets how the methods that use a dense field are run: seed, prior, field, threads, progress.
+  template <class Options>
+  void passToMethods(Options& options) const
+  {
+    options.method.seed = seed;
+    options.method.region = poseRegion();
+    options.method.use_dense_field = !no_dense;
+    options.threads = threads;
+    options.progress = progressBar(quiet);
+  }
+
   /// The prior that --region and --heading give together.
   std::optional<PoseRegion> poseRegion() const;
 };
@@ -74,7 +88,4 @@ std::vector<std::filesystem::path> inputFiles(const std::filesystem::path& map,
 /// Returns 0. When the rawlog was truncated, writes a line to stderr and returns 2: its readable
 /// part was used.
 int exitCode(bool complete, const std::filesystem::path& rawlog);
-
-/// Returns a progress bar on stderr, or an empty function when it is no terminal or `quiet`.
-ShowProgress progressBar(bool quiet);
 }  // namespace sigloc

@@ -30,12 +30,8 @@ struct RelocateFlags
     options.sources.max_queries = common.max_queries;
     common.passTo(options, command_line);
     common.checkDense(options.methods, true);
-    options.method.region = common.poseRegion();
-    options.method.use_dense_field = !common.no_dense;
-    options.method.seed = common.seed;
+    common.passToMethods(options);
     if (simulated) options.gates = simulationGates();
-    options.threads = common.threads;
-    options.progress = progressBar(common.quiet);
     const RelocateReport report = runRelocate(options);
     writeRelocateReport(report, common.out);
     FailuresByFolder failures;

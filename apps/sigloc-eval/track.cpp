@@ -79,12 +79,8 @@ struct TrackFlags
     if (landmarks) options.methods = {"signature"};
     common.passTo(options, command_line);
     checkUse(options.methods, landmarks);
-    options.method.seed = common.seed;
-    options.method.region = common.poseRegion();
-    options.method.use_dense_field = !common.no_dense;
+    common.passToMethods(options);
     if (common.max_queries > 0) options.starts = std::min(options.starts, common.max_queries);
-    options.threads = common.threads;
-    options.progress = progressBar(common.quiet);
     return runWakeups(options);
   }
 
@@ -99,13 +95,9 @@ struct TrackFlags
              !simulated.kinds.empty() &&
                  std::all_of(simulated.kinds.begin(), simulated.kinds.end(),
                              [](WorldKind kind) { return kind == WorldKind::points; }));
-    simulated.method.seed = common.seed;
+    common.passToMethods(simulated);
     simulated.method.particles = options.method.particles;
-    simulated.method.region = common.poseRegion();
-    simulated.method.use_dense_field = !common.no_dense;
     if (common.max_queries > 0) simulated.drives = std::min(simulated.drives, common.max_queries);
-    simulated.threads = common.threads;
-    simulated.progress = progressBar(common.quiet);
     return runSimulatedTrack(simulated);
   }
 };

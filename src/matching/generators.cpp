@@ -15,7 +15,6 @@ std::unique_ptr<FeatureHypothesisGenerator> makeGenerator(GenerationMode mode,
                                                           const FeatureMap& map,
                                                           const GeneratorOptions& options)
 {
-  checkOptions(options);
   const auto prepared = std::make_shared<const PreparedMap>(map);
   return makeGenerator(mode, std::make_shared<const FeatureVerifier>(prepared, options));
 }

@@ -18,6 +18,20 @@ constexpr double kParallel = 0.35;  // [rad] between walls, below which one of t
 constexpr double kMinPairDistance = 0.8;  // [m] of circles; shorter pairs give poor headings
 constexpr std::uint32_t kUsualProposals = 16384;  // for which memory is reserved
 constexpr double kRadiusTolerance = 0.3;  // [m] gate on the radius of an observed circle
+constexpr double kPairTolerance = 0.15;  // [m] gate on the distance of two circles
+constexpr double kPairRange = 15.0;  // [m] largest distance of a pair of circles
+constexpr double kSlideStep = 0.4;  // [m] of a slid wall
+constexpr double kOverhang = 0.3;  // share of an observed wall that may lie beyond the mapped one
+constexpr double kLengthTolerance = 0.3;  // [m] by which an observed wall may be the longer one
+
+constexpr std::uint32_t kBudget = 20000;  // most proposals of one scene, further ones not counted
+constexpr std::uint32_t kSlidWalls = 1;  // observed walls that are slid at least
+constexpr std::uint32_t kEnough = 2000;  // proposals; with fewer another observed wall is slid
+constexpr std::uint32_t kMaxPairs = 3;  // observed pairs of circles tried, rarest distance first
+// The same in all where further poses are proposed.
+constexpr std::uint32_t kThoroughBudget = 12000;
+constexpr std::uint32_t kThoroughSlidWalls = 3;
+constexpr std::uint32_t kThoroughPairs = 6;
 
 /// Returns the pose with heading `phi` (cosine `c`, sine `s`) that maps a point of the robot frame
 /// to one of the map.
@@ -29,10 +43,8 @@ PoseProposal poseCarrying(const TPoint2D& in_robot, const TPoint2D& in_map, doub
 }
 }  // namespace
 
-PoseProposer::PoseProposer(const FeatureMap& map, const PoseProposerOptions& options)
-    : options_(options)
+PoseProposer::PoseProposer(const FeatureMap& map)
 {
-  checkOptions(options);
   const std::vector<Feature>& features = map.features();
   std::vector<std::uint32_t> circles;
   for (std::uint32_t k = 0; k < features.size(); ++k)
@@ -73,7 +85,7 @@ PoseProposer::PoseProposer(const FeatureMap& map, const PoseProposerOptions& opt
       if (a == b) continue;
       const TPoint2D d = features[b].position - features[a].position;
       const double distance = d.norm();
-      if (distance < kMinPairDistance || distance > options.pair_range) continue;
+      if (distance < kMinPairDistance || distance > kPairRange) continue;
       pairs_.push_back({distance, a, b, (features[a].position + features[b].position) * 0.5,
                         features[a].size, features[b].size, std::atan2(d.y, d.x), d.x / distance,
                         d.y / distance});
@@ -91,30 +103,30 @@ PoseProposer::PoseProposer(const FeatureMap& map, const PoseProposerOptions& opt
 std::vector<PoseProposal> PoseProposer::propose(const std::vector<Feature>& observed) const
 {
   std::vector<PoseProposal> proposals;
-  proposals.reserve(std::min(options_.budget, kUsualProposals));
+  proposals.reserve(std::min(kBudget, kUsualProposals));
   proposeWallEnds(observed, proposals);
-  proposeCirclePairs(observed, 0, options_.max_pairs, proposals);
+  proposeCirclePairs(observed, 0, kMaxPairs, proposals);
   const std::vector<const Feature*> walls = wallsToSlide(observed);
   for (std::size_t i = 0; i < walls.size(); ++i)
   {
-    if (i >= options_.slid_walls && proposals.size() >= options_.enough) break;
-    slide(*walls[i], options_.budget, proposals);
+    if (i >= kSlidWalls && proposals.size() >= kEnough) break;
+    slide(*walls[i], kBudget, proposals);
   }
-  if (proposals.size() > options_.budget) proposals.resize(options_.budget);
+  if (proposals.size() > kBudget) proposals.resize(kBudget);
   return proposals;
 }
 
 std::vector<PoseProposal> PoseProposer::proposeFurther(const std::vector<Feature>& observed) const
 {
   std::vector<PoseProposal> proposals;
-  proposals.reserve(std::min(options_.thorough_budget, kUsualProposals));
-  proposeCirclePairs(observed, options_.max_pairs, options_.thorough_pairs, proposals);
+  proposals.reserve(std::min(kThoroughBudget, kUsualProposals));
+  proposeCirclePairs(observed, kMaxPairs, kThoroughPairs, proposals);
   const std::vector<const Feature*> walls = wallsToSlide(observed);
-  for (std::size_t i = options_.slid_walls; i < walls.size(); ++i)
+  for (std::size_t i = kSlidWalls; i < walls.size(); ++i)
   {
-    slide(*walls[i], options_.thorough_budget, proposals);
+    slide(*walls[i], kThoroughBudget, proposals);
   }
-  if (proposals.size() > options_.thorough_budget) proposals.resize(options_.thorough_budget);
+  if (proposals.size() > kThoroughBudget) proposals.resize(kThoroughBudget);
   return proposals;
 }
 
@@ -128,7 +140,7 @@ void PoseProposer::proposeWallEnds(const std::vector<Feature>& observed,
     const double s = std::sin(end.direction);
     for (const MappedEnd& mapped : wall_ends_[static_cast<std::size_t>(end.side)])
     {
-      if (mapped.length + options_.length_tolerance < end.size * (1.0 - options_.overhang)) break;
+      if (mapped.length + kLengthTolerance < end.size * (1.0 - kOverhang)) break;
       out.push_back(poseCarrying(end.position, mapped.position, mapped.direction - end.direction,
                                  mapped.c * c + mapped.s * s, mapped.s * c - mapped.c * s));
     }
@@ -148,7 +160,7 @@ std::vector<const Feature*> PoseProposer::wallsToSlide(const std::vector<Feature
   std::vector<const Feature*> slid;
   for (const Feature* wall : walls)
   {
-    if (slid.size() == std::max(options_.slid_walls, options_.thorough_slid_walls)) break;
+    if (slid.size() == kThoroughSlidWalls) break;
     const bool fresh =
         std::all_of(slid.begin(), slid.end(),
                     [&](const Feature* other)
@@ -164,11 +176,10 @@ void PoseProposer::slide(const Feature& wall, std::size_t most,
                          std::vector<PoseProposal>& out) const
 {
   const TPoint2D normal = directionVector(wall);
-  const double inside = wall.size * (0.5 - options_.overhang);
+  const double inside = wall.size * (0.5 - kOverhang);
   for (const MappedWall& mapped : walls_)
   {
-    const bool is_long =
-        mapped.length + options_.length_tolerance >= wall.size * (1.0 - options_.overhang);
+    const bool is_long = mapped.length + kLengthTolerance >= wall.size * (1.0 - kOverhang);
     if (!is_long || out.size() >= most) break;
     const double phi = mapped.direction - wall.direction;
     const double c = mapped.c * normal.x + mapped.s * normal.y;
@@ -176,7 +187,7 @@ void PoseProposer::slide(const Feature& wall, std::size_t most,
     const TPoint2D tangent(mapped.s, -mapped.c);
     const double low = std::min(inside, 0.5 * mapped.length);
     const double high = std::max(mapped.length - inside, 0.5 * mapped.length);
-    const int steps = static_cast<int>(std::ceil((high - low) / options_.slide_step));
+    const int steps = static_cast<int>(std::ceil((high - low) / kSlideStep));
     const double step = steps == 0 ? 0 : (high - low) / steps;
     PoseProposal next = poseCarrying(wall.position, mapped.start + tangent * low, phi, c, s);
     const auto dx = static_cast<float>(tangent.x * step);
@@ -212,12 +223,11 @@ void PoseProposer::proposeCirclePairs(const std::vector<Feature>& observed, std:
     {
       if (observed[j].type != FeatureType::circle) continue;
       const double distance = (observed[i].position - observed[j].position).norm();
-      if (distance < kMinPairDistance || distance > options_.pair_range) continue;
+      if (distance < kMinPairDistance || distance > kPairRange) continue;
       const auto less = [](const CirclePair& p, double d) { return p.distance < d; };
       const auto begin =
-          std::lower_bound(pairs_.begin(), pairs_.end(), distance - options_.pair_tolerance, less);
-      const auto end =
-          std::lower_bound(begin, pairs_.end(), distance + options_.pair_tolerance, less);
+          std::lower_bound(pairs_.begin(), pairs_.end(), distance - kPairTolerance, less);
+      const auto end = std::lower_bound(begin, pairs_.end(), distance + kPairTolerance, less);
       choices.push_back(
           {static_cast<std::size_t>(end - begin), &observed[i], &observed[j], begin, end});
     }

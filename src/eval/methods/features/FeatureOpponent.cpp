@@ -33,7 +33,6 @@ FeatureOpponent::FeatureOpponent(const FeatureMap& map, const GeneratorOptions& 
       lists_(map_, localityOf(map_, options)),
       budget_(budget)
 {
-  checkOptions(options);
 }
 
 std::vector<FeatureHypothesis> FeatureOpponent::generate(const std::vector<Feature>& observed,

@@ -22,7 +22,7 @@ class FeatureOpponent : public FeatureHypothesisGenerator
   /// Operations (signatures compared and checks) after which a search gives up: a few seconds.
   static constexpr std::uint64_t kBudget = 100'000'000;
 
-  /// Keeps a reference to the map. Throws std::invalid_argument for options out of range.
+  /// Keeps a reference to the map.
   FeatureOpponent(const FeatureMap& map, const GeneratorOptions& options,
                   std::uint64_t budget = kBudget);
 
