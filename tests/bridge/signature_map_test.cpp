@@ -247,13 +247,13 @@ TEST(SignatureMap, AnswersBetweenInsertionsAsIfBuiltAtOnce)
   const auto query = roomScan({0.3, 0.1, 0.2}, 9);
   const CPose3D pose(0.3, 0.1, 0, 0.2, 0, 0);
   double often = 0;
-  std::vector<PosedScans> looks;
+  std::vector<PosedScans> scans;
   for (int i = 0; i < 12; ++i)
   {
     const TPose2D at(0.3 * i - 1.6, 0.1 * i - 0.5, 0.2 * i);
     const auto scan = roomScan(at, i);
     const CPose3D from(at.x, at.y, 0, at.phi, 0, 0);
-    looks.push_back({mrpt::poses::CPose2D(from).asTPose(), {*toLaserScan(*scan)}});
+    scans.push_back({mrpt::poses::CPose2D(from).asTPose(), {*toLaserScan(*scan)}});
     asked_often.insertObservation(*scan, from);
     asked_once.insertObservation(*scan, from);
     often = asked_often.computeObservationLikelihood(*query, pose);
@@ -262,7 +262,7 @@ TEST(SignatureMap, AnswersBetweenInsertionsAsIfBuiltAtOnce)
   }
   EXPECT_EQ(asked_once.computeObservationLikelihood(*query, pose), often);
   expectSameMap(*asked_often.featureMap(), *asked_once.featureMap());
-  const SignatureMap batch(buildMapFromScans(looks));
+  const SignatureMap batch(buildMapFromScans(scans));
   expectSameMap(*asked_often.featureMap(), *batch.featureMap());
   EXPECT_EQ(batch.computeObservationLikelihood(*query, pose), often);
 }

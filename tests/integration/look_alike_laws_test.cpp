@@ -244,7 +244,7 @@ TEST(LookAlikes, FewReturnsTellLittleBetweenThem)
     told_by_all += *by_all - *at_first;
     told_by_few += *by_few - *at_first;
   }
-  std::cout << "two metres tell " << told_by_all << " with all returns, " << told_by_few
+  std::cout << "log-odds of two metres: " << told_by_all << " with all returns, " << told_by_few
             << " with fifteen a scan, in " << compared << " drives\n";
   EXPECT_GE(compared, 25);
   EXPECT_GT(told_by_all, 42);

@@ -23,7 +23,7 @@ const MappedWorld& office()
   return world;
 }
 
-std::vector<PosedScans> mappingLooks()
+std::vector<PosedScans> mappingScans()
 {
   return simulateMapping(office().world(), 1.2, 0.35, MappedWorld::laser(), 5);
 }
@@ -69,11 +69,11 @@ void expectSameAnswers(const FeatureMap& a, const FeatureMap& b)
 
 TEST(MapLearning, IsTheSameInOneGoOrOneByOne)
 {
-  const std::vector<PosedScans> looks = mappingLooks();
+  const std::vector<PosedScans> scans = mappingScans();
   MapBuilder builder;
-  for (std::size_t i = 0; i < looks.size(); ++i)
+  for (std::size_t i = 0; i < scans.size(); ++i)
   {
-    builder.add(looks[i]);
+    builder.add(scans[i]);
     if (i % 3 == 0) builder.field();
   }
   test::expectSameMap(builder.map(), *office().map());
@@ -81,26 +81,26 @@ TEST(MapLearning, IsTheSameInOneGoOrOneByOne)
 
 TEST(MapLearning, DependsLittleOnTheOrder)
 {
-  std::vector<PosedScans> looks = mappingLooks();
+  std::vector<PosedScans> scans = mappingScans();
   std::mt19937 random(17);
-  std::shuffle(looks.begin(), looks.end(), random);
-  const FeatureMap shuffled = buildMapFromScans(looks);
+  std::shuffle(scans.begin(), scans.end(), random);
+  const FeatureMap shuffled = buildMapFromScans(scans);
   test::expectSameField(*shuffled.field(), *office().map()->field());
   EXPECT_GE(shareFoundIn(shuffled, *office().map()), 0.95);
   EXPECT_GE(shareFoundIn(*office().map(), shuffled), 0.95);
   expectSameAnswers(shuffled, *office().map());
 }
 
-TEST(MapLearning, WorkGrowsWithTheLooksNotWithTheirSquare)
+TEST(MapLearning, WorkGrowsWithTheScansNotWithTheirSquare)
 {
-  const std::vector<PosedScans> looks = mappingLooks();
+  const std::vector<PosedScans> scans = mappingScans();
   MapBuilder builder;
   std::uint64_t half = 0;
-  for (std::size_t i = 0; i < looks.size(); ++i)
+  for (std::size_t i = 0; i < scans.size(); ++i)
   {
-    builder.add(looks[i]);
+    builder.add(scans[i]);
     builder.field();
-    if (i + 1 == looks.size() / 2) half = builder.cellsCounted() + builder.cellsSolved();
+    if (i + 1 == scans.size() / 2) half = builder.cellsCounted() + builder.cellsSolved();
   }
   const std::uint64_t all = builder.cellsCounted() + builder.cellsSolved();
   EXPECT_LT(static_cast<double>(all), 2.5 * static_cast<double>(half));

@@ -336,9 +336,9 @@ TEST(DenseField, LeadsToWhereAWallWasHit)
       scan.ranges.push_back(static_cast<float>(at / std::cos(scan.first_angle + 0.002 * i)));
     }
     scan.valid.assign(scan.ranges.size(), 1);
-    PosedScans look;
-    look.scans = {scan};
-    const DenseField field = buildDenseField(rasterFromScans({look, look}));
+    PosedScans posed;
+    posed.scans = {scan};
+    const DenseField field = buildDenseField(rasterFromScans({posed, posed}));
     const DenseCell* cell = cellAt(field, {1.725, 0.025});  // the middle of one
     ASSERT_NE(cell, nullptr);
     EXPECT_NEAR(1.725 + cell->dx * DenseField::kOffsetUnit, at, 0.009) << at;

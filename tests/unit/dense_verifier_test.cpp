@@ -145,7 +145,7 @@ TEST(DenseVerifier, CountsBeamsThatPassASolidWall)
 }
 
 // A proposal in the border of the coarse field once made the verifier read beyond its cells.
-TEST(DenseVerifier, LooksAtNoProposalOffTheMap)
+TEST(DenseVerifier, ScoresNoProposalOffTheMap)
 {
   const Room room;
   const DenseVerifier verifier(room.field());

@@ -22,7 +22,7 @@ constexpr double kHalf = 3.0;  // [m], of the rooms
 constexpr double kDoor = 0.6;  // [m], half its width
 
 /// The scan from inside a square room around `centre` with a door in its right wall.
-PosedScans lookAround(const TPose2D& pose, const mrpt::math::TPoint2D& centre)
+PosedScans scansAround(const TPose2D& pose, const mrpt::math::TPoint2D& centre)
 {
   LaserScan scan;
   scan.first_angle = -M_PI;
@@ -44,29 +44,29 @@ PosedScans lookAround(const TPose2D& pose, const mrpt::math::TPoint2D& centre)
 }
 
 /// Scans from random positions in rooms that lie in all directions from the first one.
-std::vector<PosedScans> tour(std::size_t looks, std::uint32_t seed)
+std::vector<PosedScans> tour(std::size_t scans, std::uint32_t seed)
 {
   const std::vector<mrpt::math::TPoint2D> rooms = {{0, 0},   {6.2, 0},   {-6.2, 0.1}, {0, -6.2},
                                                    {0.1, 9}, {-20, -14}, {31, 6}};
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> shift(-2.2, 2.2);
   std::vector<PosedScans> all;
-  for (std::size_t i = 0; i < looks; ++i)
+  for (std::size_t i = 0; i < scans; ++i)
   {
     const auto& room = rooms[(i / 3) % rooms.size()];
     const double x = room.x + shift(random);
     const double y = room.y + shift(random);
-    all.push_back(lookAround({x, y, shift(random)}, room));
+    all.push_back(scansAround({x, y, shift(random)}, room));
   }
   return all;
 }
 
 /// A raster that scans overwrite wherever they observe a cell.
-OccupancyRaster overlaid(const OccupancyRaster& base, const std::vector<PosedScans>& looks)
+OccupancyRaster overlaid(const OccupancyRaster& base, const std::vector<PosedScans>& scans)
 {
   const MapBuildingOptions options;
   BeamCounts counts(base.frame.resolution, base.frame.origin);
-  for (const PosedScans& look : looks) counts.add(look, options.raster_range);
+  for (const PosedScans& posed : scans) counts.add(posed, options.raster_range);
   CellBox box = counts.box();
   const auto width = static_cast<std::int32_t>(base.frame.width);
   const auto height = static_cast<std::int32_t>(base.frame.height);
@@ -94,39 +94,39 @@ TEST(MapBuilder, LearnsLookByLookWhatABatchLearns)
   {
     MapBuildingOptions options;
     options.min_hits = min_hits;
-    const std::vector<PosedScans> looks = tour(42, 7);
+    const std::vector<PosedScans> scans = tour(42, 7);
     MapBuilder asked_often(options);
     MapBuilder asked_once(options);
-    for (std::size_t i = 0; i < looks.size(); ++i)
+    for (std::size_t i = 0; i < scans.size(); ++i)
     {
-      asked_often.add(looks[i]);
-      asked_once.add(looks[i]);
+      asked_often.add(scans[i]);
+      asked_once.add(scans[i]);
       if (i % 2 == 0) asked_often.field();
       if (i % 7 != 0) continue;
-      const std::vector<PosedScans> so_far(looks.begin(),
-                                           looks.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+      const std::vector<PosedScans> so_far(scans.begin(),
+                                           scans.begin() + static_cast<std::ptrdiff_t>(i) + 1);
       test::expectSameMap(asked_often.map(), buildMapFromScans(so_far, options));
     }
     test::expectSameMap(asked_often.map(), asked_once.map());
     test::expectSameField(*asked_often.map().field(),
-                          buildDenseField(rasterFromScans(looks, options)));
+                          buildDenseField(rasterFromScans(scans, options)));
   }
 }
 
 TEST(MapBuilder, ExtendsAMapLookByLook)
 {
-  const std::vector<PosedScans> looks = tour(30, 8);
-  const std::vector<PosedScans> first(looks.begin(), looks.begin() + 9);
+  const std::vector<PosedScans> scans = tour(30, 8);
+  const std::vector<PosedScans> first(scans.begin(), scans.begin() + 9);
   const auto base = std::make_shared<FeatureMap>(buildMapFromScans(first));
   MapBuilder builder({}, base);
   test::expectSameMap(builder.map(), *base);
-  for (std::size_t i = 9; i < looks.size(); ++i)
+  for (std::size_t i = 9; i < scans.size(); ++i)
   {
-    builder.add(looks[i]);
+    builder.add(scans[i]);
     builder.field();
   }
   const FeatureMap extended = builder.map();
-  const std::vector<PosedScans> later(looks.begin() + 9, looks.end());
+  const std::vector<PosedScans> later(scans.begin() + 9, scans.end());
   test::expectSameField(*extended.field(),
                         buildDenseField(overlaid(rasterOf(*base->field()), later)));
   ASSERT_GT(extended.features().size(), base->features().size());
@@ -139,13 +139,13 @@ TEST(MapBuilder, ExtendsAMapLookByLook)
 TEST(MapBuilder, ALookCostsWhatItSees)
 {
   // The rooms are visited in turn: the map is complete after one round.
-  const std::vector<PosedScans> looks = tour(21 * 6, 9);
+  const std::vector<PosedScans> scans = tour(21 * 6, 9);
   MapBuilder builder;
   std::vector<std::uint64_t> work;  // of each round
   std::uint64_t before = 0;
-  for (std::size_t i = 0; i < looks.size(); ++i)
+  for (std::size_t i = 0; i < scans.size(); ++i)
   {
-    builder.add(looks[i]);
+    builder.add(scans[i]);
     builder.field();
     if (i % 21 != 20) continue;
     const std::uint64_t now = builder.cellsCounted() + builder.cellsSolved();
@@ -163,16 +163,16 @@ TEST(MapBuilder, ALookCostsWhatItSees)
 
 TEST(MapBuilder, TakesNothingInFromALookThatItRefuses)
 {
-  const std::vector<PosedScans> looks = tour(6, 10);
+  const std::vector<PosedScans> scans = tour(6, 10);
   MapBuilder builder;
-  for (const PosedScans& look : looks) builder.add(look);
+  for (const PosedScans& posed : scans) builder.add(posed);
   const FeatureMap before = builder.map();
-  PosedScans astray = looks.front();
+  PosedScans astray = scans.front();
   astray.map_from_robot.x = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(builder.add(astray), std::invalid_argument);
   astray.map_from_robot.x = 1e7;
   EXPECT_THROW(builder.add(astray), std::invalid_argument);
-  PosedScans broken = looks.front();
+  PosedScans broken = scans.front();
   broken.scans.front().valid.pop_back();
   EXPECT_THROW(builder.add(broken), std::invalid_argument);
   test::expectSameMap(builder.map(), before);
@@ -189,7 +189,7 @@ TEST(MapBuilder, IsEmptyUntilSomethingIsSeen)
   EXPECT_TRUE(builder.map().empty());
 }
 
-TEST(BeamCounts, RefuseStoredCountsThatNoLooksLeadTo)
+TEST(BeamCounts, RefuseStoredCountsThatNoScansLeadTo)
 {
   BeamCounts::Extent extent;
   extent.add({0, 0});

@@ -47,7 +47,7 @@ struct TrackerOptions
     visit(OptionField{"lost_distance", &O::lost_distance, 0.01, 100.0,
                       "[m] travel after which a scan is fresh evidence of being lost"});
     visit(OptionField{"lost_score", &O::lost_score, 0.0, 1.0,
-                      "[-] dense score below which a scan speaks for being somewhere else"});
+                      "[-] dense score below which a scan is evidence of being elsewhere"});
     visit(OptionField{"min_elsewhere", &O::min_elsewhere, 0.0, 0.5,
                       "[-] the weight of somewhere else never falls below this"});
     visit(OptionField{"relocation_distance", &O::relocation_distance, 0.0, 100.0,
@@ -60,7 +60,7 @@ struct TrackerOptions
         "suspicion", &O::suspicion, 0.0, 1.0,
         "[-] weight of somewhere else when relocation finds the robot far from all tracks"});
     visit(OptionField{"confirmation", &O::confirmation, 0.0, 20.0,
-                      "[-] log-odds of standing in the map that a localized hypothesis must have"});
+                      "[-] log-odds of being in the map that a localized hypothesis must have"});
     visit(OptionField{"free_motion_sigma", &O::free_motion_sigma, 0.001, 10.0,
                       "[m] standard deviation of a step without odometry"});
     visit(OptionField{"free_turn_sigma", &O::free_turn_sigma, 0.001, 3.0,
