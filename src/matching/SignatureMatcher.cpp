@@ -70,11 +70,12 @@ SignatureMatcher::SignatureMatcher(std::shared_ptr<const FeatureMap> map,
     verifier_ = std::make_unique<DenseVerifier>(*map_->field());
   }
   const auto mode = static_cast<GenerationMode>(options.mode);
-  const bool from_bases =
+  const bool from_minimal_sets =
       mode == GenerationMode::minimal_sets || (mode == GenerationMode::automatic && verifier_);
-  if (from_bases)
+  if (from_minimal_sets)
   {
-    if (!verifier_) throw std::invalid_argument("SignatureMatcher: bases need a dense field");
+    if (!verifier_)
+      throw std::invalid_argument("SignatureMatcher: minimal sets need a dense field");
     proposer_ = std::make_unique<PoseProposer>(*map_);
   }
   else

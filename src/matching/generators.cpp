@@ -24,7 +24,7 @@ std::unique_ptr<FeatureHypothesisGenerator> makeGenerator(
 {
   if (mode == GenerationMode::minimal_sets)
   {
-    throw std::invalid_argument("makeGenerator: mode bases needs a dense field");
+    throw std::invalid_argument("makeGenerator: minimal sets need a dense field");
   }
   const PreparedMap& prepared = verifier->map();
   const double cut_off = mode == GenerationMode::plain
