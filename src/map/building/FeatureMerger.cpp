@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "geometry/cell_key.h"
+#include "geometry/CellHash.h"
 
 namespace sigloc
 {
@@ -311,14 +312,18 @@ std::vector<Feature> FeatureMerger::features() const
     segment.start_seen = segment.end_seen = false;
     out.push_back(segment);
   }
-  const std::size_t segment_count = out.size();
 
+  CellHash seen_ends(kEndNearCorner);
   std::vector<Feature> completed;  // wall ends of convex corners, where none was seen
   for (const MergedPlace& merged : places_)
   {
     if (merged.feature.sightings < options_.min_sightings) continue;
     Feature place = merged.feature;
     setPlaceCovariance(place);
+    if (place.type == FeatureType::wall_end)
+    {
+      seen_ends.add(place.position, static_cast<std::uint32_t>(out.size()));
+    }
     out.push_back(place);
     if (place.type != FeatureType::corner || place.size < M_PI) continue;
     for (const WallSide side : {WallSide::start, WallSide::end})
@@ -326,18 +331,18 @@ std::vector<Feature> FeatureMerger::features() const
       completed.push_back(wallEndOfCorner(place, side));
     }
   }
-  const std::size_t seen_count = out.size();
   for (const Feature& end : completed)
   {
-    const bool seen =
-        std::any_of(out.begin() + static_cast<std::ptrdiff_t>(segment_count),
-                    out.begin() + static_cast<std::ptrdiff_t>(seen_count),
-                    [&](const Feature& other)
-                    {
-                      return other.type == FeatureType::wall_end && other.side == end.side &&
-                             (other.position - end.position).norm() < kEndNearCorner &&
-                             std::abs(wrapToPi(other.direction - end.direction)) < kMaxTurn;
-                    });
+    bool seen = false;
+    seen_ends.forEachNear(end.position,
+                          [&](std::uint32_t k)
+                          {
+                            const Feature& other = out[k];
+                            seen = seen ||
+                                   (other.side == end.side &&
+                                    (other.position - end.position).norm() < kEndNearCorner &&
+                                    std::abs(wrapToPi(other.direction - end.direction)) < kMaxTurn);
+                          });
     if (!seen) out.push_back(end);
   }
   return out;
