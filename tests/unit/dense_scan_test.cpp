@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <numeric>
+#include <set>
+#include <utility>
 
 #include "matching/dense/DenseVerifier.h"
 
@@ -53,6 +55,39 @@ TEST(DenseScan, BalancedWeightsAreOneInTheMean)
     const DenseScan scan = makeDenseScan(betweenWalls(1.5, right), 400);
     const float sum = std::accumulate(scan.balance.begin(), scan.balance.end(), 0.0F);
     EXPECT_NEAR(sum / static_cast<float>(scan.size()), 1.0F, 1e-4F);
+  }
+}
+
+// A wall right beside the laser once outweighed the rest of the room in every score.
+TEST(DenseScan, SpacedReturnsCountStretchesOfWallAlike)
+{
+  const ObservedScene scene = betweenWalls(0.4, 4.0);
+  const DenseScan scan = makeDenseScan(scene, 720);
+  ASSERT_EQ(scan.size(), scene.beams.size());
+  ASSERT_LT(scan.spaced, scan.size());
+  double near = 0;
+  double far = 0;
+  for (std::size_t i = 0; i < scan.spaced; ++i)
+  {
+    // Within this stretch returns of either wall lie at most 0.1 m apart.
+    if (std::abs(scan.x[i]) > 1.5) continue;
+    ++(scan.y[i] > 0 ? near : far);
+  }
+  EXPECT_NEAR(near, 30, 4);  // 3 m of wall, one for each 0.1 m
+  EXPECT_NEAR(far, 30, 4);
+}
+
+TEST(DenseScan, TakesEveryReturnOnce)
+{
+  for (const std::size_t most : {10U, 50U, 400U, 720U})
+  {
+    const ObservedScene scene = betweenWalls(0.4, 4.0);
+    const DenseScan scan = makeDenseScan(scene, most);
+    EXPECT_EQ(scan.size(), std::min(most, scene.beams.size()));
+    EXPECT_LE(scan.spaced, scan.size());
+    std::set<std::pair<float, float>> points;
+    for (std::size_t i = 0; i < scan.size(); ++i) points.insert({scan.x[i], scan.y[i]});
+    EXPECT_EQ(points.size(), scan.size());
   }
 }
 }  // namespace

@@ -102,7 +102,7 @@ TEST(TrackSetUpdate, AScanThatFitsBadlySaysLessOfThePose)
     return 5.1 - set.tracks[0].hypothesis.pose.mean.x;
   };
   const double well = drawn_back(0);
-  EXPECT_GT(well, 0.05);
+  EXPECT_GT(well, 0.04);
   EXPECT_GT(drawn_back(3), 0.55 * well) << "by the share that fits, not by its square";
   EXPECT_LT(drawn_back(5), 0.4 * well);
   EXPECT_GT(drawn_back(5), 0);

@@ -13,6 +13,8 @@
 
 namespace sigloc
 {
+using mrpt::math::TPose2D;
+
 namespace
 {
 constexpr double kCell = 0.1;  // [m] cell of the likelihoods
@@ -23,11 +25,11 @@ constexpr double kStandingCell = 0.5;  // [m] cell that must have free space in 
 /// The lowest bit of a byte: a robot could be there. The likelihood has the other bits. In a sum of
 /// bytes this bit is too little to matter.
 constexpr std::uint8_t kStanding = 1;
-constexpr std::size_t kReturns = 24;  // returns that score a proposal
+constexpr std::size_t kReturns = CoarseScore::kReturns;
 constexpr std::size_t kThinningReturns = 8;  // first returns, by which proposals are thinned
 constexpr std::size_t kThinningShare = 4;  // one proposal in so many is kept
 constexpr std::size_t kLeastThinned = 512;  // lower bound of the proposals kept
-constexpr std::size_t kMostThinned = 2048;  // upper bound of the proposals kept
+constexpr std::size_t kMostThinned = 8000;  // upper bound of the proposals kept, ties not counted
 constexpr std::uint32_t kHeadings = 512;  // of the table: an error of 0.35 degrees, 0.1 m at 16 m
 
 std::uint32_t ratioOf(const RasterFrame& coarse, const RasterFrame& fine)
@@ -130,8 +132,8 @@ class CoarseField::TurnedReturns
   {
     for (std::size_t i = 0; i < kReturns; ++i)
     {
-      x_[i] = scan.x[i % scan.size()] * scale_;
-      y_[i] = scan.y[i % scan.size()] * scale_;
+      x_[i] = scan.x[i % scan.spaced] * scale_;
+      y_[i] = scan.y[i % scan.spaced] * scale_;
     }
   }
 
@@ -157,6 +159,16 @@ class CoarseField::TurnedReturns
     }
     scores.resize(count);
     return scores;
+  }
+
+  /// Returns the score of a pose by all returns, or 0 off the raster.
+  std::uint32_t scoreAt(const PoseProposal& p)
+  {
+    const float x = columnOf(p);
+    const float y = rowOf(p);
+    const bool is_on =
+        x >= 0 && y >= 0 && x < static_cast<float>(width_) && y < static_cast<float>(height_);
+    return is_on ? sumAt<0, kReturns>(p) : 0;
   }
 
   /// Adds the likelihoods of the other returns to each score.
@@ -315,6 +327,18 @@ void CoarseField::markStanding(const DenseField& field)
       row[x] |= block_row[(x - border_) * ratio / block_ratio];
     }
   }
+}
+
+std::uint32_t CoarseField::bestScore(const DenseScan& scan, const std::vector<TPose2D>& poses) const
+{
+  TurnedReturns returns(scan, *this);
+  std::uint32_t best = 0;
+  for (const TPose2D& pose : poses)
+  {
+    best = std::max(best, returns.scoreAt({static_cast<float>(pose.x), static_cast<float>(pose.y),
+                                           static_cast<float>(pose.phi)}));
+  }
+  return best;
 }
 
 std::vector<CoarseScore> CoarseField::score(const DenseScan& scan,

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <mrpt/math/TPose2D.h>
+
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -18,6 +21,8 @@ RasterFrame coarserFrame(const RasterFrame& fine, double cell);
 /// The coarse score of a proposal.
 struct CoarseScore
 {
+  static constexpr std::size_t kReturns = 24;  ///< first returns that score
+  static constexpr std::uint32_t kMost = 255 * kReturns;  ///< the largest score
   std::uint32_t score;  ///< sum of the likelihood bytes at the first returns
   std::uint32_t index;  ///< of the proposal
 };
@@ -34,6 +39,10 @@ class CoarseField
   /// only those are returned that are best by their first returns.
   std::vector<CoarseScore> score(const DenseScan& scan,
                                  const std::vector<PoseProposal>& proposals) const;
+
+  /// Returns the best score of any of the poses.
+  std::uint32_t bestScore(const DenseScan& scan,
+                          const std::vector<mrpt::math::TPose2D>& poses) const;
 
  private:
   class TurnedReturns;

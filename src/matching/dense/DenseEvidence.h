@@ -17,6 +17,10 @@ struct PoseProposal
 /// How the dense field explains a scan at a pose. All shares are of the returns used, in [0, 1].
 struct DenseEvidence
 {
+  static constexpr double kThroughPenalty = 0.5;  ///< score per share of beams through walls
+  static constexpr double kFreePenalty = 0.5;  ///< score per share of returns in free space
+
+  double sharp = 0;  ///< mean likelihood by the ridges of walls, sigma 0.06 m, in [0, 1]
   double fine = 0;  ///< mean likelihood, sigma 0.12 m, in [0, 1]
   double coarse = 0;  ///< mean likelihood, sigma 0.25 m, in [0, 1]
   double through_wall = 0;  ///< share of beams that pass a solid wall before their end

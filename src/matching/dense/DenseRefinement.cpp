@@ -209,10 +209,9 @@ struct Refined
   bool converged = false;
 };
 
-/// Removes the poses whose weights (6.6) sum to less than `least` of those of the best.
-void dropHopeless(std::vector<Refined>& refined, float least)
+/// Removes the poses whose weights (6.6) sum to less than `least` of `most`, the largest so far.
+void dropHopeless(std::vector<Refined>& refined, float least, float& most)
 {
-  float most = 0;
   for (const Refined& one : refined) most = std::max(most, one.explained.value_or(0));
   const auto hopeless = [&](const Refined& one)
   { return one.explained && *one.explained < least * most; };
@@ -224,16 +223,18 @@ TPose2D DenseVerifier::refine(const DenseScan& scan, const TPose2D& start, int s
                               std::size_t beams) const
 {
   std::vector<TPose2D> poses{start};
-  refineAll(scan, poses, steps, beams, 0);
+  refineAll(scan, poses, steps, beams);
   return poses.front();
 }
 
 /// Refines several poses, one step of each in turn, so that the processor can work on one while
 /// another waits for its sums. The second step gives the weights (6.6) of each pose. Poses below
-/// `least` of the best are then left out.
+/// `least` of the best, of this call or of those that share `most_weight`, are then left out.
 void DenseVerifier::refineAll(const DenseScan& scan, std::vector<TPose2D>& poses, int steps,
-                              std::size_t beams, float least) const
+                              std::size_t beams, float least, float* most_weight) const
 {
+  float own_most = 0;
+  float& most = most_weight != nullptr ? *most_weight : own_most;
   const CellView cells(field_);
   const std::size_t count = std::min(beams, scan.size());
   std::vector<Refined> refined(poses.begin(), poses.end());
@@ -250,7 +251,7 @@ void DenseVerifier::refineAll(const DenseScan& scan, std::vector<TPose2D>& poses
       one.converged = isLast(move);
       if (step == 1) one.explained = sums.explained();
     }
-    if (step == 1) dropHopeless(refined, least);
+    if (step == 1) dropHopeless(refined, least, most);
   }
   poses.clear();
   for (const Refined& one : refined) poses.push_back(one.result());

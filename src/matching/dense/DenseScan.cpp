@@ -13,13 +13,15 @@ using mrpt::math::TPoint2D;
 namespace
 {
 constexpr float kOnSegment = 0.05F;  // [m] from a fitted segment, within which a return is on it
-constexpr double kSharedLength = 0.2;  // [m] bound of the distance between returns, eq. (6.11)
-constexpr double kLeastShare = 0.01;  // of this length, for a return that repeats those beside it
+constexpr double kMostLength = 0.2;  // [m] bound of the distance between returns, eq. (6.11)
+constexpr double kLeastLength = 0.002;  // [m] of a return that repeats those beside it
+constexpr double kSpacing = 0.1;  // [m] of surface for each return that scores
 
 /// Returns the indices 0..n-1 in van der Corput order: every first part is spread evenly.
 std::vector<std::uint32_t> interleavedOrder(std::uint32_t n)
 {
   // One index of the next half goes between any two of the indices so far.
+  if (n == 0) return {};
   std::vector<std::uint32_t> order = {0};
   while (order.size() < n)
   {
@@ -45,9 +47,8 @@ double gapAt(const BeamEnd& beam)
 struct Surroundings
 {
   bool isolated = true;  ///< none ends near it: clutter, or something thin and far.
-  /// Mean distance to the beams beside it on the same surface, as a share of kSharedLength in
-  /// [kLeastShare, 1]. Eq. (6.11)
-  double length_share = 1;
+  /// Mean distance [m] to the beams beside it on the same surface, in [kLeastLength, kMostLength].
+  double length = kMostLength;
 };
 
 Surroundings surroundingsOf(const std::vector<BeamEnd>& beams, std::size_t i)
@@ -72,9 +73,54 @@ Surroundings surroundingsOf(const std::vector<BeamEnd>& beams, std::size_t i)
   }
   if (neighbours > 0)
   {
-    surroundings.length_share = std::clamp(sum / neighbours / kSharedLength, kLeastShare, 1.0);
+    surroundings.length = std::clamp(sum / neighbours, kLeastLength, kMostLength);
   }
   return surroundings;
+}
+
+/// Returns one return for each kSpacing of surface, at most `most`, in van der Corput order. Where
+/// neighbours lie farther apart, each is one. Something near fills many beams, and would otherwise
+/// outweigh all the rest.
+std::vector<std::uint32_t> spacedReturns(const std::vector<Surroundings>& surroundings,
+                                         std::size_t most)
+{
+  std::vector<double> shares_up_to;  // of a return each, summed up
+  shares_up_to.reserve(surroundings.size());
+  double sum = 0;
+  for (const Surroundings& around : surroundings)
+  {
+    sum += std::min(1.0, around.length / kSpacing);
+    shares_up_to.push_back(sum);
+  }
+  const auto count = static_cast<std::uint32_t>(
+      std::min(static_cast<double>(most), std::max(1.0, std::floor(sum))));
+  std::vector<std::uint32_t> chosen;
+  chosen.reserve(count);
+  for (const std::uint32_t k : interleavedOrder(count))
+  {
+    const auto at =
+        std::lower_bound(shares_up_to.begin(), shares_up_to.end(), (k + 0.5) * sum / count);
+    chosen.push_back(static_cast<std::uint32_t>(at - shares_up_to.begin()));
+  }
+  return chosen;
+}
+
+/// Adds returns that are not among those chosen, evenly, until there are `most`.
+void addOthers(std::size_t total, std::size_t most, std::vector<std::uint32_t>& chosen)
+{
+  std::vector<bool> is_chosen(total, false);
+  for (const std::uint32_t i : chosen) is_chosen[i] = true;
+  std::vector<std::uint32_t> others;
+  others.reserve(total - chosen.size());
+  for (std::uint32_t i = 0; i < total; ++i)
+  {
+    if (!is_chosen[i]) others.push_back(i);
+  }
+  const std::size_t count = std::min(others.size(), most - std::min(most, chosen.size()));
+  for (const std::uint32_t k : interleavedOrder(static_cast<std::uint32_t>(count)))
+  {
+    chosen.push_back(others[k * others.size() / count]);
+  }
 }
 
 /// Sets the directions of the residuals: the normal of the wall that a return lies on, or both axes
@@ -115,27 +161,32 @@ void setPulls(const std::vector<Feature>& features, DenseScan& scan)
 
 DenseScan makeDenseScan(const ObservedScene& scene, std::size_t max_beams)
 {
-  const std::size_t total = scene.beams.size();
-  const std::size_t count = std::min(total, max_beams);
   DenseScan scan;
   scan.origins = scene.sensor_origins;
-  for (auto* column : {&scan.x, &scan.y, &scan.balance}) column->reserve(count);
-  scan.isolated.reserve(count);
-  scan.origin.reserve(count);
-  for (const std::uint32_t i : interleavedOrder(static_cast<std::uint32_t>(count)))
+  const std::size_t total = scene.beams.size();
+  if (total == 0) return scan;
+  std::vector<Surroundings> surroundings;
+  surroundings.reserve(total);
+  for (std::size_t i = 0; i < total; ++i) surroundings.push_back(surroundingsOf(scene.beams, i));
+  std::vector<std::uint32_t> chosen = spacedReturns(surroundings, max_beams);
+  scan.spaced = chosen.size();
+  addOthers(total, max_beams, chosen);
+
+  for (auto* column : {&scan.x, &scan.y, &scan.balance}) column->reserve(chosen.size());
+  scan.isolated.reserve(chosen.size());
+  scan.origin.reserve(chosen.size());
+  for (const std::uint32_t i : chosen)
   {
-    const std::size_t at = i * total / count;
-    const BeamEnd& beam = scene.beams[at];
+    const BeamEnd& beam = scene.beams[i];
     scan.x.push_back(static_cast<float>(beam.point.x));
     scan.y.push_back(static_cast<float>(beam.point.y));
-    const Surroundings surroundings = surroundingsOf(scene.beams, at);
-    scan.balance.push_back(static_cast<float>(std::sqrt(surroundings.length_share)));
-    scan.isolated.push_back(surroundings.isolated ? 1 : 0);
+    scan.balance.push_back(static_cast<float>(std::sqrt(surroundings[i].length)));
+    scan.isolated.push_back(surroundings[i].isolated ? 1 : 0);
     scan.origin.push_back(beam.origin);
   }
   setPulls(scene.features, scan);
   const float sum = std::accumulate(scan.balance.begin(), scan.balance.end(), 0.0F);
-  for (float& weight : scan.balance) weight *= static_cast<float>(count) / sum;
+  for (float& weight : scan.balance) weight *= static_cast<float>(chosen.size()) / sum;
   return scan;
 }
 }  // namespace sigloc

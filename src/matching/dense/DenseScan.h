@@ -12,10 +12,12 @@
 
 namespace sigloc
 {
-/// The returns of a scene, in an order of which any first part is spread evenly over the scan. So
-/// the first 24 returns are a fair sample. All vectors have one element for each return.
+/// The returns of a scene. The first `spaced` of them lie evenly along the surfaces that are seen,
+/// and any first part of these is spread evenly over the scan. So the first 24 returns are a fair
+/// sample. All vectors have one element for each return.
 struct DenseScan
 {
+  std::size_t spaced = 0;  ///< returns that score a pose; the others only refine it
   std::vector<float> x, y;  ///< [m], robot frame
   /// The directions in which a return has a residual, robot frame: n nᵀ of the unit normal n of the
   /// wall that it lies on. Off any wall it is half the unit matrix. \cite algorithm eq. (6.4)
@@ -29,6 +31,7 @@ struct DenseScan
   std::size_t size() const { return x.size(); }
 };
 
-/// Returns the scene's returns in van der Corput order; of more than `max_beams` an even choice.
+/// Returns the scene's returns; of more than `max_beams` an even choice. The spaced ones are one
+/// for each 0.1 m of surface. \cite algorithm section 6, "The cascade"
 DenseScan makeDenseScan(const ObservedScene& scene, std::size_t max_beams);
 }  // namespace sigloc

@@ -67,16 +67,14 @@ class DenseVerifier
   const DenseField& field() const { return field_; }
 
  private:
-  std::vector<RankedPose> refineBest(const DenseScan& scan,
-                                     const std::vector<PoseProposal>& proposals,
-                                     std::vector<CoarseScore> scores) const;
+  std::vector<RankedPose> race(const DenseScan& scan, const std::vector<PoseProposal>& proposals,
+                               std::vector<CoarseScore> scores,
+                               const std::vector<RankedPose>& before) const;
   void refineAll(const DenseScan& scan, std::vector<mrpt::math::TPose2D>& poses, int steps,
-                 std::size_t beams, float least) const;
+                 std::size_t beams, float least = 0, float* most_weight = nullptr) const;
   void refineFinally(const DenseScan& scan, const DenseScan& balanced, RankedPose& pose) const;
   DenseEvidence evaluate(const DenseScan& scan, const mrpt::math::TPose2D& pose,
-                         std::size_t rays) const;
-  double likelihood(const DenseScan& scan, const mrpt::math::TPose2D& pose,
-                    std::size_t beams) const;
+                         std::size_t returns, std::size_t rays) const;
   double fineLikelihood(const DenseScan& scan, const mrpt::math::TPose2D& pose) const;
 
   const DenseField& field_;

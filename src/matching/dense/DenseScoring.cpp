@@ -1,0 +1,167 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "matching/dense/CellView.h"
+#include "matching/dense/DenseVerifier.h"
+#include "matching/dense/likelihood_table.h"
+#include "matching/dense/simd.h"
+#include "matching/dense/WallCrossings.h"
+
+namespace sigloc
+{
+using mrpt::math::TPose2D;
+
+namespace
+{
+constexpr std::size_t kRayBeams = WallCrossings::kRays;  // beams tested for passing through walls
+constexpr double kFreeMargin = 0.4;  // [m] from any wall, from which a return is in free space
+constexpr auto kFarFromWall = static_cast<std::uint8_t>(kFreeMargin / DenseField::kDistanceUnit);
+constexpr float kSharpSigma = 0.06F;  // [m] of L_0.06, eq. (6.3)
+
+/// L_0.06 by the squared distance from the ridge of the nearest wall, up to four sigmas: linear
+/// between the values of a table.
+class SharpTable
+{
+ public:
+  SharpTable()
+  {
+    for (std::size_t i = 0; i < kSteps; ++i)
+    {
+      const float square = static_cast<float>(i) / kPerSquare;
+      values_[i] = std::exp(-0.5F * square / (kSharpSigma * kSharpSigma));
+    }
+  }
+  float at(float square) const
+  {
+    const float step = std::min(square * kPerSquare, static_cast<float>(kSteps));
+    const auto i = static_cast<std::size_t>(step);
+    return values_[i] + (step - static_cast<float>(i)) * (values_[i + 1] - values_[i]);
+  }
+
+ private:
+  static constexpr std::size_t kSteps = 512;
+  static constexpr float kPerSquare = kSteps / (16 * kSharpSigma * kSharpSigma);  // [1/m^2]
+  std::array<float, kSteps + 2> values_{};
+};
+
+const SharpTable& sharpTable()
+{
+  static const SharpTable kTable;
+  return kTable;
+}
+
+/// Returns L_0.06 of a return, by its distance from the ridge of the nearest wall. Eq. (6.3),
+/// (6.12)
+inline float sharpLikelihood(const SharpTable& table, const CellView::Block& block, std::size_t i,
+                             float resolution)
+{
+  const float x = block.offsetX(i, resolution);
+  const float y = block.offsetY(i, resolution);
+  return block.distance(i) == 255 ? 0.0F : table.at(x * x + y * y);
+}
+
+/// Sums over the cells in which a scan's returns end.
+struct EndSums
+{
+  float sharp = 0, fine = 0, coarse = 0;  ///< sums of likelihoods
+  std::uint32_t in_free = 0, specks = 0, unknown = 0;  ///< numbers of returns far from any wall
+};
+
+SIGLOC_WIDE_VECTORS EndSums sumsOfEnds(const DenseField& field, const DenseScan& scan,
+                                       const Placement& place, std::size_t count)
+{
+  const CellView cells(field);
+  const SharpTable& sharp = sharpTable();
+  const LikelihoodTable& fine = fineTable();
+  const LikelihoodTable& coarse = coarseTable();
+  EndSums sums;
+  CellView::Block block;
+  for (std::size_t first = 0; first < count; first += CellView::Block::kSize)
+  {
+    const std::size_t size = std::min(CellView::Block::kSize, count - first);
+    block.fill(cells, place, &scan.x[first], &scan.y[first], size);
+    for (std::size_t i = 0; i < size; ++i)
+    {
+      const std::uint8_t distance = block.distance(i);
+      sums.sharp += sharpLikelihood(sharp, block, i, cells.resolution());
+      sums.fine += fine[distance];
+      sums.coarse += coarse[distance];
+      if (distance <= kFarFromWall) continue;
+      const CellState state = block.state(i);
+      if (state == CellState::free) ++(scan.isolated[first + i] != 0 ? sums.specks : sums.in_free);
+      if (state == CellState::unknown) ++sums.unknown;
+    }
+  }
+  return sums;
+}
+}  // namespace
+
+/// Returns the sum of the fine likelihood over the returns: F of eq. (6.13).
+double DenseVerifier::fineLikelihood(const DenseScan& scan, const TPose2D& pose) const
+{
+  return static_cast<double>(sumsOfEnds(field_, scan, Placement(pose), scan.size()).fine);
+}
+
+std::vector<float> DenseVerifier::explainedReturns(const DenseScan& scan, const TPose2D& pose) const
+{
+  constexpr float kSharpShare = 0.35F;
+  constexpr auto kFree = static_cast<float>(DenseEvidence::kFreePenalty);
+  constexpr auto kThrough = static_cast<float>(DenseEvidence::kThroughPenalty);
+  const CellView cells(field_);
+  const Placement place(pose);
+  const SharpTable& sharp_table = sharpTable();
+  const LikelihoodTable& fine = fineTable();
+  const LikelihoodTable& coarse = coarseTable();
+  const std::uint64_t through = wall_crossings_->throughBits(scan, pose, kRayBeams);
+  std::vector<float> explained(scan.size());
+  CellView::Block block;
+  for (std::size_t first = 0; first < scan.size(); first += CellView::Block::kSize)
+  {
+    const std::size_t size = std::min(CellView::Block::kSize, scan.size() - first);
+    block.fill(cells, place, &scan.x[first], &scan.y[first], size);
+    for (std::size_t i = 0; i < size; ++i)
+    {
+      const std::uint8_t distance = block.distance(i);
+      const bool in_free = distance > kFarFromWall && block.state(i) == CellState::free;
+      const float blunt = 0.5F * (fine[distance] + coarse[distance]);
+      const float sharp = sharpLikelihood(sharp_table, block, i, cells.resolution());
+      float share = blunt + kSharpShare * (sharp - blunt) - (in_free ? kFree : 0.0F);
+      if (first + i < kRayBeams && (through >> (first + i) & 1U) != 0) share -= kThrough;
+      explained[first + i] = std::max(0.0F, share);
+    }
+  }
+  return explained;
+}
+
+DenseEvidence DenseVerifier::evaluate(const DenseScan& scan, const TPose2D& pose) const
+{
+  return evaluate(scan, pose, scan.spaced, kRayBeams);
+}
+
+/// Returns the evidence of the first `returns` of the spaced ones, with `rays` beams tested for
+/// passing through walls. Eq. (6.8)
+DenseEvidence DenseVerifier::evaluate(const DenseScan& scan, const TPose2D& pose,
+                                      std::size_t returns, std::size_t rays) const
+{
+  DenseEvidence evidence;
+  const std::size_t count = std::min(returns, scan.spaced);
+  if (count == 0) return evidence;
+  const EndSums sums = sumsOfEnds(field_, scan, Placement(pose), count);
+  // An isolated return in free space is a speck of clutter, and no evidence.
+  const auto n = static_cast<double>(std::max<std::size_t>(1, count - sums.specks));
+  evidence.sharp = static_cast<double>(sums.sharp) / n;
+  evidence.fine = static_cast<double>(sums.fine) / n;
+  evidence.coarse = static_cast<double>(sums.coarse) / n;
+  evidence.in_free = static_cast<double>(sums.in_free) / n;
+  evidence.unknown = static_cast<double>(sums.unknown) / n;
+  const std::size_t tested = std::min(rays, scan.spaced);
+  if (tested > 0) evidence.through_wall = wall_crossings_->throughShare(scan, pose, tested);
+  evidence.score = 0.5 * (evidence.sharp + evidence.coarse) -
+                   DenseEvidence::kThroughPenalty * evidence.through_wall -
+                   DenseEvidence::kFreePenalty * evidence.in_free;
+  return evidence;
+}
+}  // namespace sigloc
