@@ -19,6 +19,10 @@ constexpr double kCloseUpSide = 22.0;  // [m], the shorter side
 constexpr double kLinePixels = 2.4;
 constexpr double kMarkPixels = 10.0;
 constexpr float kTextScale = 34.0F;  // [pixels of the super-sampled picture]
+constexpr float kBannerScale = 64.0F;
+constexpr int kFramePixels = 8;  // of a close-up that nobody may take for an answer
+constexpr const char* kBanner = "NOT LOCALIZED";
+const TColorf kBannerColor(0.82F, 0, 0);
 constexpr unsigned kGapPixels = 4;  // between overview and close-up
 constexpr double kCharacterPixels = 15.5;  // width, about
 
@@ -41,12 +45,15 @@ const std::vector<LegendEntry> kMapLegend = {
     {"corner", TColorf(0, 0.55F, 0.51F)},
     {"wall end", TColorf(0.59F, 0.35F, 0.08F)},
 };
+const std::vector<LegendEntry> kStepMapLegend = {
+    {"wall", TColorf(0.12F, 0.31F, 0.63F)}, {"circle", TColorf(0.43F, 0.47F, 0)},
+    {"corner", TColorf(0, 0.55F, 0.51F)},   {"wall end", TColorf(0.59F, 0.35F, 0.08F)},
+    {"path", TColorf(0.24F, 0.75F, 0.43F)}, {"truth", TColorf(0, 0, 0)},
+};
 const std::vector<LegendEntry> kStepLegend = {
-    {"returns", TColorf(0.88F, 0.12F, 0.12F)},
-    {"observed features", TColorf(1, 0.55F, 0)},
-    {"hypotheses", TColorf(0.88F, 0, 0.59F)},
-    {"chosen pose", TColorf(0, 0.59F, 0.24F)},
-    {"truth", TColorf(0, 0, 0)},
+    {"returns", TColorf(0.88F, 0.12F, 0.12F)},     {"features seen", TColorf(1, 0.55F, 0)},
+    {"hypotheses", TColorf(0.88F, 0, 0.59F)},      {"sure pose", TColorf(0, 0.59F, 0.24F)},
+    {"unsure pose", TColorf(0.45F, 0.45F, 0.45F)},
 };
 const std::vector<LegendEntry> kComparisonLegend = {
     {"proposed", TColorf(0.59F, 0.35F, 0.86F)},
@@ -57,13 +64,24 @@ const std::vector<LegendEntry> kComparisonLegend = {
 };
 
 void addText(mrpt::opengl::COpenGLViewport& viewport, double x, double y, const std::string& text,
-             std::size_t index, const TColorf& color)
+             std::size_t index, const TColorf& color, float scale = kTextScale)
 {
   mrpt::opengl::TFontParams font;
   font.vfont_name = "sans";
-  font.vfont_scale = kTextScale;
+  font.vfont_scale = scale;
   font.color = color;
   viewport.addTextMessage(x, y, text, index, font);
+}
+
+void addFrame(mrpt::img::CImage& picture)
+{
+  const auto width = static_cast<int>(picture.getWidth());
+  const auto height = static_cast<int>(picture.getHeight());
+  const mrpt::img::TColor color(210, 0, 0);
+  picture.filledRectangle(0, 0, width - 1, kFramePixels, color);
+  picture.filledRectangle(0, height - kFramePixels, width - 1, height - 1, color);
+  picture.filledRectangle(0, 0, kFramePixels, height - 1, color);
+  picture.filledRectangle(width - kFramePixels, 0, width - 1, height - 1, color);
 }
 
 /// Copies a picture into a larger one, its upper left corner at (column, row).
@@ -132,6 +150,12 @@ struct PictureMaker::Panel
     scene.insert(step_objects);
   }
 
+  void writeBanner(const std::string& text)
+  {
+    const double y = 1 - 2 * kLinePitchPixels / size.height;
+    addText(*scene.getViewport(), kSidePixels / size.width, y, text, 0, kBannerColor, kBannerScale);
+  }
+
   void write(const std::vector<std::string>& title,
              const std::vector<std::vector<LegendEntry>>& legend)
   {
@@ -192,9 +216,13 @@ mrpt::img::CImage PictureMaker::stepPicture(const StepDrawing& step,
     close_up_->view.y = centre->y;
   }
   overview_->show(step);
-  overview_->write(title, {kMapLegend, kStepLegend});
+  overview_->write(title, {kStepMapLegend, kStepLegend});
   close_up_->show(step);
-  return join({picture(*overview_), picture(*close_up_)});
+  const bool sure = step.belief != nullptr && step.belief->verdict == Verdict::localized;
+  close_up_->writeBanner(sure ? "" : kBanner);
+  mrpt::img::CImage near = picture(*close_up_);
+  if (!sure) addFrame(near);
+  return join({picture(*overview_), near});
 }
 
 mrpt::img::CImage PictureMaker::comparison(const StepDrawing& step,

@@ -25,7 +25,8 @@ class PictureMaker
   /// Returns the whole map alone.
   mrpt::img::CImage mapPicture(const std::vector<std::string>& title);
 
-  /// Returns overview and close-up in one picture. Line widths and mark sizes of `step` are set
+  /// Returns overview and close-up in one picture. A close-up of a step that is not localized has a
+  /// red frame and says NOT LOCALIZED. Line widths and mark sizes of `step` are set
   /// here.
   mrpt::img::CImage stepPicture(const StepDrawing& step, const std::vector<std::string>& title);
 

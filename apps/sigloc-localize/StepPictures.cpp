@@ -9,6 +9,7 @@
 
 #include "picture_file.h"
 #include "sigloc/config/plural.h"
+#include "verdict_text.h"
 
 namespace sigloc
 {
@@ -27,8 +28,7 @@ std::vector<std::string> titleOf(const StepRecord& step)
   {
     second = "no pose";
   }
-  return {fmt::format("step {}, {:.1f} m: {} ({:.3f}), {}", step.number, step.travelled,
-                      toString(belief.verdict), belief.probability,
+  return {fmt::format("step {}, {:.1f} m: {}, {}", step.number, step.travelled, verdictText(belief),
                       counted(belief.hypotheses.size(), "hypothesis", "hypotheses")),
           second};
 }
@@ -52,7 +52,10 @@ std::string StepPictures::keyMoment(const StepRecord& step)
 void StepPictures::take(const LocalizationRun& run, const RunWriter& writer)
 {
   const StepRecord& step = run.steps().back();
-  if (!step.belief.hypotheses.empty()) path_.push_back(step.belief.hypotheses.front().pose.mean);
+  if (step.belief.verdict == Verdict::localized)
+  {
+    path_.push_back(step.belief.hypotheses.front().pose.mean);
+  }
   const std::string moment = run.atEnd() ? "end" : keyMoment(step);
   const std::uint32_t every = run.setup().scene_frequency;
   if (!moment.empty() || (every != 0 && (step.number - 1) % every == 0)) draw(run, writer, moment);

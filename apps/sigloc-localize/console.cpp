@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "sigloc/config/plural.h"
+#include "verdict_text.h"
 
 namespace sigloc
 {
@@ -35,16 +36,32 @@ std::string timing(const StepTimes& times)
 
 std::string mapLine(const RunSummary& summary, const LocalizationRun& run)
 {
-  return fmt::format("{}: {}, {} in {:.1f} s", run.setup().map_file.filename().string(),
-                     counted(run.map().features().size(), "feature"),
-                     summary.map_reused ? "unchanged since the last run, reused" : "built",
-                     summary.map_seconds);
+  const std::filesystem::path& file = run.setup().map_file;
+  const bool ready = file.extension() == ".sigmap";
+  const std::string how =
+      summary.map_reused
+          ? "unchanged since the last run, reused"
+          : fmt::format("{} in {:.1f} s", ready ? "loaded" : "built", summary.map_seconds);
+  return fmt::format("{}: {}, {}", file.filename().string(),
+                     counted(run.map().features().size(), "feature"), how);
+}
+
+/// For how much of the drive the robot was localized.
+std::string sureLine(const RunSummary& summary)
+{
+  std::string line =
+      fmt::format("{} of {}", summary.localized_steps, counted(summary.steps, "step"));
+  if (summary.localized_metres)
+  {
+    line += fmt::format(", {:.1f} of {:.1f} m", *summary.localized_metres, summary.distance);
+  }
+  return line + "; lost " + counted(summary.times_lost, "time");
 }
 
 std::string endLine(const RunSummary& summary, const Belief& belief)
 {
-  std::string line =
-      fmt::format("{} ({:.3f})", toString(summary.final_verdict), belief.probability);
+  std::string line = summary.final_verdict == Verdict::localized ? "" : "NOT LOCALIZED: ";
+  line += verdictText(belief);
   if (const auto& pose = summary.final_pose)
   {
     line += fmt::format(", first hypothesis ({:.2f} m, {:.2f} m, {:.1f} deg)", pose->x, pose->y,
@@ -69,10 +86,10 @@ void Progress::show(const LocalizationRun& run)
   const StepRecord& step = run.steps().back();
   constexpr std::size_t kStepsBetweenLines = 50;
   if (!line_.active() && step.number % kStepsBetweenLines != 1) return;
-  const std::string line = fmt::format(
-      "{:3.0f} %  step {}  {}  {} ({:.3f})  {}", 100 * run.progress(), step.number,
-      distanceText(step.travel_known, step.travelled), toString(step.belief.verdict),
-      step.belief.probability, counted(step.belief.hypotheses.size(), "hypothesis", "hypotheses"));
+  const std::string line =
+      fmt::format("{:3.0f} %  step {}  {}  {}  {}", 100 * run.progress(), step.number,
+                  distanceText(step.travel_known, step.travelled), verdictText(step.belief),
+                  counted(step.belief.hypotheses.size(), "hypothesis", "hypotheses"));
   if (line_.active())
   {
     line_.show(line);
@@ -115,9 +132,12 @@ std::string summaryTable(const LocalizationRun& run)
       scored ? reached(summary.steps_to_first_right, summary.metres_to_first_right)
              : "truth unknown");
   row("localized", reached(summary.steps_to_localized, summary.metres_to_localized));
-  row("confidently wrong",
-      scored ? counted(summary.confidently_wrong_steps, "step") : "truth unknown");
+  row("confidently wrong", summary.confidently_wrong_steps
+                               ? counted(*summary.confidently_wrong_steps, "step")
+                               : "truth unknown");
+  row("localized for", sureLine(summary));
   row("at the end", endLine(summary, run.steps().back().belief));
+  if (summary.final_verdict != Verdict::localized) row("why not sure", summary.final_reason);
   row("final error", errorLine(summary));
   row("relocation", timing(summary.relocation));
   row("tracking step", timing(summary.tracking));

@@ -45,25 +45,28 @@ int localize(const sigloc::LocalizationSetup& setup, bool quiet,
   std::optional<sigloc::RunWriter> writer;
   if (!setup.output_folder.empty()) writer.emplace(setup.output_folder, setup.inputFiles());
   sigloc::Progress progress(quiet);
-  sigloc::LocalizationRun run(setup, writer ? writer->mapCache(setup.map_file) : fs::path(),
+  sigloc::LocalizationRun run(setup, sigloc::mapCacheFile(setup.map_file),
                               [&](double share) { progress.showMap(share); });
   progress.finish();
   if (!run.summary().map_reused)
     sigloc::warn(kProgram, setup.map_file, sigloc::warningOfMapSource(setup.map_file));
   std::optional<sigloc::StepPictures> pictures;
-  if (writer) pictures.emplace(run);
+  const bool every_step = writer && !setup.stats_only;
+  if (every_step) pictures.emplace(run);
   while (const sigloc::StepRecord* step = run.next())
   {
     progress.show(run);
-    if (!writer) continue;
-    writer->writeBelief(*step);
+    if (!every_step) continue;
+    writer->writeBelief(*step, run.anywhere());
     pictures->take(run, *writer);
   }
   progress.finish();
   if (writer) writer->finish(run);
   outcomes.push_back(sigloc::outcomeOf(run));
   std::cout << sigloc::summaryTable(run);
-  if (writer) std::cout << "written to              " << setup.output_folder.string() << '\n';
+  std::cout << "written to              "
+            << (writer ? setup.output_folder.string() : "nothing: no --out, no logOutput_dir")
+            << '\n';
   sigloc::warn(kProgram, setup.rawlog_file, sigloc::leftOutLine(run.summary().left_out));
   if (!run.summary().truncated) return 0;
   sigloc::warn(kProgram, setup.rawlog_file,
@@ -104,6 +107,11 @@ std::vector<Experiment> experimentsOf(const sigloc::LocalizationSetup& setup)
   return experiments;
 }
 
+bool areSeveral(const std::vector<Experiment>& experiments)
+{
+  return experiments.size() > 1 || experiments.front().size() > 1;
+}
+
 /// Throws where a run would replace an input or a file of another origin. Called before any run
 /// begins.
 void checkOutputs(const sigloc::LocalizationSetup& setup,
@@ -111,7 +119,8 @@ void checkOutputs(const sigloc::LocalizationSetup& setup,
 {
   if (setup.output_folder.empty()) return;
   const auto inputs = setup.inputFiles();
-  sigloc::refuseToReplaceInputs(sigloc::experimentSummaryFile(setup.output_folder), inputs);
+  sigloc::refuseToReplaceInputs(
+      sigloc::experimentSummaryFile(setup.output_folder, areSeveral(experiments)), inputs);
   for (const Experiment& experiment : experiments)
   {
     for (const auto& run : experiment) sigloc::checkRunFolder(run.output_folder, inputs);
@@ -139,7 +148,11 @@ int runAll(const Arguments& arguments)
     }
     summary += sigloc::experimentSummary(outcomes, setup.confidence_share);
   }
-  if (!setup.output_folder.empty()) sigloc::writeExperimentSummary(setup.output_folder, summary);
+  if (!setup.output_folder.empty())
+  {
+    sigloc::writeFile(sigloc::experimentSummaryFile(setup.output_folder, areSeveral(experiments)),
+                      summary);
+  }
   return exit_code;
 }
 }  // namespace
@@ -152,7 +165,8 @@ int main(int argc, char** argv)
   bool print_defaults = false;
   app.footer(
       "Exit codes: 0 done, 1 bad input or no room for the output (nothing written but the map's "
-      "cache), 2 truncated log (results cover what was read).");
+      "cache, $XDG_CACHE_HOME/sigloc or ~/.cache/sigloc), 2 truncated log (results cover what was "
+      "read).");
   auto* const config =
       app.add_option("CONFIG.ini", arguments.config, "configuration, as pf-localization reads it");
   app.add_option("DATASET.rawlog", arguments.rawlog, "log to use instead of rawlog_file");

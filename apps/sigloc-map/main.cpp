@@ -103,20 +103,24 @@ void info(const std::filesystem::path& path, bool as_json)
   }
 }
 
-/// The map, and its source where that still exists.
+/// The map, and its source where that is beside it or in the current folder.
 std::vector<std::filesystem::path> filesBehind(const std::filesystem::path& path,
                                                const sigloc::FeatureMap& map)
 {
-  std::vector<std::filesystem::path> files;
-  try
+  const std::filesystem::path source = map.provenance().source_path;
+  std::vector<std::filesystem::path> files = {path};
+  for (const auto& candidate : {path.parent_path() / source.filename(), source})
   {
-    files = sigloc::filesOfMapSource(map.provenance().source_path);
+    try
+    {
+      const auto behind = sigloc::filesOfMapSource(candidate);
+      files.insert(files.end(), behind.begin(), behind.end());
+    }
+    catch (const std::runtime_error&)
+    {
+      // The source is gone or has changed, so only the map can be used.
+    }
   }
-  catch (const std::runtime_error&)
-  {
-    // The source is gone or has changed, so only the map can be used.
-  }
-  files.push_back(path);
   return files;
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <stdexcept>
 
@@ -85,7 +86,8 @@ CachedMap makeMap(const LocalizationSetup& setup, const fs::path& cache,
   }
   if (made.map.empty())
   {
-    if (!cache.empty() && !made.reused) fs::remove(cache);
+    std::error_code ignored;
+    if (!cache.empty() && !made.reused) fs::remove(cache, ignored);
     throw std::runtime_error(setup.map_file.string() + ": no feature found in it");
   }
   return made;
@@ -94,6 +96,28 @@ CachedMap makeMap(const LocalizationSetup& setup, const fs::path& cache,
 std::optional<double> travelOf(const StepRecord& step)
 {
   return step.travel_known ? std::optional(step.travelled) : std::nullopt;
+}
+
+/// For how much of the drive the robot was localized, and how often that was lost.
+void countLocalized(const std::vector<StepRecord>& steps, RunSummary& summary)
+{
+  const auto localized = [](const StepRecord& step)
+  { return step.belief.verdict == Verdict::localized; };
+  double metres = 0;
+  for (std::size_t i = 0; i < steps.size(); ++i)
+  {
+    const bool was_localized = i > 0 && localized(steps[i - 1]);
+    if (localized(steps[i]))
+    {
+      ++summary.localized_steps;
+      if (i > 0) metres += steps[i].travelled - steps[i - 1].travelled;
+    }
+    else if (was_localized)
+    {
+      ++summary.times_lost;
+    }
+  }
+  if (!steps.empty() && steps.back().travel_known) summary.localized_metres = metres;
 }
 
 /// pf-localization's test: one pose, not far from the truth.
@@ -134,6 +158,7 @@ LocalizationRun::LocalizationRun(const LocalizationSetup& setup, const fs::path&
 {
   CachedMap made = makeMap(setup_, map_cache, progress);
   map_ = std::make_shared<const FeatureMap>(std::move(made.map));
+  anywhere_ = anywhereIn(boundsOf(*map_));
   state_->map_reused = made.reused;
   state_->map_seconds = made.build_seconds;
   const auto matcher = std::make_shared<const SignatureMatcher>(map_, setup_.matcher);
@@ -179,6 +204,7 @@ const StepRecord* LocalizationRun::next()
   const Stopwatch extraction;
   scene_ = observe(*input, setup_.features);
   step.extraction_ms = extraction.milliseconds();
+  step.features = scene_.features;
   const Stopwatch tracking;
   step.belief = state_->particles ? state_->particles->step(*input)
                                   : state_->tracker->step(input->motion, scene_);
@@ -230,13 +256,18 @@ RunSummary LocalizationRun::summary() const
   summary.left_out = state_->reader.leftOut();
   summary.truncated = state_->reader.truncated();
   summary.steps = steps_.size();
+  countLocalized(steps_, summary);
+  if (state_->truth)
+  {
+    summary.confidently_wrong_steps = static_cast<std::size_t>(
+        std::count_if(steps_.begin(), steps_.end(), std::mem_fn(&StepRecord::confidently_wrong)));
+  }
   std::vector<double> relocation_times;
   std::vector<double> tracking_times;
   for (const StepRecord& step : steps_)
   {
     const double total_ms = step.extraction_ms + step.tracking_ms;
     (step.relocated ? relocation_times : tracking_times).push_back(total_ms);
-    if (step.confidently_wrong) ++summary.confidently_wrong_steps;
     if (step.any_right && state_->truth && !summary.steps_to_first_right)
     {
       summary.steps_to_first_right = step.number;
@@ -259,6 +290,8 @@ RunSummary LocalizationRun::summary() const
   const StepRecord& last = steps_.back();
   summary.distance = travelOf(last).value_or(std::numeric_limits<double>::quiet_NaN());
   summary.final_verdict = last.belief.verdict;
+  summary.final_probability = last.belief.probabilityOfFirst();
+  summary.final_reason = last.belief.reason;
   if (!last.belief.hypotheses.empty())
   {
     summary.final_pose = last.belief.hypotheses.front().pose.mean;

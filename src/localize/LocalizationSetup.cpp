@@ -81,6 +81,14 @@ double readNumber(const CConfigFileMemory& ini, const char* key, double fallback
   return *value;
 }
 
+bool readSwitch(const CConfigFileMemory& ini, const char* key)
+{
+  const std::string text = ini.read_string_first_word(kExperiment, key, "false");
+  const std::optional<bool> value = detail::parseValue<bool>(text);
+  if (!value) failInExperiment(fmt::format("bad value '{}' for '{}'", text, key));
+  return *value;
+}
+
 std::uint32_t readCount(const CConfigFileMemory& ini, const char* key, std::uint32_t fallback)
 {
   const double value = readNumber(ini, key, fallback);
@@ -209,6 +217,9 @@ void readExperiment(const CConfigFileMemory& ini, const fs::path& path, const fs
   }
   const std::string unread = detail::warningOfUnreadKeys(ini, kExperiment);
   if (!unread.empty()) setup.warnings.push_back(unread);
+  setup.use_particles = readTracker(ini);
+  const std::string ignored = detail::warningOfIgnoredKeys(ini, kExperiment, setup.use_particles);
+  if (!ignored.empty()) setup.warnings.push_back(ignored);
   const auto named = [&](const char* key) { return ini.read_string(kExperiment, key, ""); };
   setup.map_file = findFile(named("map_file"), path, "map_file");
   setup.rawlog_file = rawlog.empty() ? findFile(named("rawlog_file"), path, "rawlog_file") : rawlog;
@@ -220,7 +231,7 @@ void readExperiment(const CConfigFileMemory& ini, const fs::path& path, const fs
   setup.repetitions = readRepetitions(ini);
   readJudgement(ini, setup);
   setup.prior = readPrior(ini);
-  setup.use_particles = readTracker(ini);
+  setup.stats_only = readSwitch(ini, "SAVE_STATS_ONLY");
   if (setup.use_particles) setup.particle_counts = readParticleCounts(ini);
 }
 

@@ -25,12 +25,16 @@ namespace fs = std::filesystem;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-std::string pathRows(const std::vector<StepRecord>& steps)
+/// The first hypotheses of the steps that are localized, or of the others.
+std::string pathRows(const std::vector<StepRecord>& steps, bool localized)
 {
-  std::string rows = "# time x y z qx qy qz qw: first hypothesis of each step, map frame\n";
+  std::string rows = fmt::format(
+      "# time x y z qx qy qz qw, map frame: first hypothesis of {}\n",
+      localized ? "each step that is localized" : "each step that is NOT LOCALIZED, perhaps wrong");
   for (const StepRecord& step : steps)
   {
     if (step.belief.hypotheses.empty()) continue;
+    if ((step.belief.verdict == Verdict::localized) != localized) continue;
     const mrpt::math::TPose2D& pose = step.belief.hypotheses.front().pose.mean;
     rows += fmt::format("{:.6f} {:.6f} {:.6f} 0 0 0 {:.9f} {:.9f}\n", step.time, pose.x, pose.y,
                         std::sin(0.5 * pose.phi), std::cos(0.5 * pose.phi));
@@ -51,6 +55,13 @@ Written firstPose(const StepRecord& step)
     row.cells.push_back(fixedNumber(value, 6));
   }
   return row;
+}
+
+/// None where there is no pose.
+std::optional<double> probabilityOfFirst(const StepRecord& step)
+{
+  if (step.belief.hypotheses.empty()) return std::nullopt;
+  return step.belief.probabilityOfFirst();
 }
 
 /// How it compares with the truth, where there is one.
@@ -74,6 +85,8 @@ Columns<StepRecord> stepColumns()
       C("verdict", [](const S& step) { return step.belief.verdict; }),
       C(
           "probability", [](const S& step) { return step.belief.probability; }, "", 6),
+      C(
+          "first_pose_probability", [](const S& step) { return probabilityOfFirst(step); }, "", 6),
       C(
           "reliability", [](const S& step) { return step.belief.reliability; }, "", 6),
       C("hypotheses", [](const S& step) { return step.belief.hypotheses.size(); }),
@@ -109,6 +122,12 @@ Columns<Figures> summaryColumns()
             [](const F& f) { return f.final_error ? mrpt::RAD2DEG(f.final_error->angle) : kNone; }),
           C("final_verdict", &F::final_verdict),
           C("final_pose", &F::final_pose),
+          C("final_pose_probability",
+            [](const F& f) { return f.final_pose ? f.final_probability : kNone; }),
+          C("final_reason", &F::final_reason),
+          C("localized_steps", &F::localized_steps),
+          C("localized_m", &F::localized_metres),
+          C("times_lost", &F::times_lost),
           C("confidently_wrong_steps", &F::confidently_wrong_steps),
           C("relocation_ms_median", [](const F& f) { return f.relocation.median; }),
           C("relocation_ms_p95", [](const F& f) { return f.relocation.p95; }),
@@ -223,15 +242,9 @@ RunWriter::~RunWriter()
   if (!finished_) fs::remove_all(created_, ignored);
 }
 
-fs::path RunWriter::mapCache(const fs::path& map_file) const
+void RunWriter::writeBelief(const StepRecord& step, const GaussianPose& anywhere) const
 {
-  if (work_.parent_path() == folder_) return {};  // nothing can be written beside the folder
-  return folder_.parent_path() / (map_file.filename().string() + ".cache.sigmap");
-}
-
-void RunWriter::writeBelief(const StepRecord& step) const
-{
-  const mrpt::poses::CPosePDFSOG sum = toSumOfGaussians(step.belief);
+  const mrpt::poses::CPosePDFSOG sum = toSumOfGaussians(withElsewhere(step.belief, anywhere));
   const fs::path stem = work_ / "belief" / stepName(step);
   writeFile(stem.string() + ".CPosePDFSOG", bytesOf(sum));
   writeFile(stem.string() + ".txt", modeRows(sum));
@@ -249,9 +262,10 @@ void RunWriter::writeScene(const FeatureMap& map, const StepRecord& step,
 
 void RunWriter::finish(const LocalizationRun& run)
 {
-  writeFile(work_ / "path.tum", pathRows(run.steps()));
+  writeFile(work_ / "path.tum", pathRows(run.steps(), true));
+  writeFile(work_ / "path_unsure.tum", pathRows(run.steps(), false));
   writeFile(work_ / "steps.csv", csvFile(stepColumns(), run.steps()));
-  writeAnnotatedRawlog(run.setup().rawlog_file, run.steps(), work_ / "annotated.rawlog");
+  writeAnnotatedRawlog(run, work_ / "annotated.rawlog");
   writePfLocalizationFiles(run, work_);
   writeFile(work_ / detail::kRunSummaryFile,
             toJson(summaryColumns(), Figures{run.summary(), run}).dump(2) + "\n");

@@ -85,6 +85,26 @@ std::string warningOfUnreadKeys(const mrpt::config::CConfigFileBase& ini,
   return unread.empty() ? "" : "[" + section + "]: nothing reads " + unread;
 }
 
+std::string warningOfIgnoredKeys(const mrpt::config::CConfigFileBase& ini,
+                                 const std::string& section, bool with_particles)
+{
+  std::string ignored;
+  const auto add = [&](const std::string& name)
+  { ignored += (ignored.empty() ? "" : ", ") + name; };
+  for (const char* const key : {"DO_RELIABILITY_ESTIMATE", "DO_SCAN_LIKELIHOOD_DEBUG",
+                                "SHOW_PROGRESS_3D_REAL_TIME", "use_3D_poses"})
+  {
+    const std::string value = ini.read_string_first_word(section, key, "false");
+    if (value != "false" && value != "no" && value != "0") add(key);
+  }
+  if (!with_particles && ini.keyExists(section, "particles_count")) add("particles_count");
+  for (const char* const name : {"PF_options", "KLD_options"})
+  {
+    if (ini.sectionExists(name)) add(fmt::format("[{}]", name));
+  }
+  return ignored.empty() ? "" : "of pf-localization's keys, sigloc does without " + ignored;
+}
+
 std::vector<std::string> warningsOfRepeatedKeys(const std::string& text,
                                                 const std::vector<std::string>& sections)
 {

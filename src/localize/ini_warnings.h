@@ -14,6 +14,11 @@ namespace sigloc::detail
 std::string warningOfUnreadKeys(const mrpt::config::CConfigFileBase& ini,
                                 const std::string& section);
 
+/// Returns a line on what the ini asks of pf-localization's particle filter and window, and sigloc
+/// does not do; empty for nothing. Switches that are off ask for nothing.
+std::string warningOfIgnoredKeys(const mrpt::config::CConfigFileBase& ini,
+                                 const std::string& section, bool with_particles);
+
 /// Returns a line for each key of the named sections that the text of an ini gives several times.
 std::vector<std::string> warningsOfRepeatedKeys(const std::string& text,
                                                 const std::vector<std::string>& sections);

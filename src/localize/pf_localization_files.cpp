@@ -23,10 +23,11 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kSecond = 1e3;  // [ms]
 constexpr const char* kSummaryEnding = "_SUMMARY.txt";
 
-double volumeOf(const Belief& belief)
+double volumeOf(const StepRecord& step, const GaussianPose& anywhere)
 {
-  if (belief.hypotheses.empty()) return kUnknown;
-  return std::sqrt(std::max(0.0, momentsOf(belief).covariance.det()));
+  if (step.belief.hypotheses.empty()) return kUnknown;
+  const Belief whole = withElsewhere(step.belief, anywhere);
+  return std::sqrt(std::max(0.0, momentsOf(whole).covariance.det()));
 }
 
 /// Mean distance of the hypotheses from the truth [m]; pf-localization's is that of the particles.
@@ -48,12 +49,12 @@ double secondsOf(const StepRecord& step)
   return (step.extraction_ms + step.tracking_ms) / kSecond;
 }
 
-std::string odometryRow(const StepRecord& step)
+std::string odometryRow(const StepRecord& step, const GaussianPose& /*anywhere*/)
 {
   return fmt::format("{:f} {:f} {:f}", step.odometry.x, step.odometry.y, step.odometry.phi);
 }
 
-std::string statisticsRow(const StepRecord& step)
+std::string statisticsRow(const StepRecord& step, const GaussianPose& anywhere)
 {
   const auto& hypotheses = step.belief.hypotheses;
   const auto count = static_cast<double>(hypotheses.size());
@@ -68,7 +69,7 @@ std::string statisticsRow(const StepRecord& step)
   const double effective = sum > 0 ? 1 / mean_square : 0;
   const double variance = sum > 0 ? (mean_square - 1 / count) / count : 0;
   return fmt::format("{} {:e} {:e} {:f} {:f}", hypotheses.size(), effective,
-                     std::max(0.0, variance), step.belief.reliability, volumeOf(step.belief));
+                     std::max(0.0, variance), step.belief.reliability, volumeOf(step, anywhere));
 }
 
 std::string numberRow(double value)
@@ -79,16 +80,19 @@ std::string numberRow(double value)
 struct StepFile
 {
   const char* name;
-  std::string (*row)(const StepRecord& step);
+  std::string (*row)(const StepRecord& step, const GaussianPose& anywhere);
 };
 
 constexpr StepFile kStepFiles[] = {
-    {"cov_est.txt", [](const StepRecord& s) { return numberRow(volumeOf(s.belief)); }},
+    {"cov_est.txt", [](const StepRecord& s, const GaussianPose& anywhere)
+     { return numberRow(volumeOf(s, anywhere)); }},
     {"odo_est.txt", odometryRow},
-    {"GT_error.txt", [](const StepRecord& s) { return numberRow(errorOf(s)); }},
-    {"ODO_error.txt", [](const StepRecord& s)
+    {"GT_error.txt",
+     [](const StepRecord& s, const GaussianPose& /*anywhere*/) { return numberRow(errorOf(s)); }},
+    {"ODO_error.txt", [](const StepRecord& s, const GaussianPose& /*anywhere*/)
      { return numberRow(s.truth ? errorBetween(s.odometry, *s.truth).distance : kUnknown); }},
-    {"exec_times.txt", [](const StepRecord& s) { return numberRow(secondsOf(s)); }},
+    {"exec_times.txt",
+     [](const StepRecord& s, const GaussianPose& /*anywhere*/) { return numberRow(secondsOf(s)); }},
     {"PF_stats.txt", statisticsRow},
 };
 
@@ -108,13 +112,14 @@ void writeParticles(const LocalizationRun& run, const std::filesystem::path& fol
 {
   constexpr std::size_t kSamples = 500;
   const std::uint32_t every = run.setup().scene_frequency;
-  if (every == 0) return;
+  if (every == 0 || run.setup().stats_only) return;
   std::filesystem::create_directories(folder);
   for (const StepRecord& step : run.steps())
   {
     if ((step.number - 1) % every != 0 || step.belief.hypotheses.empty()) continue;
     const auto path = folder / fmt::format("particles_{:05}.txt", step.number);
-    const auto samples = toParticles(step.belief, kSamples, run.setup().matcher.seed + step.number);
+    const Belief whole = withElsewhere(step.belief, run.anywhere());
+    const auto samples = toParticles(whole, kSamples, run.setup().matcher.seed + step.number);
     writeFile(path, particleRows(samples));
   }
 }
@@ -125,7 +130,7 @@ void writePfLocalizationFiles(const LocalizationRun& run, const std::filesystem:
   for (const StepFile& kind : kStepFiles)
   {
     std::string rows;
-    for (const StepRecord& step : run.steps()) rows += kind.row(step) + "\n";
+    for (const StepRecord& step : run.steps()) rows += kind.row(step, run.anywhere()) + "\n";
     writeFile(folder / kind.name, rows);
   }
   writeParticles(run, folder / "particles");
@@ -193,8 +198,9 @@ std::string experimentSummary(const std::vector<ExperimentOutcome>& repetitions,
       errors.empty() ? kUnknown : mean, quantile(low), quantile(1 - low));
 }
 
-std::filesystem::path experimentSummaryFile(const std::filesystem::path& folder)
+std::filesystem::path experimentSummaryFile(const std::filesystem::path& folder, bool several_runs)
 {
+  if (!several_runs) return folder / kSummaryEnding;
   // "out/" is "out".
   const auto named = folder.has_filename() ? folder : folder.parent_path();
   std::filesystem::path path = named.string() + kSummaryEnding;
@@ -205,20 +211,5 @@ std::filesystem::path experimentSummaryFile(const std::filesystem::path& folder)
     throw std::runtime_error(path.string() + ": is no summary of an earlier run; not overwritten");
   }
   return path;
-}
-
-void writeExperimentSummary(const std::filesystem::path& folder, const std::string& text)
-{
-  const std::filesystem::path path = experimentSummaryFile(folder);
-  try
-  {
-    writeFile(path, text);
-  }
-  catch (const std::runtime_error&)
-  {
-    // Nothing can be made beside the folder, or its name is too long.
-    if (!std::filesystem::is_directory(folder)) throw;
-    writeFile(folder / kSummaryEnding, text);
-  }
 }
 }  // namespace sigloc

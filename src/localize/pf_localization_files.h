@@ -13,14 +13,15 @@ namespace sigloc
 /// Writes the text files of pf-localization's log folder, for scripts that read those. Each has one
 /// row for each step, pf-localization's some fewer. A value that is not known at a step is `nan`.
 ///
-/// * `cov_est.txt`: square root of the determinant of the belief's covariance
+/// * `cov_est.txt`: square root of the determinant of the belief's covariance; unless localized,
+///   with "somewhere else" in it, see withElsewhere()
 /// * `odo_est.txt`: dead reckoning, `x y phi`
 /// * `GT_error.txt`: mean distance of the belief from the truth [m]
 /// * `ODO_error.txt`: distance of dead reckoning from the truth [m]
 /// * `exec_times.txt`: [s]
 /// * `PF_stats.txt`: hypotheses, their effective number, the variance of their weights,
 ///   reliability, and what `cov_est.txt` holds
-/// * `particles/particles_00001.txt`: 500 samples of the belief, where a scene is written as well
+/// * `particles/particles_00001.txt`: 500 samples of that belief, where a scene is written as well
 ///
 /// Throws std::runtime_error for a file that cannot be written.
 void writePfLocalizationFiles(const LocalizationRun& run, const std::filesystem::path& folder);

@@ -28,7 +28,8 @@ bool isRunFile(const std::string& name)
 {
   static const std::set<std::string> kNames = []
   {
-    std::set<std::string> names = {"path.tum", "steps.csv", "annotated.rawlog", kRunSummaryFile};
+    std::set<std::string> names = {"path.tum", "path_unsure.tum", "steps.csv", "annotated.rawlog",
+                                   kRunSummaryFile};
     names.insert(pfLocalizationFiles().begin(), pfLocalizationFiles().end());
     return names;
   }();

@@ -34,6 +34,7 @@ constexpr std::uint32_t kMaxTextureSide = 2048;
 const TColor kReturnColor(225, 30, 30);
 const TColor kObservedColor(255, 140, 0);
 const TColor kPoseColor(0, 150, 60);
+const TColor kUnsurePoseColor(115, 115, 115);
 const TColor kPathColor(60, 190, 110);
 const TColor kTruthColor(0, 0, 0);
 const TColor kProposedColor(150, 90, 220);
@@ -193,7 +194,7 @@ mrpt::opengl::CSetOfTriangles::Ptr drawScan(const ObservedScene& observed,
   return batch.object();
 }
 
-mrpt::opengl::CSetOfTriangles::Ptr drawRobot(const TPose2D& pose, double size)
+mrpt::opengl::CSetOfTriangles::Ptr drawRobot(const TPose2D& pose, double size, const TColor& color)
 {
   TriangleBatch batch(kPoseHeight);
   const TPoint2D centre(pose.x, pose.y);
@@ -201,8 +202,8 @@ mrpt::opengl::CSetOfTriangles::Ptr drawRobot(const TPose2D& pose, double size)
   { return centre + unitVector(pose.phi + angle) * radius; };
   const TPoint2D tip = corner(0, 1.6 * size);
   const TPoint2D notch = corner(M_PI, 0.4 * size);
-  batch.addTriangle(tip, corner(2.5, size), notch, kPoseColor);
-  batch.addTriangle(tip, notch, corner(-2.5, size), kPoseColor);
+  batch.addTriangle(tip, corner(2.5, size), notch, color);
+  batch.addTriangle(tip, notch, corner(-2.5, size), color);
   return batch.object();
 }
 
@@ -264,7 +265,8 @@ mrpt::opengl::CSetOfObjects::Ptr drawStep(const StepDrawing& step)
     const TPose2D& first = step.belief->hypotheses.front().pose.mean;
     if (!observed_at) observed_at = first;
     objects->insert(drawBelief(*step.belief, step));
-    objects->insert(drawRobot(first, step.min_mark_size));
+    const bool sure = step.belief->verdict == Verdict::localized;
+    objects->insert(drawRobot(first, step.min_mark_size, sure ? kPoseColor : kUnsurePoseColor));
   }
   if (step.observed != nullptr && observed_at)
   {

@@ -19,6 +19,9 @@ namespace sigloc
 namespace
 {
 constexpr double kSmallestWeight = 1e-300;  // keeps the log-weight of a weightless mode finite
+// A verdict of localized takes a probability of 0.99, so that 0.01 of doubt is the least without
+// it.
+constexpr double kLeastDoubt = 0.01;
 
 /// The hypotheses' weights, scaled to sum to one; equal where they are all zero.
 std::vector<double> normalizedWeights(const Belief& belief)
@@ -70,6 +73,46 @@ Belief toBelief(const RelocationResult& result)
   belief.verdict = result.verdict;
   belief.probability = result.probability;
   return belief;
+}
+
+GaussianPose anywhereIn(const PlanarBox& box)
+{
+  const auto variance = [](double width) { return width * width / 12; };  // of a uniform density
+  GaussianPose anywhere;
+  anywhere.mean = {0.5 * (box.x_min + box.x_max), 0.5 * (box.y_min + box.y_max), 0};
+  anywhere.covariance.setZero();
+  anywhere.covariance(0, 0) = variance(box.x_max - box.x_min);
+  anywhere.covariance(1, 1) = variance(box.y_max - box.y_min);
+  anywhere.covariance(2, 2) = variance(2 * M_PI);
+  return anywhere;
+}
+
+Belief withElsewhere(const Belief& belief, const GaussianPose& anywhere)
+{
+  if (belief.verdict == Verdict::localized) return belief;
+  Belief whole = belief;
+  TrackedHypothesis elsewhere;
+  elsewhere.pose = anywhere;
+  elsewhere.weight = belief.hypotheses.empty() ? 1 : std::max(belief.elsewhere, kLeastDoubt);
+  const std::vector<double> shares = normalizedWeights(belief);
+  for (std::size_t i = 0; i < shares.size(); ++i)
+  {
+    whole.hypotheses[i].weight = (1 - elsewhere.weight) * shares[i];
+  }
+  whole.hypotheses.push_back(elsewhere);
+  whole.elsewhere = 0;
+  return whole;
+}
+
+GaussianPose reportedPose(const Belief& belief, const GaussianPose& anywhere)
+{
+  GaussianPose reported = firstOf(belief).pose;
+  if (belief.verdict == Verdict::localized) return reported;
+  const GaussianPose whole = momentsOf(withElsewhere(belief, anywhere));
+  const Eigen::Vector3d offset(whole.mean.x - reported.mean.x, whole.mean.y - reported.mean.y,
+                               mrpt::math::wrapToPi(whole.mean.phi - reported.mean.phi));
+  reported.covariance = whole.covariance.asEigen() + offset * offset.transpose();
+  return reported;
 }
 
 mrpt::poses::CPosePDFSOG toSumOfGaussians(const Belief& belief)
@@ -140,12 +183,17 @@ mrpt::poses::CPosePDFParticles toParticles(const Belief& belief, std::size_t cou
   return particles;
 }
 
-mrpt::obs::CObservationRobotPose::Ptr toRobotPoseObservation(const Belief& belief, double time)
+mrpt::obs::CObservationRobotPose::Ptr toRobotPoseObservation(const Belief& belief,
+                                                             const GaussianPose& anywhere,
+                                                             double time)
 {
+  const GaussianPose pose = reportedPose(belief, anywhere);
   auto observation = mrpt::obs::CObservationRobotPose::Create();
-  observation->pose = mrpt::poses::CPose3DPDFGaussian(toGaussian(belief));
+  observation->pose = mrpt::poses::CPose3DPDFGaussian(
+      mrpt::poses::CPosePDFGaussian(toPose(pose.mean), pose.covariance));
   observation->timestamp = mrpt::Clock::fromDouble(time);
-  observation->sensorLabel = "sigloc";
+  observation->sensorLabel =
+      belief.verdict == Verdict::localized ? kSurePoseLabel : kUnsurePoseLabel;
   return observation;
 }
 }  // namespace sigloc

@@ -20,12 +20,12 @@ using test::HostLocale;
 using test::readBytes;
 using test::TemporaryFolder;
 
-void localize(const fs::path& ini, const fs::path& out)
+void localize(const fs::path& ini, const fs::path& out, const fs::path& cache)
 {
   LocalizationSetup setup = readLocalizationSetup(ini);
   RunWriter writer(out, setup.inputFiles());
-  LocalizationRun run(setup, writer.mapCache(setup.map_file));
-  while (const StepRecord* const step = run.next()) writer.writeBelief(*step);
+  LocalizationRun run(setup, cache);
+  while (const StepRecord* const step = run.next()) writer.writeBelief(*step, run.anywhere());
   writer.finish(run);
 }
 
@@ -38,14 +38,15 @@ TEST(Locale, doesNotChangeWhatARunWrites)
                            (datasets / "localization_demo.simplemap.gz").string() +
                            "\nrawlog_file = " + (datasets / "localization_demo.rawlog").string() +
                            "\n3DSceneFrequency = 20\nSTATS_CONF_INTERVAL = 0.25\n");
-  localize(ini, folder / "plain");
-  const std::string map = readBytes(folder / "localization_demo.simplemap.gz.cache.sigmap");
-  fs::remove(folder / "localization_demo.simplemap.gz.cache.sigmap");
+  const fs::path cache = folder / "cache.sigmap";
+  localize(ini, folder / "plain", cache);
+  const std::string map = readBytes(cache);
+  fs::remove(cache);
   {
     const HostLocale host;
-    localize(ini, folder / "host");
+    localize(ini, folder / "host", cache);
   }
-  EXPECT_TRUE(readBytes(folder / "localization_demo.simplemap.gz.cache.sigmap") == map);
+  EXPECT_TRUE(readBytes(cache) == map);
   for (const char* const file :
        {"path.tum", "cov_est.txt", "odo_est.txt", "PF_stats.txt", "belief/step_00009.txt",
         "belief/step_00009.CPosePDFSOG", "particles/particles_00001.txt", "annotated.rawlog"})

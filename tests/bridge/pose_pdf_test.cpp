@@ -51,7 +51,7 @@ TEST(PosePdf, GaussianIsTheFirstHypothesis)
   EXPECT_NEAR(gaussian.cov(1, 1), 0.09, 1e-12);
   EXPECT_THROW(toGaussian(Belief{}), std::invalid_argument);
   EXPECT_THROW(toParticles(Belief{}, 10, 1), std::invalid_argument);
-  EXPECT_THROW(toRobotPoseObservation(Belief{}, 0), std::invalid_argument);
+  EXPECT_THROW(toRobotPoseObservation(Belief{}, GaussianPose{}, 0), std::invalid_argument);
 }
 
 TEST(PosePdf, MomentsAreThoseOfAllHypotheses)
@@ -109,9 +109,63 @@ TEST(PosePdf, SamplesASingularCovariance)
   }
 }
 
+TEST(PosePdf, AnywhereIsUniformInTheBox)
+{
+  const GaussianPose anywhere = anywhereIn({-10, 20, 0, 12});
+  EXPECT_EQ(anywhere.mean.x, 5.0);
+  EXPECT_EQ(anywhere.mean.y, 6.0);
+  EXPECT_NEAR(anywhere.covariance(0, 0), 75, 1e-9);
+  EXPECT_NEAR(anywhere.covariance(1, 1), 12, 1e-9);
+  EXPECT_NEAR(anywhere.covariance(2, 2), M_PI * M_PI / 3, 1e-9);
+}
+
+TEST(PosePdf, SomewhereElseIsTheLastHypothesisOfAnUnsureBelief)
+{
+  const GaussianPose anywhere = anywhereIn({-10, 20, 0, 12});
+  Belief belief = twoPlaces();
+  for (const Verdict verdict : {Verdict::ambiguous, Verdict::not_here, Verdict::too_little_seen})
+  {
+    belief.verdict = verdict;
+    const Belief whole = withElsewhere(belief, anywhere);
+    ASSERT_EQ(whole.hypotheses.size(), 3U);
+    EXPECT_NEAR(whole.hypotheses[0].weight, 0.6, 1e-12);
+    EXPECT_NEAR(whole.hypotheses[1].weight, 0.2, 1e-12);
+    EXPECT_NEAR(whole.hypotheses[2].weight, 0.2, 1e-12);
+    EXPECT_EQ(whole.hypotheses[2].pose.mean.x, 5.0);
+  }
+  belief.verdict = Verdict::localized;
+  EXPECT_EQ(withElsewhere(belief, anywhere).hypotheses.size(), 2U);
+  EXPECT_EQ(withElsewhere(Belief{}, anywhere).hypotheses.size(), 1U);
+  EXPECT_EQ(withElsewhere(Belief{}, anywhere).hypotheses[0].weight, 1.0);
+}
+
+// The weights may call a pose certain that the verdict does not vouch for.
+TEST(PosePdf, AnUnsurePoseIsNeverNarrow)
+{
+  const GaussianPose anywhere = anywhereIn({-10, 20, 0, 12});
+  Belief belief;
+  belief.hypotheses = {hypothesis(1, 0.3, 1)};
+  belief.elsewhere = 0;
+  belief.verdict = Verdict::localized;
+  EXPECT_NEAR(reportedPose(belief, anywhere).covariance(0, 0), 0.04, 1e-12);
+  belief.verdict = Verdict::ambiguous;
+  const GaussianPose unsure = reportedPose(belief, anywhere);
+  EXPECT_EQ(unsure.mean.x, 1.0);
+  // 99 % at the pose, 1 % anywhere: the mean squared deviation from the pose.
+  EXPECT_NEAR(unsure.covariance(0, 0), 0.99 * 0.04 + 0.01 * (75 + 4 * 4), 1e-9);
+  EXPECT_NEAR(unsure.covariance(1, 1), 0.99 * 0.09 + 0.01 * (12 + 7 * 7), 1e-9);
+}
+
 TEST(PosePdf, RobotPoseObservationCarriesPoseTimeAndLabel)
 {
-  const auto observation = toRobotPoseObservation(twoPlaces(), 1234.5);
+  const GaussianPose anywhere = anywhereIn({-10, 20, 0, 12});
+  Belief belief = twoPlaces();
+  belief.verdict = Verdict::not_here;
+  const auto unsure = toRobotPoseObservation(belief, anywhere, 1234.5);
+  EXPECT_EQ(unsure->sensorLabel, "sigloc_unsure");
+  EXPECT_GT(unsure->pose.cov(0, 0), 50.0);
+  belief.verdict = Verdict::localized;
+  const auto observation = toRobotPoseObservation(belief, anywhere, 1234.5);
   EXPECT_EQ(observation->sensorLabel, "sigloc");
   EXPECT_NEAR(mrpt::Clock::toDouble(observation->timestamp), 1234.5, 1e-6);
   EXPECT_NEAR(observation->pose.mean.yaw(), M_PI - 0.01, 1e-9);

@@ -45,11 +45,19 @@ inline std::string commandLine(const std::string& program,
   return command;
 }
 
+/// Where the programs keep the maps that they have built: a cache for each folder of a test.
+inline std::filesystem::path cacheFor(const TemporaryFolder& folder)
+{
+  static const TemporaryFolder kCaches;
+  return kCaches / folder.path().filename().string();
+}
+
 /// Runs a shell's commands with an empty standard input, in `folder`.
 inline CommandResult runShell(const TemporaryFolder& folder, const std::string& commands)
 {
   const TemporaryFolder streams;
-  const std::string command = "cd " + quoted(folder.path().string()) + " && { " + commands +
+  const std::string command = "export XDG_CACHE_HOME=" + quoted(cacheFor(folder).string()) +
+                              "; cd " + quoted(folder.path().string()) + " && { " + commands +
                               "; } </dev/null >" + quoted((streams / "out").string()) + " 2>" +
                               quoted((streams / "err").string());
   const int status = std::system(command.c_str());

@@ -92,10 +92,10 @@ TEST(Localize, writesACompleteOutputFolder)
   EXPECT_EQ(summary["map_reused"], false);
   EXPECT_GT(summary["map_features"], 10);
 
-  const std::size_t poses = beliefsWithAPose(folder);
-  EXPECT_GT(poses, 0U);
-  const std::string path = readBytes(folder / "out/path.tum");
-  EXPECT_EQ(countLines(path), static_cast<std::ptrdiff_t>(poses + 1));
+  EXPECT_EQ(beliefsWithAPose(folder), kLabSteps);
+  const std::ptrdiff_t rows = countLines(readBytes(folder / "out/path.tum")) +
+                              countLines(readBytes(folder / "out/path_unsure.tum"));
+  EXPECT_EQ(rows, static_cast<std::ptrdiff_t>(kLabSteps + 2)) << "each with a comment";
   EXPECT_EQ(countLines(readBytes(folder / "out/steps.csv")),
             static_cast<std::ptrdiff_t>(kLabSteps + 1));
   EXPECT_FALSE(std::filesystem::exists(folder / "out.partial"));
@@ -110,7 +110,9 @@ TEST(Localize, endsRightInTheLab)
   EXPECT_EQ(summary["final_verdict"], "localized");
   EXPECT_LT(summary["final_error_m"], 0.5);
   EXPECT_LT(summary["final_error_deg"], 5);
-  EXPECT_EQ(summary["confidently_wrong_steps"], 0);
+  EXPECT_TRUE(summary["confidently_wrong_steps"].is_null()) << "of the path no truth is known";
+  EXPECT_EQ(summary["localized_steps"], kLabSteps);
+  EXPECT_EQ(summary["localized_m"], summary["distance_m"]);
 }
 
 TEST(Localize, tracksWithParticlesWhenAsked)
@@ -297,7 +299,12 @@ TEST(Localize, runsStockConfigurationsUnchanged)
       run(folder, "sigloc-localize",
           {"/usr/share/mrpt/config_files/pf-localization/localization_demo.ini", "--quiet"});
   EXPECT_EQ(result.exit_code, 0);
-  EXPECT_EQ(result.errors, "");
+  EXPECT_EQ(countLines(result.errors), 1) << result.errors;
+  for (const char* const ignored :
+       {"SHOW_PROGRESS_3D_REAL_TIME", "particles_count", "[PF_options]"})
+  {
+    EXPECT_NE(result.errors.find(ignored), std::string::npos) << result.errors;
+  }
   const auto pictures = folder / "LOG_LOCALIZATION/pictures";
   mrpt::img::CImage picture;
   ASSERT_TRUE(picture.loadFromFile((pictures / "step_00037_end.png").string()));
@@ -306,6 +313,69 @@ TEST(Localize, runsStockConfigurationsUnchanged)
   EXPECT_GT(pixelsLike(picture, mrpt::img::TColor(225, 30, 30)), 100) << "returns";
   EXPECT_GT(pixelsLike(picture, mrpt::img::TColor(0, 150, 60)), 50) << "chosen pose";
   EXPECT_GT(pixelsLike(picture, mrpt::img::TColor(255, 255, 255)), 10000) << "free space";
+}
+
+TEST(Localize, writesOnlyTheFiguresWhenAsked)
+{
+  const TemporaryFolder folder;
+  writeText(folder / "run.ini", "[LocalizationExperiment]\nmap_file = " + kLabMap.string() +
+                                    "\nrawlog_file = " + kLabLog.string() +
+                                    "\nSAVE_STATS_ONLY = true\n3DSceneFrequency = 5\n");
+  for (int i = 0; i < 2; ++i)  // the second replaces the first
+  {
+    ASSERT_EQ(localize(folder).exit_code, 0);
+    for (const char* const name : {"summary.json", "steps.csv", "path.tum", "cov_est.txt"})
+    {
+      EXPECT_TRUE(std::filesystem::exists(folder / "out" / name)) << name;
+    }
+    for (const char* const name : {"belief", "3D", "pictures", "particles"})
+    {
+      const bool empty = !std::filesystem::exists(folder / "out" / name) ||
+                         std::filesystem::is_empty(folder / "out" / name);
+      EXPECT_TRUE(empty) << name;
+    }
+  }
+}
+
+TEST(Localize, saysThatNothingIsWritten)
+{
+  const TemporaryFolder folder;
+  writeConfig(folder, kLabLog.string());
+  const CommandResult result = run(folder, "sigloc-localize", {"run.ini", "--quiet"});
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_NE(result.output.find("\nwritten to              nothing"), std::string::npos)
+      << result.output;
+  EXPECT_EQ(listing(folder).size(), 1U) << "the ini";
+}
+
+TEST(Localize, saysThatAReadyMapIsLoaded)
+{
+  const TemporaryFolder folder;
+  ASSERT_EQ(
+      run(folder, "sigloc-map", {"build", "-i", kLabMap.string(), "-o", "lab.sigmap"}).exit_code,
+      0);
+  writeText(folder / "run.ini", "[LocalizationExperiment]\nmap_file = lab.sigmap\nrawlog_file = " +
+                                    kLabLog.string() + "\n");
+  const CommandResult result = run(folder, "sigloc-localize", {"run.ini", "--quiet"});
+  EXPECT_NE(result.output.find("lab.sigmap: 325 features, loaded in "), std::string::npos)
+      << result.output;
+}
+
+TEST(Commands, equalMapsAreEqualBytesWhereverTheyAreBuilt)
+{
+  const TemporaryFolder folder;
+  for (const char* const place : {"here", "there"})
+  {
+    std::filesystem::create_directory(folder / place);
+    std::filesystem::copy_file(kLabMap, folder / place / "lab.simplemap.gz");
+    const std::string stem = std::string(place) + "/lab";
+    ASSERT_EQ(
+        run(folder, "sigloc-map",
+            {"build", "-i", (folder / (stem + ".simplemap.gz")).string(), "-o", stem + ".sigmap"})
+            .exit_code,
+        0);
+  }
+  EXPECT_TRUE(readBytes(folder / "here/lab.sigmap") == readBytes(folder / "there/lab.sigmap"));
 }
 
 TEST(Commands, helpExitsZero)
@@ -330,7 +400,7 @@ TEST(Commands, mapIsBuiltDescribedAndDrawn)
   ASSERT_EQ(info.exit_code, 0) << info.errors;
   const json description = json::parse(info.output);
   EXPECT_GT(description["segments"], 10);
-  EXPECT_EQ(description["source"], kLabMap.string());
+  EXPECT_EQ(description["source"], kLabMap.filename().string());
   const CommandResult drawn = run(folder, "sigloc-map", {"draw", "lab.sigmap", "-o", "lab.png"});
   EXPECT_EQ(drawn.exit_code, 0) << drawn.errors;
   EXPECT_EQ(drawn.errors, "");

@@ -73,7 +73,7 @@ TEST(PfLocalizationParity, writesTheFilesOfItsLogFolder)
   EXPECT_EQ(countLines(readBytes(folder / "out/particles/particles_00031.txt")), 501)
       << "a header too";
 
-  const auto summary = numbersIn(folder / "out_SUMMARY.txt");
+  const auto summary = numbersIn(folder / "out/_SUMMARY.txt");
   ASSERT_EQ(summary.size(), 1U);
   ASSERT_EQ(summary[0].size(), 6U);
   EXPECT_TRUE(std::isnan(summary[0][0])) << "convergence was not tested";
@@ -87,7 +87,7 @@ TEST(PfLocalizationParity, testsConvergenceWhereItIsTold)
   const std::string keys = "ground_truth_path_file = gt.txt\nexperimentTestConvergenceAtStep = ";
   ASSERT_EQ(localize(folder, keys + "36\n").exit_code, 0);
   EXPECT_EQ(summaryOf(folder)["converged"], true);
-  EXPECT_EQ(numbersIn(folder / "out_SUMMARY.txt")[0][0], 1.0);
+  EXPECT_EQ(numbersIn(folder / "out/_SUMMARY.txt")[0][0], 1.0);
 
   writeText(folder / "gt.txt", "20 0 0 0\n");  // not where it is
   ASSERT_EQ(localize(folder, keys + "20\nrawlog_offset = 5\n").exit_code, 0);
@@ -120,11 +120,11 @@ TEST(PfLocalizationParity, neverReplacesAForeignSummary)
 {
   const TemporaryFolder folder;
   writeText(folder / "out_SUMMARY.txt", "mine\n");
-  const CommandResult result = localize(folder, "");
+  const CommandResult result = localize(folder, "experimentRepetitions = 2\n");
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_NE(result.errors.find("not overwritten"), std::string::npos) << result.errors;
   EXPECT_EQ(readBytes(folder / "out_SUMMARY.txt"), "mine\n");
-  EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "out_000"));
 }
 
 // With so long a name no work folder can be made beside it. A read-only parent folder has the same
@@ -145,13 +145,32 @@ TEST(PfLocalizationParity, writesIntoAFolderWithNothingBesideIt)
   }
 }
 
-TEST(PfLocalizationParity, keepsItsMapApartFromPreparedOnes)
+TEST(PfLocalizationParity, everythingThatARunWritesLiesInItsFolder)
 {
   const TemporaryFolder folder;
-  writeText(folder / "localization_demo.sigmap", "mine");
   ASSERT_EQ(localize(folder, "").exit_code, 0);
-  EXPECT_EQ(readBytes(folder / "localization_demo.sigmap"), "mine");
-  EXPECT_TRUE(std::filesystem::exists(folder / "localization_demo.simplemap.gz.cache.sigmap"));
+  for (const std::string& path : listing(folder))
+  {
+    const std::string name = std::filesystem::relative(path, folder.path()).begin()->string();
+    EXPECT_TRUE(name == "out" || name == "run.ini") << path;
+  }
+  std::size_t maps = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(cacheFor(folder) / "sigloc"))
+  {
+    EXPECT_EQ(entry.path().extension(), ".sigmap");
+    ++maps;
+  }
+  EXPECT_EQ(maps, 1U);
+}
+
+// A cache only saves time: without one the run is the same.
+TEST(PfLocalizationParity, aRunNeedsNoCache)
+{
+  const TemporaryFolder folder;
+  writeText(cacheFor(folder), "a file where the folder would be");
+  const CommandResult result = localize(folder, "");
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(summaryOf(folder)["map_reused"], false);
 }
 
 TEST(PfLocalizationParity, refusesAnEmptyOutputFolder)

@@ -44,7 +44,8 @@ FeatureMap buildMapFromFile(const std::filesystem::path& path, const MapBuilding
 
 /// Returns the map of `source`, reusing `cache` (a `.sigmap`) when its provenance shows that
 /// neither the source's bytes nor the options have changed. Otherwise builds it and rewrites
-/// `cache`. `reused` is set accordingly. An unreadable cache is rebuilt, never an error.
+/// `cache`. `reused` is set accordingly. A cache that cannot be read is rebuilt, and one that
+/// cannot be written is left out; neither is an error.
 struct CachedMap
 {
   FeatureMap map;
@@ -54,6 +55,11 @@ struct CachedMap
 CachedMap mapWithCache(const std::filesystem::path& source, const std::filesystem::path& cache,
                        const MapBuildingOptions& building,
                        const FeatureExtractorOptions& extraction, const MapProgress& progress = {});
+
+/// Returns the file in the user's cache folder in which the map of `source` is kept. The folder is
+/// `$XDG_CACHE_HOME/sigloc`, else `$HOME/.cache/sigloc`. Empty where neither variable is an
+/// absolute path.
+std::filesystem::path mapCacheFile(const std::filesystem::path& source);
 
 std::vector<PosedScans> posedScansOf(const mrpt::maps::CSimpleMap& simplemap);
 OccupancyRaster rasterOf(const mrpt::maps::COccupancyGridMap2D& grid);

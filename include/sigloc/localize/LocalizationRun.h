@@ -24,6 +24,7 @@ struct StepRecord
   bool travel_known = true;  ///< false where odometry has told of no motion yet
   mrpt::math::TPose2D odometry;  ///< dead reckoning from LocalizationSetup::initial_odometry
   Belief belief;
+  std::vector<Feature> features;  ///< seen in this step, in the robot frame
   bool relocated = false;
   std::optional<mrpt::math::TPose2D> truth;
   std::optional<PoseError> error;  ///< of the first hypothesis
@@ -53,11 +54,16 @@ struct RunSummary
   std::optional<PoseError> final_error;  ///< at the last step that has a truth
   Verdict final_verdict = Verdict::too_little_seen;
   std::optional<mrpt::math::TPose2D> final_pose;
+  double final_probability = 0;  ///< of the first pose at the end
+  std::string final_reason;  ///< of the last step's verdict
+  std::size_t localized_steps = 0;
+  std::optional<double> localized_metres;  ///< driven to these steps; none without odometry
+  std::size_t times_lost = 0;  ///< how often a localized step was followed by one that is not
   std::optional<bool> converged;  ///< at the step where that was to be tested; none: not tested
-  std::size_t confidently_wrong_steps = 0;
+  std::optional<std::size_t> confidently_wrong_steps;  ///< none where the path's truth is unknown
   StepTimes relocation;  ///< of the steps that relocated
   StepTimes tracking;  ///< of the others
-  bool map_reused = false;
+  bool map_reused = false;  ///< loaded from the cache
   double map_seconds = 0;  ///< to build the map, or to load it
   LeftOutOfLog left_out;
   bool truncated = false;  ///< the rawlog broke off: everything covers what was read
@@ -84,6 +90,8 @@ class LocalizationRun
 
   const LocalizationSetup& setup() const { return setup_; }
   const FeatureMap& map() const { return *map_; }
+  /// A pose anywhere in the map: what "somewhere else" means where poses are written.
+  const GaussianPose& anywhere() const { return anywhere_; }
   /// What the robot saw in the last step.
   const ObservedScene& scene() const { return scene_; }
   const std::vector<StepRecord>& steps() const { return steps_; }
@@ -98,6 +106,7 @@ class LocalizationRun
   void score(StepRecord& step) const;
   LocalizationSetup setup_;
   std::shared_ptr<const FeatureMap> map_;
+  GaussianPose anywhere_;
   std::unique_ptr<State> state_;
   ObservedScene scene_;
   std::vector<StepRecord> steps_;

@@ -61,6 +61,7 @@ struct LocalizationSetup
   std::filesystem::path output_folder;  ///< empty: nothing is written
   std::uint32_t rawlog_offset = 0;  ///< steps skipped at the start of the log
   std::uint32_t scene_frequency = 0;  ///< a scene and a picture every so many steps; 0: key moments
+  bool stats_only = false;  ///< SAVE_STATS_ONLY: no belief files, scenes, samples and pictures
   std::uint32_t repetitions = 1;
   /// The step of the log, counted from 0, at which convergence is tested and the run ends.
   std::optional<std::uint32_t> convergence_test_step;
@@ -87,10 +88,11 @@ struct LocalizationSetup
 /// Reads a pf-localization ini: its section [LocalizationExperiment] and our [sigloc.*] sections.
 ///
 /// Of [LocalizationExperiment] it reads map_file, rawlog_file, rawlog_offset,
-/// ground_truth_path_file, logOutput_dir, 3DSceneFrequency, experimentRepetitions,
+/// ground_truth_path_file, logOutput_dir, SAVE_STATS_ONLY, 3DSceneFrequency, experimentRepetitions,
 /// experimentTestConvergenceAtStep, STATS_CONF_INTERVAL, initial_odo_* and init_PDF_*. It also
 /// reads `tracker`, gaussians or particles; with particles, particles_count too. Other keys of the
-/// particle filter are accepted and ignored. Unknown keys cause a warning.
+/// particle filter and of its window are ignored: one warning names those that are set, another the
+/// keys that no program reads.
 ///
 /// A file name is looked up in the ini's folder, then in the current one. logOutput_dir is relative
 /// to the current folder. `rawlog` replaces rawlog_file when given. Throws std::runtime_error

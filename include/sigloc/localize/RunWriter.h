@@ -21,14 +21,16 @@ void checkRunFolder(const std::filesystem::path& folder,
 
 /// Writes the output folder of a run, all or nothing: into `<folder>.partial` first, which takes
 /// the folder's name in finish(). Where nothing can be made beside an existing folder, it is
-/// `<folder>/.partial`, and there is no map cache.
+/// `<folder>/.partial`.
 ///
 /// * `belief/step_00001.CPosePDFSOG`: the belief after step 1 as an MRPT object; `.txt`: as rows
-///   `weight x y phi C11 C22 C33 C12 C13 C23`
+///   `weight x y phi C11 C22 C33 C12 C13 C23`. Unless localized, "somewhere else" is the last row
 /// * `3D/step_00001.3Dscene`: map and step, for SceneViewer3D
-/// * `path.tum`: first hypothesis of each step, `time x y z qx qy qz qw`
+/// * `path.tum`: first hypothesis of each step that is localized, `time x y z qx qy qz qw`;
+///   `path_unsure.tum`: of each other step
 /// * `steps.csv`: one row a step
-/// * `annotated.rawlog`: the log with a CObservationRobotPose "sigloc" a step
+/// * `annotated.rawlog`: the log with the pose and the belief of each step, see
+///   writeAnnotatedRawlog()
 /// * `summary.json`: the figures of RunSummary
 /// * what pf-localization's log folder holds, see writePfLocalizationFiles()
 class RunWriter
@@ -44,10 +46,8 @@ class RunWriter
   /// Where files belong until finish(), pictures of an app included.
   const std::filesystem::path& workFolder() const { return work_; }
 
-  /// Where the prepared map is kept: beside the output folder, so that runs share it.
-  std::filesystem::path mapCache(const std::filesystem::path& map_file) const;
-
-  void writeBelief(const StepRecord& step) const;
+  /// `anywhere`: LocalizationRun::anywhere().
+  void writeBelief(const StepRecord& step, const GaussianPose& anywhere) const;
   void writeScene(const FeatureMap& map, const StepRecord& step, const StepDrawing& drawing) const;
   /// Writes everything that covers the whole run and gives the folder its name.
   void finish(const LocalizationRun& run);
@@ -65,10 +65,15 @@ class RunWriter
 /// "step_00012", the common stem of a step's files.
 std::string stepName(const StepRecord& step);
 
-/// Copies a rawlog of either kind and adds the first hypothesis of each step to it: into the
-/// sensory frame, or after the step's last scan. The copy ends where reading the log ends.
-void writeAnnotatedRawlog(const std::filesystem::path& rawlog, const std::vector<StepRecord>& steps,
-                          const std::filesystem::path& output);
+/// Copies the run's rawlog and adds two observations a step: into the sensory frame, or after the
+/// step's last scan. The copy ends where reading the log ends. Any MRPT program reads it.
+///
+/// * toRobotPoseObservation(): the first pose, labelled "sigloc" or "sigloc_unsure"; none without
+///   hypotheses
+/// * a CObservationComment labelled "sigloc_belief", whose text is a JSON object: `verdict`,
+///   `first_pose_probability`, `elsewhere`, `reason`, `hypotheses` (`probability`, `x`, `y`,
+///   `phi_deg`, `covariance`, row by row [m^2, m rad, rad^2]) and `features` in the robot frame
+void writeAnnotatedRawlog(const LocalizationRun& run, const std::filesystem::path& output);
 
 /// What one run adds to `<prefix>_SUMMARY.txt`.
 struct ExperimentOutcome
@@ -86,11 +91,8 @@ ExperimentOutcome outcomeOf(const LocalizationRun& run);
 std::string experimentSummary(const std::vector<ExperimentOutcome>& repetitions,
                               double confidence_share);
 
-/// Returns `<folder>_SUMMARY.txt`. Throws std::runtime_error when a file of that name is something
-/// else than the summary of an earlier run.
-std::filesystem::path experimentSummaryFile(const std::filesystem::path& folder);
-
-/// Writes that file, replacing an earlier one; where nothing can be written beside the folder,
-/// `_SUMMARY.txt` in it. Throws std::runtime_error where that can't be written either.
-void writeExperimentSummary(const std::filesystem::path& folder, const std::string& text);
+/// Returns the file of that summary: `_SUMMARY.txt` in the folder of the only run, or, where
+/// several runs have a folder each, `<folder>_SUMMARY.txt` beside them. Throws std::runtime_error
+/// when a file of that name is something else than the summary of earlier runs.
+std::filesystem::path experimentSummaryFile(const std::filesystem::path& folder, bool several_runs);
 }  // namespace sigloc

@@ -28,7 +28,7 @@ std::vector<WallLine> linkWalls(const std::vector<Feature>& features);
 /// The source of a map, stored so that a `.sigmap` is rebuilt only when its source has changed.
 struct MapProvenance
 {
-  std::string source_path;
+  std::string source_path;  ///< the file's name, without its folder
   std::string source_checksum;  ///< hex digest of the source file's bytes
   std::string options_digest;  ///< hex digest of the options the map was built with
 };

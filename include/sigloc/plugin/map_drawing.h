@@ -34,7 +34,7 @@ struct StepDrawing
   std::optional<mrpt::math::TPose2D> observed_at;  ///< none: at the first hypothesis, if any
   const Belief* belief = nullptr;
   std::optional<mrpt::math::TPose2D> truth;
-  std::vector<mrpt::math::TPose2D> path;  ///< the estimated path so far
+  std::vector<mrpt::math::TPose2D> path;  ///< the localized poses so far
   std::vector<mrpt::math::TPose2D> proposed;  ///< poses that were considered, kept or not
   double line_width = 0.1;  ///< [m]
   double min_mark_size = 0.5;  ///< [m], marks are never smaller, so that an overview shows them
@@ -42,8 +42,8 @@ struct StepDrawing
 
 /// Returns the drawing of a step. The estimated path is a green line, the returns are red and the
 /// observed features orange. Every hypothesis is its 3-sigma ellipse, light blue to magenta by
-/// weight, with its heading. The first pose is a green arrowhead, the truth a black ring, and
-/// proposed poses are violet dots.
+/// weight, with its heading. The first pose is an arrowhead, green where the belief is localized
+/// and grey elsewhere. The truth is a black ring, and proposed poses are violet dots.
 mrpt::opengl::CSetOfObjects::Ptr drawStep(const StepDrawing& step);
 
 /// Axis-aligned box in the map frame [m].

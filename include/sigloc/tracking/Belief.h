@@ -32,5 +32,8 @@ struct Belief
   /// \cite algorithm eq. (8.11)
   double reliability = 0;
   std::string reason;  ///< one line for people: why lost, which rivals remain
+
+  /// Probability of the first hypothesis, whatever the verdict; 0 where there is none.
+  double probabilityOfFirst() const { return hypotheses.empty() ? 0 : hypotheses.front().weight; }
 };
 }  // namespace sigloc

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <mrpt/containers/yaml.h>
+#include <mrpt/img/CImage.h>
 #include <mrpt/maps/COccupancyGridMap2D.h>
 #include <mrpt/math/TPose2D.h>
 #include <mrpt/math/wrap2pi.h>
@@ -44,22 +45,6 @@ CellState stateOf(float free_probability)
   return free_probability >= kFreeFrom ? CellState::free : CellState::unknown;
 }
 
-OccupancyRaster usableRasterOf(const COccupancyGridMap2D& grid, const std::filesystem::path& path)
-{
-  OccupancyRaster raster = rasterOf(grid);
-  if (const auto reason = unusableCells(raster.frame.resolution)) fail(path, *reason);
-  bool has_wall = false;
-  bool has_free = false;
-  for (const CellState cell : raster.cells)
-  {
-    has_wall = has_wall || isWall(cell);
-    has_free = has_free || cell == CellState::free;
-  }
-  if (!has_wall) fail(path, "the grid has no wall");
-  if (!has_free) fail(path, "the grid has no free cell");
-  return raster;
-}
-
 /// The fields of a ROS map's yaml besides the image.
 struct RosMapHeader
 {
@@ -68,6 +53,7 @@ struct RosMapHeader
   double resolution = 0;  ///< [m]
   double free_threshold = 0;  ///< occupancy below is free ...
   double occupied_threshold = 1;  ///< ... and above a wall
+  bool raw = false;  ///< a pixel is the occupancy [%], above 100 unknown
 };
 
 void check(const RosMapHeader& header, const std::filesystem::path& path)
@@ -101,6 +87,7 @@ RosMapHeader readRosMapHeader(const std::filesystem::path& path)
     header.origin = {origin(0).as<double>(), origin(1).as<double>(), origin(2).as<double>()};
     header.free_threshold = yaml["free_thresh"].as<double>();
     header.occupied_threshold = yaml["occupied_thresh"].as<double>();
+    header.raw = yaml.has("mode") && yaml["mode"].as<std::string>() == "raw";
   }
   catch (const std::exception&)
   {
@@ -111,6 +98,42 @@ RosMapHeader readRosMapHeader(const std::filesystem::path& path)
   check(header, path);
   if (header.image.is_relative()) header.image = path.parent_path() / header.image;
   return header;
+}
+/// Throws std::runtime_error where the image cannot be read.
+OccupancyRaster readRawImage(const RosMapHeader& header)
+{
+  constexpr int kWall = 100;  // [%]
+  mrpt::img::CImage image;
+  if (!image.loadFromFile(header.image.string(), 0)) throw std::runtime_error("no image");
+  OccupancyRaster raster;
+  raster.frame.origin = {header.origin.x, header.origin.y};
+  raster.frame.resolution = header.resolution;
+  raster.frame.width = static_cast<std::uint32_t>(image.getWidth());
+  raster.frame.height = static_cast<std::uint32_t>(image.getHeight());
+  raster.cells.reserve(std::size_t{raster.frame.width} * raster.frame.height);
+  for (std::uint32_t row = raster.frame.height; row-- > 0;)  // an image begins at the top
+  {
+    for (std::uint32_t column = 0; column < raster.frame.width; ++column)
+    {
+      const int occupancy = *image.ptr<std::uint8_t>(column, row);
+      const bool known = occupancy <= kWall;
+      raster.cells.push_back(known ? stateOf(1.0F - static_cast<float>(occupancy) / kWall)
+                                   : CellState::unknown);
+    }
+  }
+  return raster;
+}
+
+OccupancyRaster usable(OccupancyRaster raster, const std::filesystem::path& path)
+{
+  if (const auto reason = unusableCells(raster.frame.resolution)) fail(path, *reason);
+  const auto& cells = raster.cells;
+  if (std::none_of(cells.begin(), cells.end(), isWall)) fail(path, "the grid has no wall");
+  if (std::find(cells.begin(), cells.end(), CellState::free) == cells.end())
+  {
+    fail(path, "the grid has no free cell");
+  }
+  return raster;
 }
 }  // namespace
 
@@ -147,7 +170,7 @@ OccupancyRaster readGridmap(const std::filesystem::path& path)
 {
   COccupancyGridMap2D grid;
   readObjectFile(path, grid);
-  return usableRasterOf(grid, path);
+  return usable(rasterOf(grid), path);
 }
 
 std::filesystem::path imageOfRosMap(const std::filesystem::path& path)
@@ -159,17 +182,19 @@ OccupancyRaster readRosMap(const std::filesystem::path& path)
 {
   const RosMapHeader header = readRosMapHeader(path);
   requireFile(header.image);
-  COccupancyGridMap2D grid;
+  OccupancyRaster raster;
   try
   {
     const QuietOutput quiet;
-    grid = COccupancyGridMap2D::FromROSMapServerYAML(path.string());
+    raster = header.raw
+                 ? readRawImage(header)
+                 : sigloc::rasterOf(COccupancyGridMap2D::FromROSMapServerYAML(path.string()));
   }
   catch (const std::exception&)
   {
     fail(path, "its image '" + header.image.string() + "' cannot be read");
   }
-  return usableRasterOf(grid, path);
+  return usable(std::move(raster), path);
 }
 }  // namespace detail
 }  // namespace sigloc

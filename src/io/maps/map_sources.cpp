@@ -9,6 +9,7 @@
 #include <cctype>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -129,7 +130,31 @@ bool isFinite(const mrpt::poses::CPose2D& pose)
 MapProvenance provenanceOf(const std::filesystem::path& path, const MapBuildingOptions& building,
                            const FeatureExtractorOptions& extraction)
 {
-  return {path.string(), checksumOf(path), digestOf(building, extraction)};
+  // The name alone: a map tells no one's folders, and equal maps are equal bytes.
+  return {path.filename().string(), checksumOf(path), digestOf(building, extraction)};
+}
+
+/// Saves a map for later runs, which can do without it.
+void keepInCache(const FeatureMap& map, const std::filesystem::path& cache)
+{
+  std::error_code ignored;
+  std::filesystem::create_directories(cache.parent_path(), ignored);
+  try
+  {
+    saveSigmap(map, cache);
+  }
+  catch (const std::runtime_error&)
+  {
+    // No room, or no permission.
+  }
+}
+
+/// A folder that an environment variable names, or an empty path.
+std::filesystem::path folderNamedBy(const char* variable)
+{
+  const char* const value = std::getenv(variable);
+  const std::filesystem::path folder = value == nullptr ? "" : value;
+  return folder.is_absolute() ? folder : std::filesystem::path();
 }
 
 FeatureMap build(const std::filesystem::path& path, const MapBuildingOptions& building,
@@ -252,6 +277,22 @@ FeatureMap buildMapFromFile(const std::filesystem::path& path, const MapBuilding
   return map;
 }
 
+std::filesystem::path mapCacheFile(const std::filesystem::path& source)
+{
+  constexpr std::size_t kDigits = 12;  // tell maps of one name in several folders apart
+  std::filesystem::path root = folderNamedBy("XDG_CACHE_HOME");
+  if (root.empty())
+  {
+    root = folderNamedBy("HOME");
+    if (root.empty()) return {};
+    root /= ".cache";
+  }
+  std::error_code unnameable;
+  const auto whole = std::filesystem::weakly_canonical(source, unnameable);
+  const std::string digest = mrpt::system::md5(whole.string()).substr(0, kDigits);
+  return root / "sigloc" / fmt::format("{}.{}.sigmap", source.filename().string(), digest);
+}
+
 CachedMap mapWithCache(const std::filesystem::path& source, const std::filesystem::path& cache,
                        const MapBuildingOptions& building,
                        const FeatureExtractorOptions& extraction, const MapProgress& progress)
@@ -279,7 +320,7 @@ CachedMap mapWithCache(const std::filesystem::path& source, const std::filesyste
   }
   CachedMap fresh;
   fresh.map = buildMapFromFile(source, building, extraction, progress);
-  saveSigmap(fresh.map, cache);
+  keepInCache(fresh.map, cache);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   fresh.build_seconds = elapsed.count();
   return fresh;

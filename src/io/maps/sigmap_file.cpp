@@ -110,9 +110,11 @@ FeatureMap readFeatureMap(CArchive& in)
   in >> version;
   if (version < kOldestBodyVersion || version > kBodyVersion)
   {
-    throw std::runtime_error(fmt::format(
-        "feature map of version {}, this sigloc reads versions {} to {}: build it again", version,
-        kOldestBodyVersion, kBodyVersion));
+    const bool newer = version > kBodyVersion;
+    throw std::runtime_error(
+        fmt::format("feature map of version {}, this sigloc reads versions {} to {}: {}", version,
+                    kOldestBodyVersion, kBodyVersion,
+                    newer ? "a newer sigloc made it, and is needed to read it" : "build it again"));
   }
   MapProvenance provenance;
   in >> provenance.source_path >> provenance.source_checksum >> provenance.options_digest;

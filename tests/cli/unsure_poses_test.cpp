@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// A drive through an office in the map of another building: whoever reads one file of the output,
+// without the others, cannot take any step of it for a localized one.
+#include <gtest/gtest.h>
+#include <mrpt/img/CImage.h>
+#include <mrpt/io/CFileGZInputStream.h>
+#include <mrpt/obs/CObservationComment.h>
+#include <mrpt/obs/CObservationRobotPose.h>
+#include <mrpt/obs/CRawlog.h>
+#include <mrpt/poses/CPosePDFSOG.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "command_line.h"
+
+namespace sigloc
+{
+namespace
+{
+using namespace sigloc::test;
+using nlohmann::json;
+
+constexpr double kSureSigma = 0.5;  // [m] a pose may be taken for sure below
+constexpr std::ptrdiff_t kSteps = 202;
+
+class UnsurePoses : public testing::Test
+{
+ protected:
+  void SetUp() override
+  {
+    writeText(folder_ / "run.ini",
+              "[LocalizationExperiment]\nmap_file = " + kLabMap.string() +
+                  "\nrawlog_file = " + (kSources / "rawlogs/office.rawlog").string() + "\n");
+    result_ = run(folder_, "sigloc-localize", {"run.ini", "--out", "out", "--quiet"});
+    ASSERT_EQ(result_.exit_code, 0) << result_.errors;
+    const json summary = json::parse(readBytes(folder_ / "out/summary.json"));
+    ASSERT_EQ(summary["localized_steps"], 0) << "the premise of these tests";
+  }
+
+  std::string text(const std::string& name) const { return readBytes(folder_ / "out" / name); }
+
+  TemporaryFolder folder_;
+  CommandResult result_;
+};
+
+TEST_F(UnsurePoses, theRawlogLabelsThemAndKeepsThemWide)
+{
+  mrpt::obs::CRawlog log;
+  ASSERT_TRUE(log.loadFromRawLogFile((folder_ / "out/annotated.rawlog").string()));
+  std::size_t poses = 0;
+  std::ptrdiff_t beliefs = 0;
+  for (std::size_t i = 0; i < log.size(); ++i)
+  {
+    const auto object = log.getAsGeneric(i);
+    if (const auto pose = std::dynamic_pointer_cast<mrpt::obs::CObservationRobotPose>(object))
+    {
+      EXPECT_EQ(pose->sensorLabel, "sigloc_unsure");
+      EXPECT_GT(std::sqrt(pose->pose.cov(0, 0) + pose->pose.cov(1, 1)), kSureSigma);
+      ++poses;
+    }
+    const auto comment = std::dynamic_pointer_cast<mrpt::obs::CObservationComment>(object);
+    if (!comment) continue;
+    EXPECT_EQ(comment->sensorLabel, "sigloc_belief");
+    const json belief = json::parse(comment->text);
+    EXPECT_NE(belief["verdict"], "localized");
+    EXPECT_FALSE(belief["reason"].get<std::string>().empty());
+    EXPECT_FALSE(belief["features"].empty());
+    double sum = belief["elsewhere"];
+    for (const json& hypothesis : belief["hypotheses"])
+    {
+      sum += hypothesis["probability"].get<double>();
+      EXPECT_EQ(hypothesis["covariance"].size(), 9U);
+    }
+    EXPECT_NEAR(sum, 1, 1e-6);
+    EXPECT_EQ(belief["first_pose_probability"].is_null(), belief["hypotheses"].empty());
+    ++beliefs;
+  }
+  EXPECT_GT(poses, 100U);
+  EXPECT_EQ(beliefs, kSteps);
+}
+
+TEST_F(UnsurePoses, thePathHoldsNoneOfThem)
+{
+  EXPECT_EQ(countLines(text("path.tum")), 1) << "a comment";
+  EXPECT_GT(countLines(text("path_unsure.tum")), 100);
+  EXPECT_NE(text("path_unsure.tum").find("NOT LOCALIZED"), std::string::npos);
+}
+
+TEST_F(UnsurePoses, pfLocalizationsFilesShowHowWideTheBeliefIs)
+{
+  std::istringstream rows(text("cov_est.txt"));
+  constexpr double kSureVolume = kSureSigma * kSureSigma * 0.5;  // [m^2 rad]
+  std::ptrdiff_t count = 0;
+  for (std::string row; std::getline(rows, row); ++count)
+  {
+    const double volume = std::stod(row);
+    EXPECT_TRUE(std::isnan(volume) || volume > kSureVolume) << count << ": " << row;
+  }
+  EXPECT_EQ(count, kSteps);
+}
+
+TEST_F(UnsurePoses, theBeliefFilesHoldSomewhereElse)
+{
+  std::ptrdiff_t count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_ / "out/belief"))
+  {
+    if (entry.path().extension() != ".CPosePDFSOG") continue;
+    mrpt::poses::CPosePDFSOG belief;
+    mrpt::io::CFileGZInputStream file(entry.path().string());
+    mrpt::serialization::archiveFrom(file) >> belief;
+    ASSERT_FALSE(belief.empty()) << entry.path();
+    EXPECT_GT(belief[belief.size() - 1].cov(0, 0), 10.0) << entry.path();
+    const auto [covariance, mean] = belief.getCovarianceAndMean();
+    EXPECT_GT(std::sqrt(covariance(0, 0) + covariance(1, 1)), kSureSigma) << entry.path();
+    ++count;
+  }
+  EXPECT_EQ(count, kSteps);
+}
+
+TEST_F(UnsurePoses, theTerminalAndTheSummarySayWhy)
+{
+  EXPECT_NE(result_.output.find("NOT LOCALIZED: ambiguous ("), std::string::npos) << result_.output;
+  EXPECT_NE(result_.output.find("\nwhy not sure "), std::string::npos) << result_.output;
+  EXPECT_NE(result_.output.find("0 of 202 steps, 0.0 of 45."), std::string::npos) << result_.output;
+  const json summary = json::parse(text("summary.json"));
+  EXPECT_TRUE(summary["confidently_wrong_steps"].is_null()) << "no truth was given";
+  EXPECT_LT(summary["final_pose_probability"], 0.99);
+  EXPECT_FALSE(summary["final_reason"].get<std::string>().empty());
+  EXPECT_EQ(summary["times_lost"], 0);
+}
+
+// The number in brackets is that of the first pose, whatever the verdict.
+TEST_F(UnsurePoses, theBracketIsHowProbableTheFirstPoseIs)
+{
+  std::ostringstream expected;
+  const json summary = json::parse(text("summary.json"));
+  expected << std::fixed << std::setprecision(3) << summary["final_pose_probability"].get<double>();
+  EXPECT_NE(result_.output.find("ambiguous (" + expected.str() + "), first hypothesis"),
+            std::string::npos)
+      << expected.str() << " in " << result_.output;
+}
+
+TEST_F(UnsurePoses, everyPictureHasTheRedFrame)
+{
+  std::size_t count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_ / "out/pictures"))
+  {
+    mrpt::img::CImage picture;
+    ASSERT_TRUE(picture.loadFromFile(entry.path().string()));
+    const auto* const corner =
+        picture.ptr<std::uint8_t>(static_cast<unsigned>(picture.getWidth() - 2),
+                                  static_cast<unsigned>(picture.getHeight() - 2));
+    const bool bgr = picture.getChannelsOrder() == "BGR";
+    EXPECT_EQ(corner[bgr ? 2 : 0], 210) << entry.path();
+    EXPECT_EQ(corner[1], 0) << entry.path();
+    ++count;
+  }
+  EXPECT_GE(count, 2U);
+}
+}  // namespace
+}  // namespace sigloc
