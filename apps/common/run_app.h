@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "sigloc/config/option_fields.h"
 #include "sigloc/io/file_output.h"
 
 namespace sigloc
@@ -20,13 +21,45 @@ inline void warn(const char* program, const std::filesystem::path& file, const s
   if (!message.empty()) std::cerr << program << ": " << file.string() << ": " << message << '\n';
 }
 
+/// The commands of a program, or the options of the command that was given and of the program.
+inline std::vector<std::string> knownWords(const CLI::App& app)
+{
+  std::vector<std::string> words;
+  const auto add = [&words](const CLI::App& command)
+  {
+    for (const CLI::Option* option : command.get_options())
+    {
+      for (const std::string& name : option->get_lnames()) words.push_back("--" + name);
+    }
+  };
+  add(app);
+  for (const CLI::App* command : app.get_subcommands()) add(*command);
+  for (const CLI::App* command : app.get_subcommands({})) words.push_back(command->get_name());
+  return words;
+}
+
+/// What is wrong with the first word that the program does not know.
+inline std::string unknownWord(const CLI::App& app)
+{
+  const std::vector<std::string> words = app.remaining(true);
+  const std::string word = words.empty() ? "" : words.front();
+  const bool option = word.rfind('-', 0) == 0;
+  const bool command = app.get_require_subcommand_min() > 0 && app.get_subcommands().empty();
+  const std::string what = option    ? "no such option: "
+                           : command ? "no such command: "
+                                     : "one argument too many: ";
+  return what + word + didYouMean(word.substr(0, word.find('=')), knownWords(app));
+}
+
 /// What every program does: parses the command line, runs `work`, and reports an error in one line.
-/// Lost output is an error, too. Returns the exit code: that of `work`, 0 after --help, else 1.
+/// Lost output is an error, too. Returns the exit code: that of `work`, 0 after --help and
+/// --version, else 1.
 inline int runApp(CLI::App& app, int argc, char** argv, const std::function<int()>& work)
 {
   try
   {
     int code = 0;
+    app.set_version_flag("--version", app.get_name() + " " + SIGLOC_VERSION);
     try
     {
       app.parse(argc, argv);
@@ -36,12 +69,15 @@ inline int runApp(CLI::App& app, int argc, char** argv, const std::function<int(
     {
       code = app.exit(help);
     }
+    catch (const CLI::ExtrasError&)
+    {
+      throw std::invalid_argument(unknownWord(app));
+    }
     catch (const CLI::RequiredError&)
     {
       // CLI11 would call a word that is no command a missing one.
-      const std::vector<std::string> unknown = app.remaining();
-      if (app.get_require_subcommand_min() == 0 || unknown.empty()) throw;
-      throw std::invalid_argument("no such command: " + unknown.front());
+      if (app.remaining(true).empty()) throw;
+      throw std::invalid_argument(unknownWord(app));
     }
     finishOutput(std::cout);
     return code;

@@ -33,6 +33,7 @@ struct Arguments
 {
   fs::path config;
   fs::path rawlog;
+  fs::path map;
   std::optional<fs::path> output;
   std::optional<std::uint32_t> seed;
   bool quiet = false;
@@ -127,10 +128,21 @@ void checkOutputs(const sigloc::LocalizationSetup& setup,
   }
 }
 
+sigloc::LocalizationSetup setupOf(const Arguments& arguments)
+{
+  if (!arguments.config.empty())
+  {
+    return sigloc::readLocalizationSetup(arguments.config, arguments.rawlog, arguments.map);
+  }
+  sigloc::LocalizationSetup setup;
+  setup.map_file = arguments.map;
+  setup.rawlog_file = arguments.rawlog;
+  return setup;
+}
+
 int runAll(const Arguments& arguments)
 {
-  sigloc::LocalizationSetup setup =
-      sigloc::readLocalizationSetup(arguments.config, arguments.rawlog);
+  sigloc::LocalizationSetup setup = setupOf(arguments);
   for (const std::string& warning : setup.warnings)
     sigloc::warn(kProgram, arguments.config, warning);
   if (arguments.output) setup.output_folder = *arguments.output;
@@ -169,7 +181,13 @@ int main(int argc, char** argv)
       "read).");
   auto* const config =
       app.add_option("CONFIG.ini", arguments.config, "configuration, as pf-localization reads it");
-  app.add_option("DATASET.rawlog", arguments.rawlog, "log to use instead of rawlog_file");
+  auto* const rawlog =
+      app.add_option("DATASET.rawlog", arguments.rawlog, "log to use instead of rawlog_file");
+  auto* const map = app.add_option(
+      "--map", arguments.map,
+      "map to localize in, instead of map_file: " + sigloc::mapFormatNames() + ". .gz may follow");
+  auto* const log = app.add_option("--log", arguments.rawlog, "the same as DATASET.rawlog");
+  log->excludes(rawlog);
   app.add_option("--out", arguments.output, "output folder instead of logOutput_dir");
   app.add_option("--seed", arguments.seed, "seed instead of the one in [sigloc.matcher]");
   app.add_flag("--quiet", arguments.quiet, "no progress");
@@ -181,7 +199,10 @@ int main(int argc, char** argv)
       std::cout << kDefaultsHeader << sigloc::defaultOptionSections();
       return 0;
     }
-    if (config->count() == 0) throw std::runtime_error("CONFIG.ini is missing; see --help");
+    if (config->count() == 0 && (map->count() == 0 || log->count() == 0))
+    {
+      throw std::runtime_error("needs --map MAP --log LOG.rawlog, or CONFIG.ini; see --help");
+    }
     if (arguments.output && arguments.output->empty()) throw std::runtime_error("--out is empty");
     return runAll(arguments);
   };

@@ -13,6 +13,8 @@
 #include <string_view>
 #include <vector>
 
+#include "sigloc/config/option_fields.h"
+
 namespace sigloc::detail
 {
 namespace
@@ -48,12 +50,28 @@ std::uint64_t unpackedSize(const std::filesystem::path& path, std::uint64_t file
 }
 }  // namespace
 
+std::string didYouMeanFile(const std::filesystem::path& path)
+{
+  constexpr std::size_t kMostLooked = 2000;  // a folder may be huge
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  std::vector<std::string> names;
+  std::error_code error;
+  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error))
+  {
+    names.push_back(entry->path().filename().string());
+    if (names.size() == kMostLooked) break;
+  }
+  std::sort(names.begin(), names.end());
+  return didYouMean(path.filename().string(), names);
+}
+
 void requireFile(const std::filesystem::path& path)
 {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (status.type() == std::filesystem::file_type::none) fail(path, error.message());
-  if (!std::filesystem::exists(status)) fail(path, "no such file");
+  if (!std::filesystem::exists(status)) fail(path, "no such file" + didYouMeanFile(path));
   if (std::filesystem::is_directory(status)) fail(path, "is a folder, not a file");
   if (!std::ifstream(path, std::ios::binary)) fail(path, "cannot be read");
   if (std::filesystem::is_regular_file(status) && std::filesystem::file_size(path, error) == 0)

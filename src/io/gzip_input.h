@@ -66,6 +66,10 @@ void requireIntact(const std::filesystem::path& path);
 /// or holds something else.
 void readObjectFile(const std::filesystem::path& path, mrpt::serialization::CSerializable& object);
 
+/// Returns "; did you mean '...'?" with the entry of the path's folder whose name is nearest to
+/// that of a file that does not exist, or an empty text.
+std::string didYouMeanFile(const std::filesystem::path& path);
+
 /// Throws std::runtime_error "path: reason" unless the path names a readable, non-empty file.
 void requireFile(const std::filesystem::path& path);
 }  // namespace sigloc::detail

@@ -205,11 +205,12 @@ fs::path findFile(const fs::path& named, const fs::path& ini, const char* key)
   const fs::path beside = ini.parent_path() / named;  // `named` itself where it is absolute
   if (mayExist(beside)) return beside.lexically_normal();
   if (mayExist(named)) return named;
-  throw std::runtime_error(fmt::format("'{}' names {}, which does not exist", key, named.string()));
+  throw std::runtime_error(fmt::format("'{}' names {}, which does not exist{}", key, named.string(),
+                                       detail::didYouMeanFile(beside)));
 }
 
 void readExperiment(const CConfigFileMemory& ini, const fs::path& path, const fs::path& rawlog,
-                    LocalizationSetup& setup)
+                    const fs::path& map, LocalizationSetup& setup)
 {
   if (!ini.sectionExists(kExperiment))
   {
@@ -221,7 +222,7 @@ void readExperiment(const CConfigFileMemory& ini, const fs::path& path, const fs
   const std::string ignored = detail::warningOfIgnoredKeys(ini, kExperiment, setup.use_particles);
   if (!ignored.empty()) setup.warnings.push_back(ignored);
   const auto named = [&](const char* key) { return ini.read_string(kExperiment, key, ""); };
-  setup.map_file = findFile(named("map_file"), path, "map_file");
+  setup.map_file = map.empty() ? findFile(named("map_file"), path, "map_file") : map;
   setup.rawlog_file = rawlog.empty() ? findFile(named("rawlog_file"), path, "rawlog_file") : rawlog;
   const std::string truth = named("ground_truth_path_file");
   if (!truth.empty()) setup.ground_truth_file = findFile(truth, path, "ground_truth_path_file");
@@ -281,10 +282,11 @@ std::optional<mrpt::math::TPose2D> LocalizationSetup::finalTruth() const
                              mrpt::DEG2RAD(report.final_truth_phi_deg));
 }
 
-LocalizationSetup readLocalizationSetup(const fs::path& ini_path, const fs::path& rawlog)
+LocalizationSetup readLocalizationSetup(const fs::path& ini_path, const fs::path& rawlog,
+                                        const fs::path& map)
 {
   return parse(ini_path, [&](const CConfigFileMemory& ini, LocalizationSetup& setup)
-               { readExperiment(ini, ini_path, rawlog, setup); });
+               { readExperiment(ini, ini_path, rawlog, map, setup); });
 }
 
 LocalizationSetup readOptionSections(const fs::path& ini_path)

@@ -110,6 +110,30 @@ TEST(MapSources, ReadsARosMapUprightAndInItsPlace)
   EXPECT_EQ(raster.cells[10], CellState::unknown);
 }
 
+// Mode raw: a pixel is the occupancy in per cent, and unknown above 100.
+TEST(MapSources, ReadsARosMapOfRawOccupancies)
+{
+  const TemporaryFolder folder;
+  writeRosMap(folder);
+  writeText(folder / "m.yaml", readBytes(folder / "m.yaml") + "mode: raw\n");
+  const std::string pixels = {100, 0, static_cast<char>(255), 30, 60, 50, 101, 0, 0, 0, 0, 100};
+  writeText(folder / "m.pgm", "P5\n4 3\n255\n" + pixels);
+  const auto raster = std::get<OccupancyRaster>(readMapSource(folder / "m.yaml"));
+  EXPECT_NEAR(raster.frame.origin.x, 1.0, 1e-6);
+  EXPECT_NEAR(raster.frame.resolution, 0.1, 1e-6);
+  ASSERT_EQ(raster.cells.size(), 12U);
+  const std::vector<CellState> top(raster.cells.begin() + 8, raster.cells.end());
+  EXPECT_EQ(top, (std::vector<CellState>{CellState::solid_wall, CellState::free, CellState::unknown,
+                                         CellState::free}));
+  EXPECT_EQ(raster.cells[4], CellState::wall) << "60 % occupied";
+  EXPECT_EQ(raster.cells[5], CellState::unknown) << "50 %";
+  EXPECT_EQ(raster.cells[6], CellState::unknown) << "101";
+  EXPECT_EQ(raster.cells[3], CellState::solid_wall) << "the image's last row is the map's lowest";
+
+  writeText(folder / "m.pgm", "no image");
+  EXPECT_NE(errorOf(folder / "m.yaml").find("m.pgm' cannot be read"), std::string::npos);
+}
+
 TEST(MapSources, TakesAWholeTurnForNone)
 {
   const TemporaryFolder folder;

@@ -72,6 +72,26 @@ TEST(SigmapFile, NeverTakesACutOrFlippedByteForAnotherMap)
   }
 }
 
+TEST(SigmapFile, SaysWhetherAMapIsTooOldOrTooNew)
+{
+  const TemporaryFolder folder;
+  const auto reasonFor = [&](std::uint8_t version)
+  {
+    const auto path = folder / "other.sigmap";
+    writeObjects(path,
+                 [version](mrpt::serialization::CArchive& archive)
+                 {
+                   const std::string magic = "sigloc-map\n";
+                   archive.WriteBuffer(magic.data(), magic.size());
+                   archive << version;
+                 });
+    return loadError(path);
+  };
+  EXPECT_NE(reasonFor(99).find("version 99"), std::string::npos) << reasonFor(99);
+  EXPECT_NE(reasonFor(99).find("a newer sigloc made it"), std::string::npos) << reasonFor(99);
+  EXPECT_NE(reasonFor(1).find("build it again"), std::string::npos) << reasonFor(1);
+}
+
 TEST(SigmapFile, RefusesForeignFiles)
 {
   const TemporaryFolder folder;

@@ -69,7 +69,8 @@ TEST(OptionFields, absentKeysKeepTheDefaultsAndPresentOnesAreRead)
 
 TEST(OptionFields, unknownKeyIsNamedWithItsSection)
 {
-  EXPECT_EQ(refusal("gaet = 3\n"), "section sigloc.example: unknown key 'gaet'");
+  EXPECT_EQ(refusal("gaet = 3\n"),
+            "section sigloc.example: unknown key 'gaet'; did you mean 'gate'?");
 }
 
 TEST(OptionFields, valuesThatAreNotOfTheFieldsTypeAreRefused)

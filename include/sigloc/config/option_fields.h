@@ -35,6 +35,10 @@ struct OptionField
 template <class Options, class T>
 OptionField(const char*, T Options::*, T, T, const char*) -> OptionField<Options, T>;
 
+/// Returns "; did you mean '...'?" with the known word that differs from `word` by the fewest
+/// slips: at most one in three letters, upper and lower case alike. Empty where none is so near.
+std::string didYouMean(const std::string& word, const std::vector<std::string>& known);
+
 namespace detail
 {
 /// Returns the value of a whole text. It is std::nullopt for "1.5 m" or "maybe", and for a number
@@ -118,7 +122,8 @@ Options loadOptions(const mrpt::config::CConfigFileBase& ini, const std::string&
     if (known_set.count(key) == 0)
     {
       // Written without brackets: MRPT's programs take text before one for a source location.
-      throw std::invalid_argument("section " + section + ": unknown key '" + key + "'");
+      throw std::invalid_argument("section " + section + ": unknown key '" + key + "'" +
+                                  didYouMean(key, known));
     }
   }
   Options options = defaults;

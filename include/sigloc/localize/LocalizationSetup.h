@@ -54,7 +54,7 @@ struct ReportOptions
 /// All settings of a localization run, from an ini file like that of pf-localization.
 struct LocalizationSetup
 {
-  std::filesystem::path config_file;  ///< the ini
+  std::filesystem::path config_file;  ///< the ini; empty: none
   std::filesystem::path map_file;
   std::filesystem::path rawlog_file;
   std::filesystem::path ground_truth_file;  ///< empty: none
@@ -95,11 +95,12 @@ struct LocalizationSetup
 /// keys that no program reads.
 ///
 /// A file name is looked up in the ini's folder, then in the current one. logOutput_dir is relative
-/// to the current folder. `rawlog` replaces rawlog_file when given. Throws std::runtime_error
-/// naming the ini and the reason: unreadable, no such section, a named file that does not exist, an
-/// unknown [sigloc.*] section or key, a bad value.
+/// to the current folder. `rawlog` replaces rawlog_file and `map` map_file when given. Throws
+/// std::runtime_error naming the ini and the reason: unreadable, no such section, a named file that
+/// does not exist, an unknown [sigloc.*] section or key, a bad value.
 LocalizationSetup readLocalizationSetup(const std::filesystem::path& ini,
-                                        const std::filesystem::path& rawlog = {});
+                                        const std::filesystem::path& rawlog = {},
+                                        const std::filesystem::path& map = {});
 
 /// Reads only the [sigloc.*] sections of an ini; the same errors.
 LocalizationSetup readOptionSections(const std::filesystem::path& ini);

@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The command line without an ini, and the line that tells what to type instead.
+#include <gtest/gtest.h>
+
+#include "command_line.h"
+
+namespace sigloc
+{
+namespace
+{
+using namespace sigloc::test;
+
+/// Expects one line that ends so, and nothing written.
+void expectOneLine(const TemporaryFolder& folder, const std::string& program,
+                   const Arguments& arguments, const std::string& ending)
+{
+  const auto before = listing(folder);
+  const CommandResult result = run(folder, program, arguments);
+  EXPECT_EQ(result.exit_code, 1) << result.output;
+  EXPECT_EQ(countLines(result.errors), 1) << result.errors;
+  EXPECT_NE(result.errors.find(ending + "\n"), std::string::npos)
+      << result.errors << "does not end in " << ending;
+  EXPECT_EQ(listing(folder), before);
+}
+
+TEST(CommandLine, aMapAndALogAreEnough)
+{
+  const TemporaryFolder folder;
+  const CommandResult result =
+      run(folder, "sigloc-localize",
+          {"--map", kLabMap.string(), "--log", kLabLog.string(), "--out", "answer", "--quiet"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.errors, "");
+  EXPECT_NE(result.output.find("\nat the end              localized ("), std::string::npos)
+      << result.output;
+  EXPECT_TRUE(std::filesystem::exists(folder / "answer/path.tum"));
+}
+
+TEST(CommandLine, aMapAndALogTakeThePlaceOfThoseOfTheIni)
+{
+  const TemporaryFolder folder;
+  writeText(folder / "run.ini",
+            "[LocalizationExperiment]\nmap_file = none.simplemap\nrawlog_file = none.rawlog\n");
+  const Arguments both = {"run.ini", "--map", kLabMap.string(), "--log", kLabLog.string()};
+  EXPECT_EQ(run(folder, "sigloc-localize", both).exit_code, 0);
+  expectOneLine(folder, "sigloc-localize", {"run.ini", "--map", kLabMap.string()},
+                "'rawlog_file' names none.rawlog, which does not exist");
+}
+
+TEST(CommandLine, everyProgramTellsItsVersion)
+{
+  const TemporaryFolder folder;
+  for (const std::string program :
+       {"sigloc-localize", "sigloc-map", "sigloc-eval", "sigloc-simulate"})
+  {
+    const CommandResult result = run(folder, program, {"--version"});
+    EXPECT_EQ(result.exit_code, 0) << program;
+    EXPECT_EQ(result.output.rfind(program + " ", 0), 0U) << result.output;
+    EXPECT_EQ(countLines(result.output), 1) << result.output;
+  }
+}
+
+TEST(CommandLine, missingArgumentsAreTold)
+{
+  const TemporaryFolder folder;
+  const std::string needed = "needs --map MAP --log LOG.rawlog, or CONFIG.ini; see --help";
+  expectOneLine(folder, "sigloc-localize", {}, needed);
+  expectOneLine(folder, "sigloc-localize", {"--map", kLabMap.string()}, needed);
+}
+
+TEST(CommandLine, misspeltOptionsAndCommandsAreTold)
+{
+  const TemporaryFolder folder;
+  expectOneLine(folder, "sigloc-localize", {"--mpa", "x", "--log", "y"},
+                "no such option: --mpa; did you mean '--map'?");
+  expectOneLine(folder, "sigloc-localize", {"--map", "x", "--log", "y", "--ouput=z"},
+                "no such option: --ouput=z; did you mean '--out'?");
+  expectOneLine(folder, "sigloc-localize", {"a.ini", "b.rawlog", "c"}, "one argument too many: c");
+  expectOneLine(folder, "sigloc-map", {"buidl"}, "no such command: buidl; did you mean 'build'?");
+  expectOneLine(folder, "sigloc-map", {"info", "x.sigmap", "--jsno"},
+                "no such option: --jsno; did you mean '--json'?");
+}
+
+TEST(CommandLine, misspeltFilesAndKeysAreTold)
+{
+  const TemporaryFolder folder;
+  std::filesystem::copy_file(kLabLog, folder / "drive.rawlog");
+  expectOneLine(folder, "sigloc-localize", {"--map", kLabMap.string(), "--log", "dirve.rawlog"},
+                "dirve.rawlog: no such file; did you mean 'drive.rawlog'?");
+  writeText(folder / "run.ini", "[LocalizationExperiment]\nmap_file = " + kLabMap.string() +
+                                    "\nrawlog_file = drive.ralwog\n");
+  expectOneLine(folder, "sigloc-localize", {"run.ini"},
+                "'rawlog_file' names drive.ralwog, which does not exist; did you mean "
+                "'drive.rawlog'?");
+  writeText(folder / "run.ini", "[LocalizationExperiment]\nmap_file = " + kLabMap.string() +
+                                    "\nrawlog_file = drive.rawlog\n[sigloc.matcher]\nsede = 3\n");
+  expectOneLine(folder, "sigloc-localize", {"run.ini"}, "unknown key 'sede'; did you mean 'seed'?");
+}
+}  // namespace
+}  // namespace sigloc
