@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <string_view>
 
+#include "picture_axes.h"
+
 namespace sigloc
 {
 namespace
@@ -12,7 +14,7 @@ namespace
 using mrpt::img::TColorf;
 
 constexpr double kTitlePixels = 95;  // kept free of the map
-constexpr double kLegendPixels = 84;
+constexpr double kLegendPixels = 92;
 constexpr double kSidePixels = 18;
 constexpr double kLinePitchPixels = 34;
 constexpr double kCloseUpSide = 22.0;  // [m], the shorter side
@@ -20,6 +22,10 @@ constexpr double kLinePixels = 2.4;
 constexpr double kMarkPixels = 10.0;
 constexpr float kTextScale = 34.0F;  // [pixels of the super-sampled picture]
 constexpr float kBannerScale = 64.0F;
+constexpr float kAxisScale = 22.0F;
+constexpr double kAxisPixels = 54;  // below the axis of a picture without a legend
+constexpr std::size_t kFirstAxisText = 1000;
+const TColorf kAxisColor(0.35F, 0.35F, 0.35F);
 constexpr int kFramePixels = 8;  // of a close-up that nobody may take for an answer
 constexpr const char* kBanner = "NOT LOCALIZED";
 const TColorf kBannerColor(0.82F, 0, 0);
@@ -124,6 +130,7 @@ struct PictureMaker::Panel
   PictureSize size;
   double metres_per_pixel;
   bool small_features;
+  double axis = kAxisPixels;
 
   Panel(const FeatureMap& map, const View& initial_view, const PictureSize& panel_size)
       : view(initial_view),
@@ -150,6 +157,24 @@ struct PictureMaker::Panel
     scene.insert(step_objects);
   }
 
+  /// Renders the scene with its axes.
+  mrpt::img::CImage picture(OffscreenRenderer& renderer)
+  {
+    const PictureAxes axes(view, size, axis);
+    auto viewport = scene.getViewport();
+    std::size_t index = kFirstAxisText;
+    const auto put = [&](double x, double y, const std::string& text)
+    {
+      if (index < kFirstAxisText + PictureAxes::kMostTexts)
+        addText(*viewport, x / size.width, y / size.height, text, index++, kAxisColor, kAxisScale);
+    };
+    axes.write(put);
+    while (index < kFirstAxisText + PictureAxes::kMostTexts) put(0, 0, "");  // of another view
+    mrpt::img::CImage image = renderer.render(scene, view, size);
+    axes.draw(image);
+    return image;
+  }
+
   void writeBanner(const std::string& text)
   {
     const double y = 1 - 2 * kLinePitchPixels / size.height;
@@ -159,6 +184,7 @@ struct PictureMaker::Panel
   void write(const std::vector<std::string>& title,
              const std::vector<std::vector<LegendEntry>>& legend)
   {
+    if (!legend.empty()) axis = kLegendPixels;
     auto viewport = scene.getViewport();
     std::size_t index = 0;
     for (const std::string& line : title)
@@ -199,7 +225,7 @@ PictureMaker::~PictureMaker() = default;
 mrpt::img::CImage PictureMaker::mapPicture(const std::vector<std::string>& title)
 {
   overview_->write(title, {kMapLegend});
-  return renderer_.render(overview_->scene, overview_->view, overview_->size);
+  return picture(*overview_);
 }
 
 mrpt::img::CImage PictureMaker::stepPicture(const StepDrawing& step,
@@ -249,7 +275,7 @@ mrpt::img::CImage PictureMaker::comparison(const StepDrawing& step,
 
 mrpt::img::CImage PictureMaker::picture(Panel& panel)
 {
-  return renderer_.render(panel.scene, panel.view, panel.size);
+  return panel.picture(renderer_);
 }
 
 /// Side by side, or one above the other for a wide map.

@@ -51,6 +51,7 @@ int localize(const sigloc::LocalizationSetup& setup, bool quiet,
   progress.finish();
   if (!run.summary().map_reused)
     sigloc::warn(kProgram, setup.map_file, sigloc::warningOfMapSource(setup.map_file));
+  sigloc::warn(kProgram, setup.map_file, sigloc::warningOfMap(run.map()));
   std::optional<sigloc::StepPictures> pictures;
   const bool every_step = writer && !setup.stats_only;
   if (every_step) pictures.emplace(run);

@@ -55,6 +55,19 @@ ordered_json describe(const sigloc::FeatureMap& map, const std::filesystem::path
   return info;
 }
 
+/// A map of any kind, with the warnings about it.
+sigloc::FeatureMap anyMap(const std::filesystem::path& path, const sigloc::LocalizationSetup& setup)
+{
+  sigloc::ProgressLine progress;
+  sigloc::FeatureMap map =
+      sigloc::buildMapFromFile(path, setup.map, setup.features,
+                               [&](double share) { progress.showBar("building the map", share); });
+  progress.finish();
+  sigloc::warn(kProgram, path, sigloc::warningOfMapSource(path));
+  sigloc::warn(kProgram, path, sigloc::warningOfMap(map));
+  return map;
+}
+
 /// Throws std::runtime_error where the map would replace its own source, or a file whose name is
 /// not that of a map.
 void checkBuildOutput(const std::filesystem::path& input, const std::filesystem::path& output,
@@ -76,21 +89,30 @@ void build(const std::filesystem::path& input, const std::filesystem::path& outp
   checkBuildOutput(input, output, config);
   sigloc::LocalizationSetup setup;
   if (!config.empty()) setup = sigloc::readOptionSections(config);
-  sigloc::ProgressLine progress;
-  const sigloc::FeatureMap map =
-      sigloc::buildMapFromFile(input, setup.map, setup.features,
-                               [&](double share) { progress.showBar("building the map", share); });
-  progress.finish();
-  if (map.empty()) throw std::runtime_error(input.string() + ": no feature found in it");
-  sigloc::saveSigmap(map, output);
   for (const std::string& warning : setup.warnings) sigloc::warn(kProgram, config, warning);
-  sigloc::warn(kProgram, input, sigloc::warningOfMapSource(input));
+  const sigloc::FeatureMap map = anyMap(input, setup);
+  sigloc::saveSigmap(map, output);
   std::cout << output.string() << ": " << map.features().size() << " features\n";
+}
+
+/// A value of a description, for people.
+std::string textOf(const ordered_json& value)
+{
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_number_float()) return fmt::format("{:.2f}", value.get<double>());
+  if (value.is_null()) return "none";
+  if (!value.is_structured()) return value.dump();
+  std::string text;
+  for (const auto& [key, part] : value.items())
+  {
+    text += (text.empty() ? "" : ", ") + (value.is_object() ? key + " " : "") + textOf(part);
+  }
+  return text;
 }
 
 void info(const std::filesystem::path& path, bool as_json)
 {
-  const ordered_json description = describe(sigloc::loadSigmap(path), path);
+  const ordered_json description = describe(anyMap(path, {}), path);
   if (as_json)
   {
     std::cout << description.dump(2) << '\n';
@@ -98,8 +120,7 @@ void info(const std::filesystem::path& path, bool as_json)
   }
   for (const auto& [key, value] : description.items())
   {
-    std::cout << key << ": " << (value.is_string() ? value.get<std::string>() : value.dump())
-              << '\n';
+    std::cout << key << ": " << textOf(value) << '\n';
   }
 }
 
@@ -109,7 +130,7 @@ std::vector<std::filesystem::path> filesBehind(const std::filesystem::path& path
 {
   const std::filesystem::path source = map.provenance().source_path;
   std::vector<std::filesystem::path> files = {path};
-  for (const auto& candidate : {path.parent_path() / source.filename(), source})
+  for (const auto& candidate : {path, path.parent_path() / source.filename(), source})
   {
     try
     {
@@ -130,7 +151,7 @@ void draw(const std::filesystem::path& path, const std::filesystem::path& output
   {
     throw std::runtime_error(output.string() + ": the name of a picture ends in .png");
   }
-  const sigloc::FeatureMap map = sigloc::loadSigmap(path);
+  const sigloc::FeatureMap map = anyMap(path, {});
   sigloc::refuseToReplaceInputs(output, filesBehind(path, map));
   sigloc::PictureMaker pictures(map);
   const std::string title =
@@ -155,12 +176,12 @@ int main(int argc, char** argv)
   build_command->add_option("-o,--output", output, ".sigmap to write")->required();
   build_command->add_option("--config", config, "ini with [sigloc.map] and [sigloc.features]");
 
-  CLI::App* info_command = app.add_subcommand("info", "Describes a .sigmap");
-  info_command->add_option("file", input, ".sigmap to read")->required();
+  CLI::App* info_command = app.add_subcommand("info", "Describes a map of any kind");
+  info_command->add_option("file", input, "map to read")->required();
   info_command->add_flag("--json", as_json, "as JSON");
 
-  CLI::App* draw_command = app.add_subcommand("draw", "Draws a .sigmap");
-  draw_command->add_option("file", input, ".sigmap to read")->required();
+  CLI::App* draw_command = app.add_subcommand("draw", "Draws a map of any kind");
+  draw_command->add_option("file", input, "map to read")->required();
   draw_command->add_option("-o,--output", output, "PNG to write")->required();
 
   const auto work = [&]

@@ -164,6 +164,18 @@ std::string bytesOf(const mrpt::serialization::CSerializable& object)
   return {static_cast<const char*>(memory.getRawBufferData()), memory.getTotalBytesCount()};
 }
 
+/// Lets viewers start above and behind a place, with its surroundings in view.
+void lookAt(const mrpt::math::TPose2D& place, mrpt::opengl::COpenGLScene& scene)
+{
+  constexpr float kDistance = 35;  // [m]
+  mrpt::opengl::CCamera& camera = scene.getViewport()->getCamera();
+  camera.setPointingAt(static_cast<float>(place.x), static_cast<float>(place.y), 0);
+  camera.setZoomDistance(kDistance);
+  camera.setAzimuthDegrees(-90);
+  camera.setElevationDegrees(60);
+  scene.enableFollowCamera(true);
+}
+
 /// The folder of a run's results as a whole path, without a slash at its end: "out/" is "out".
 fs::path resultsFolder(const fs::path& folder)
 {
@@ -256,6 +268,8 @@ void RunWriter::writeScene(const FeatureMap& map, const StepRecord& step,
   mrpt::opengl::COpenGLScene scene;
   scene.insert(drawMap(map));
   scene.insert(drawStep(drawing));
+  const auto& hypotheses = step.belief.hypotheses;
+  if (!hypotheses.empty()) lookAt(hypotheses.front().pose.mean, scene);
   writeObjects(work_ / "3D" / (stepName(step) + ".3Dscene"),
                [&](mrpt::serialization::CArchive& archive) { archive << scene; });
 }

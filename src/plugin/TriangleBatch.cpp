@@ -3,12 +3,15 @@
 #include "plugin/TriangleBatch.h"
 
 #include <cmath>
+#include <map>
+#include <utility>
 
 namespace sigloc::detail
 {
 namespace
 {
 constexpr int kRoundSides = 32;
+constexpr double kTile = 10;  // [m]
 
 std::vector<TriangleBatch::Point> circlePoints(const TriangleBatch::Point& centre, double radius)
 {
@@ -40,6 +43,13 @@ void TriangleBatch::addLine(const Point& a, const Point& b, double width,
 {
   const Point along = b - a;
   const double length = std::hypot(along.x, along.y);
+  if (length > kTile)  // no shape is larger than a tile
+  {
+    const Point middle = a + along * 0.5;
+    addLine(a, middle, width, color);
+    addLine(middle, b, width, color);
+    return;
+  }
   const Point unit = length > 0 ? along * (1 / length) : Point(1, 0);
   const Point cap = unit * (0.5 * width);
   const Point side = Point(-unit.y, unit.x) * (0.5 * width);
@@ -78,12 +88,24 @@ void TriangleBatch::addSquare(const Point& centre, double side, const mrpt::img:
   addLine(centre, centre, side, color);  // nothing but the two caps
 }
 
-mrpt::opengl::CSetOfTriangles::Ptr TriangleBatch::object() const
+mrpt::opengl::CSetOfObjects::Ptr TriangleBatch::object() const
 {
-  auto object = mrpt::opengl::CSetOfTriangles::Create();
-  object->insertTriangles(triangles_.begin(), triangles_.end());
-  // Flat colours: lighting would make equal colours look different from above.
-  object->enableLight(false);
-  return object;
+  using Tile = std::pair<long, long>;
+  std::map<Tile, std::vector<mrpt::opengl::TTriangle>> tiles;
+  for (const mrpt::opengl::TTriangle& triangle : triangles_)
+  {
+    const auto tileOf = [](float x) { return std::lround(std::floor(x / kTile)); };
+    tiles[{tileOf(triangle.x(0)), tileOf(triangle.y(0))}].push_back(triangle);
+  }
+  auto objects = mrpt::opengl::CSetOfObjects::Create();
+  for (const auto& [tile, triangles] : tiles)
+  {
+    auto object = mrpt::opengl::CSetOfTriangles::Create();
+    object->insertTriangles(triangles.begin(), triangles.end());
+    // Flat colours: lighting would make equal colours look different from above.
+    object->enableLight(false);
+    objects->insert(object);
+  }
+  return objects;
 }
 }  // namespace sigloc::detail

@@ -4,14 +4,19 @@
 
 #include <mrpt/img/TColor.h>
 #include <mrpt/math/TPoint2D.h>
+#include <mrpt/opengl/CSetOfObjects.h>
 #include <mrpt/opengl/CSetOfTriangles.h>
 
 #include <vector>
 
 namespace sigloc::detail
 {
-/// Flat coloured shapes over the map plane, collected into one object. Thick lines are made of them
-/// where the renderer draws only thin ones.
+/// Flat coloured shapes over the map plane, collected into objects of one layer. Thick lines are
+/// made of them where the renderer draws only thin ones.
+///
+/// MRPT 2.5.8 leaves out an object when all corners of its box are behind the viewer or beyond what
+/// he sees, though its middle may be in front of him. Each object therefore holds only the shapes
+/// of one tile.
 class TriangleBatch
 {
  public:
@@ -29,7 +34,8 @@ class TriangleBatch
   void addDisc(const Point& centre, double radius, const mrpt::img::TColor& color);
   void addSquare(const Point& centre, double side, const mrpt::img::TColor& color);
 
-  mrpt::opengl::CSetOfTriangles::Ptr object() const;
+  /// One CSetOfTriangles for each tile of 10 m that has a shape in it.
+  mrpt::opengl::CSetOfObjects::Ptr object() const;
 
  private:
   double height_;

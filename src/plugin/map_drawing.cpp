@@ -163,7 +163,7 @@ std::vector<TPoint2D> ellipseOf(const GaussianPose& pose, double min_axis)
   return outline;
 }
 
-mrpt::opengl::CSetOfTriangles::Ptr drawBelief(const Belief& belief, const StepDrawing& step)
+mrpt::opengl::CSetOfObjects::Ptr drawBelief(const Belief& belief, const StepDrawing& step)
 {
   TriangleBatch batch(kBeliefHeight);
   // Heaviest last, so that it lies on top.
@@ -179,8 +179,8 @@ mrpt::opengl::CSetOfTriangles::Ptr drawBelief(const Belief& belief, const StepDr
   return batch.object();
 }
 
-mrpt::opengl::CSetOfTriangles::Ptr drawScan(const ObservedScene& observed,
-                                            const TPose2D& map_from_robot, double width)
+mrpt::opengl::CSetOfObjects::Ptr drawScan(const ObservedScene& observed,
+                                          const TPose2D& map_from_robot, double width)
 {
   TriangleBatch batch(kScanHeight);
   for (const Feature& feature : observed.features)
@@ -194,7 +194,7 @@ mrpt::opengl::CSetOfTriangles::Ptr drawScan(const ObservedScene& observed,
   return batch.object();
 }
 
-mrpt::opengl::CSetOfTriangles::Ptr drawRobot(const TPose2D& pose, double size, const TColor& color)
+mrpt::opengl::CSetOfObjects::Ptr drawRobot(const TPose2D& pose, double size, const TColor& color)
 {
   TriangleBatch batch(kPoseHeight);
   const TPoint2D centre(pose.x, pose.y);
@@ -207,7 +207,7 @@ mrpt::opengl::CSetOfTriangles::Ptr drawRobot(const TPose2D& pose, double size, c
   return batch.object();
 }
 
-mrpt::opengl::CSetOfTriangles::Ptr drawTruth(const TPose2D& truth, double size, double width)
+mrpt::opengl::CSetOfObjects::Ptr drawTruth(const TPose2D& truth, double size, double width)
 {
   TriangleBatch batch(kTruthHeight);
   const TPoint2D centre(truth.x, truth.y);
@@ -217,7 +217,7 @@ mrpt::opengl::CSetOfTriangles::Ptr drawTruth(const TPose2D& truth, double size, 
   return batch.object();
 }
 
-mrpt::opengl::CSetOfTriangles::Ptr drawPath(const std::vector<TPose2D>& path, double width)
+mrpt::opengl::CSetOfObjects::Ptr drawPath(const std::vector<TPose2D>& path, double width)
 {
   TriangleBatch batch(kPathHeight);
   // The estimate jumps while the robot is lost. A line across the map would look like a path.
@@ -230,7 +230,7 @@ mrpt::opengl::CSetOfTriangles::Ptr drawPath(const std::vector<TPose2D>& path, do
   }
   return batch.object();
 }
-mrpt::opengl::CSetOfTriangles::Ptr drawProposed(const std::vector<TPose2D>& poses, double width)
+mrpt::opengl::CSetOfObjects::Ptr drawProposed(const std::vector<TPose2D>& poses, double width)
 {
   TriangleBatch batch(kPathHeight);
   for (const TPose2D& pose : poses)

@@ -61,3 +61,42 @@ TEST(LandmarkFile, MayBeginWithTheMarkOfUtf8)
     EXPECT_EQ(map.features()[0].position.x, x);
   }
 }
+
+namespace
+{
+/// A room of 10 m x 8 m with a niche, in cells of `resolution` [m]; `inverted` swaps wall and free.
+std::string warningOfRoom(double resolution, bool inverted)
+{
+  OccupancyRaster raster;
+  raster.frame.resolution = resolution;
+  raster.frame.width = 100;
+  raster.frame.height = 80;
+  const CellState wall = inverted ? CellState::free : CellState::solid_wall;
+  const CellState free = inverted ? CellState::solid_wall : CellState::free;
+  raster.cells.assign(std::size_t{100} * 80, free);
+  const auto block = [&](std::uint32_t x_0, std::uint32_t x_1, std::uint32_t y_0, std::uint32_t y_1)
+  {
+    for (std::uint32_t y = y_0; y < y_1; ++y)
+    {
+      for (std::uint32_t x = x_0; x < x_1; ++x) raster.cells[std::size_t{y} * 100 + x] = wall;
+    }
+  };
+  block(0, 100, 0, 2);
+  block(0, 100, 78, 80);
+  block(0, 2, 0, 80);
+  block(98, 100, 0, 80);
+  for (const std::uint32_t at : {20U, 40U, 60U}) block(at, at + 8, 30, 42);
+  return warningOfMap(buildMapFromRaster(raster, {}, {}, {}));
+}
+}  // namespace
+
+TEST(MapWarnings, TellOfMapsThatCannotBeMeant)
+{
+  EXPECT_EQ(warningOfRoom(0.1, false), "");
+  EXPECT_NE(warningOfRoom(0.1, true).find("colours inverted"), std::string::npos);
+  EXPECT_NE(warningOfRoom(0.6, false).find("resolution in metres"), std::string::npos);
+  EXPECT_NE(warningOfRoom(0.01, false).find("m2 of free space; is its resolution"),
+            std::string::npos);
+  EXPECT_NE(warningOfMap(FeatureMap(std::vector<Feature>(3))).find("only 3 features"),
+            std::string::npos);
+}

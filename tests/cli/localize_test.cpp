@@ -5,12 +5,16 @@
 #include <mrpt/io/CFileGZInputStream.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/obs/CRawlog.h>
+#include <mrpt/opengl/COpenGLScene.h>
+#include <mrpt/opengl/CSetOfObjects.h>
+#include <mrpt/opengl/CSetOfTriangles.h>
 #include <mrpt/poses/CPosePDFSOG.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "command_line.h"
+#include "picture_pixels.h"
 #include "sigloc/io/RawlogReader.h"
 
 namespace sigloc
@@ -51,28 +55,6 @@ std::size_t beliefsWithAPose(const TemporaryFolder& folder)
     mrpt::io::CFileGZInputStream file(entry.path().string());
     mrpt::serialization::archiveFrom(file) >> belief;
     if (!belief.empty()) ++count;
-  }
-  return count;
-}
-
-/// How many pixels have about this colour.
-int pixelsLike(const mrpt::img::CImage& picture, const mrpt::img::TColor& color)
-{
-  constexpr int kTolerance = 12;
-  const bool bgr = picture.getChannelsOrder() == "BGR";
-  int count = 0;
-  for (unsigned row = 0; row < picture.getHeight(); ++row)
-  {
-    for (unsigned column = 0; column < picture.getWidth(); ++column)
-    {
-      const auto* const pixel = picture.ptr<std::uint8_t>(column, row);
-      if (std::abs(pixel[bgr ? 2 : 0] - color.R) < kTolerance &&
-          std::abs(pixel[1] - color.G) < kTolerance &&
-          std::abs(pixel[bgr ? 0 : 2] - color.B) < kTolerance)
-      {
-        ++count;
-      }
-    }
   }
   return count;
 }
@@ -315,6 +297,47 @@ TEST(Localize, runsStockConfigurationsUnchanged)
   EXPECT_GT(pixelsLike(picture, mrpt::img::TColor(255, 255, 255)), 10000) << "free space";
 }
 
+/// Expects that no object is wider than stock viewers can tell to be in view; returns their number.
+std::size_t expectSmallObjects(const mrpt::opengl::CSetOfObjects& objects)
+{
+  std::size_t count = 0;
+  for (const auto& object : objects)
+  {
+    if (const auto inner = std::dynamic_pointer_cast<mrpt::opengl::CSetOfObjects>(object))
+    {
+      count += expectSmallObjects(*inner);
+    }
+    if (!std::dynamic_pointer_cast<mrpt::opengl::CSetOfTriangles>(object)) continue;
+    const auto box = object->getBoundingBox();
+    EXPECT_LT(box.max.x - box.min.x, 25);
+    EXPECT_LT(box.max.y - box.min.y, 25);
+    ++count;
+  }
+  return count;
+}
+
+// MRPT's viewers hide an object whose corners are all out of view, and start at the scene's camera.
+TEST(Localize, scenesShowTheRobotInStockViewers)
+{
+  const TemporaryFolder folder;
+  writeConfig(folder, kLabLog.string());
+  ASSERT_EQ(localize(folder).exit_code, 0);
+  mrpt::opengl::COpenGLScene scene;
+  ASSERT_TRUE(scene.loadFromFile((folder / "out/3D/step_00037.3Dscene").string()));
+  std::size_t objects = 0;
+  for (const auto& object : *scene.getViewport())
+  {
+    const auto set = std::dynamic_pointer_cast<mrpt::opengl::CSetOfObjects>(object);
+    if (set) objects += expectSmallObjects(*set);
+  }
+  EXPECT_GT(objects, 10U);
+  EXPECT_TRUE(scene.followCamera());
+  const auto& camera = scene.getViewport()->getCamera();
+  const json pose = summaryOf(folder)["final_pose"];
+  EXPECT_NEAR(camera.getPointingAtX(), pose[0].get<double>(), 0.01);
+  EXPECT_NEAR(camera.getPointingAtY(), pose[1].get<double>(), 0.01);
+}
+
 TEST(Localize, writesOnlyTheFiguresWhenAsked)
 {
   const TemporaryFolder folder;
@@ -359,52 +382,6 @@ TEST(Localize, saysThatAReadyMapIsLoaded)
   const CommandResult result = run(folder, "sigloc-localize", {"run.ini", "--quiet"});
   EXPECT_NE(result.output.find("lab.sigmap: 325 features, loaded in "), std::string::npos)
       << result.output;
-}
-
-TEST(Commands, equalMapsAreEqualBytesWhereverTheyAreBuilt)
-{
-  const TemporaryFolder folder;
-  for (const char* const place : {"here", "there"})
-  {
-    std::filesystem::create_directory(folder / place);
-    std::filesystem::copy_file(kLabMap, folder / place / "lab.simplemap.gz");
-    const std::string stem = std::string(place) + "/lab";
-    ASSERT_EQ(
-        run(folder, "sigloc-map",
-            {"build", "-i", (folder / (stem + ".simplemap.gz")).string(), "-o", stem + ".sigmap"})
-            .exit_code,
-        0);
-  }
-  EXPECT_TRUE(readBytes(folder / "here/lab.sigmap") == readBytes(folder / "there/lab.sigmap"));
-}
-
-TEST(Commands, helpExitsZero)
-{
-  const TemporaryFolder folder;
-  for (const char* const program : {"sigloc-map", "sigloc-localize"})
-  {
-    const CommandResult result = run(folder, program, {"--help"});
-    EXPECT_EQ(result.exit_code, 0);
-    EXPECT_NE(result.output.find("sage"), std::string::npos);
-  }
-}
-
-TEST(Commands, mapIsBuiltDescribedAndDrawn)
-{
-  const TemporaryFolder folder;
-  const CommandResult built =
-      run(folder, "sigloc-map", {"build", "-i", kLabMap.string(), "-o", "lab.sigmap"});
-  EXPECT_EQ(built.exit_code, 0) << built.errors;
-  EXPECT_EQ(built.errors, "");
-  const CommandResult info = run(folder, "sigloc-map", {"info", "lab.sigmap", "--json"});
-  ASSERT_EQ(info.exit_code, 0) << info.errors;
-  const json description = json::parse(info.output);
-  EXPECT_GT(description["segments"], 10);
-  EXPECT_EQ(description["source"], kLabMap.filename().string());
-  const CommandResult drawn = run(folder, "sigloc-map", {"draw", "lab.sigmap", "-o", "lab.png"});
-  EXPECT_EQ(drawn.exit_code, 0) << drawn.errors;
-  EXPECT_EQ(drawn.errors, "");
-  EXPECT_EQ(readBytes(folder / "lab.png").substr(1, 3), "PNG");
 }
 }  // namespace
 }  // namespace sigloc

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// A drive through an office in the map of another building: whoever reads one file of the output,
-// without the others, cannot take any step of it for a localized one.
+// A drive through an office in the map of another building. Whoever reads one file of the output
+// alone cannot take any step of it for a localized one.
 #include <gtest/gtest.h>
 #include <mrpt/img/CImage.h>
 #include <mrpt/io/CFileGZInputStream.h>

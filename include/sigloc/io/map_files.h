@@ -33,6 +33,11 @@ std::string mapFormatNames();
 /// one floor. The line is empty when there are none, and for other map sources. The same errors.
 std::string warningOfMapSource(const std::filesystem::path& path);
 
+/// Returns a line on a map in which no robot is likely to be found, or an empty one. It has more
+/// wall than free space, cells above 0.5 m, less than 4 m^2 of free space, or less than 10
+/// features.
+std::string warningOfMap(const FeatureMap& map);
+
 /// Returns the files that a map source is read from: `path`, and the image that a ROS map names.
 /// Throws std::runtime_error ("path: reason") for a ROS map that cannot be read.
 std::vector<std::filesystem::path> filesOfMapSource(const std::filesystem::path& path);

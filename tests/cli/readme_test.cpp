@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// README.md does what it says. Its shell commands are run as they are written, one after the other.
+// Their folder has the map and the log of a newcomer, and the ini files of the page.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <variant>
+
+#include "command_line.h"
+#include "sigloc/io/map_files.h"
+
+namespace sigloc
+{
+namespace
+{
+using namespace sigloc::test;
+namespace fs = std::filesystem;
+
+/// The texts of the page's code blocks of one kind.
+std::vector<std::string> blocksOf(const std::string& kind)
+{
+  std::vector<std::string> blocks;
+  std::istringstream page(readBytes(kSources / "README.md"));
+  bool inside = false;
+  for (std::string line; std::getline(page, line);)
+  {
+    if (!inside && line == "```" + kind)
+    {
+      inside = true;
+      blocks.emplace_back();
+    }
+    else if (line.rfind("```", 0) == 0)
+    {
+      inside = false;
+    }
+    else if (inside)
+    {
+      blocks.back() += line + "\n";
+    }
+  }
+  return blocks;
+}
+
+/// The office's grid as `my_map.yaml` with its image.
+void writeRosMap(const TemporaryFolder& folder)
+{
+  const auto raster = std::get<OccupancyRaster>(readMapSource(kSources / "maps/office.gridmap.gz"));
+  std::string image = "P5\n" + std::to_string(raster.frame.width) + " " +
+                      std::to_string(raster.frame.height) + "\n255\n";
+  for (std::uint32_t row = raster.frame.height; row-- > 0;)
+  {
+    for (std::uint32_t column = 0; column < raster.frame.width; ++column)
+    {
+      const CellState state = raster.cells[std::size_t{row} * raster.frame.width + column];
+      const int grey = isWall(state) ? 0 : state == CellState::free ? 254 : 205;
+      image.push_back(static_cast<char>(grey));
+    }
+  }
+  writeText(folder / "my_map.pgm", image);
+  std::ostringstream yaml;
+  yaml << "image: my_map.pgm\nresolution: " << raster.frame.resolution << "\norigin: ["
+       << raster.frame.origin.x << ", " << raster.frame.origin.y
+       << ", 0.0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n";
+  writeText(folder / "my_map.yaml", yaml.str());
+}
+
+TEST(Readme, itsCommandsDoWhatItSays)
+{
+  const TemporaryFolder folder;
+  writeRosMap(folder);
+  fs::copy_file(kSources / "maps/office.simplemap", folder / "my_map.simplemap");
+  fs::copy_file(kSources / "rawlogs/office.rawlog", folder / "my_drive.rawlog");
+  fs::create_directory(folder / "build");
+  fs::create_directory_symlink(fs::path(SIGLOC_BIN_FOLDER).parent_path(), folder / "build/release");
+  for (const std::string& ini : blocksOf("ini"))
+  {
+    const std::string name = ini.substr(2, ini.find('\n') - 2);  // "# my.ini"
+    ASSERT_EQ(fs::path(name).extension(), ".ini") << "an ini begins with its name: " << ini;
+    writeText(folder / name, ini);
+  }
+  std::string commands = "set -e\n";
+  for (const std::string& block : blocksOf("sh")) commands += block;
+  for (const char* const command :
+       {"sigloc-map build", "sigloc-map draw", "--map", "my.ini", "rawlog-edit", "LD_PRELOAD"})
+  {
+    EXPECT_NE(commands.find(command), std::string::npos) << "README.md shows no " << command;
+  }
+  writeText(folder / "commands.sh", commands);
+  const CommandResult result = runShell(folder, "sh commands.sh");
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(readBytes(folder / "my_map.png").substr(1, 3), "PNG");
+  const auto summary = nlohmann::json::parse(readBytes(folder / "answer/summary.json"));
+  EXPECT_EQ(summary["final_verdict"], "localized");
+  for (const char* const name :
+       {"path.tum", "path_unsure.tum", "annotated.rawlog", "steps.csv", "pictures", "3D", "belief"})
+  {
+    EXPECT_TRUE(fs::exists(folder / "answer" / name)) << name;
+  }
+  EXPECT_NE(result.output.find("CObservation2DRangeScan"), std::string::npos) << "rawlog-edit";
+}
+
+// What installs and builds is run by CI itself; here only that it is there.
+TEST(Readme, itsScriptsExist)
+{
+  std::size_t count = 0;
+  for (const std::string& block : blocksOf("console"))
+  {
+    std::istringstream lines(block);
+    for (std::string line; std::getline(lines, line);)
+    {
+      if (line.rfind("$ ", 0) != 0) continue;
+      ++count;
+      const std::string program = line.substr(2, line.find(' ', 2) - 2);
+      EXPECT_TRUE(fs::exists(kSources / program)) << line;
+    }
+  }
+  EXPECT_GE(count, 3U);
+}
+}  // namespace
+}  // namespace sigloc
