@@ -42,7 +42,8 @@ void RawlogReplay::doProcess()
   idle_ += 1 / m_process_rate;
   if (stop_after_end_ > 0 && idle_ > stop_after_end_)
   {
-    throw std::runtime_error(path_ + ": played to its end");
+    // The only way in which a sensor can end rawlog-grabber, which logs it as an error.
+    throw std::runtime_error(path_ + ": played to its end: all is well, the log is complete");
   }
 }
 
