@@ -134,6 +134,13 @@ TEST(MapSources, ReadsARosMapOfRawOccupancies)
   EXPECT_NE(errorOf(folder / "m.yaml").find("m.pgm' cannot be read"), std::string::npos);
 }
 
+TEST(MapSources, TellsWhatAnImageLacks)
+{
+  const TemporaryFolder folder;
+  writeRosMap(folder);
+  EXPECT_NE(errorOf(folder / "m.pgm").find("its .yaml file is"), std::string::npos);
+}
+
 TEST(MapSources, TakesAWholeTurnForNone)
 {
   const TemporaryFolder folder;

@@ -80,6 +80,12 @@ const MapFormat& formatOf(const std::filesystem::path& path)
       known += (known.empty() ? "" : ", ") + own;
     }
   }
+  if (extension == ".pgm" || extension == ".png")
+  {
+    throw std::runtime_error(path.string() +
+                             ": an image alone is no map; its .yaml file is, with 'image', "
+                             "'resolution', 'origin', 'free_thresh' and 'occupied_thresh'");
+  }
   throw std::runtime_error(
       fmt::format("{}: unknown kind of map (known: {})", path.string(), known));
 }
