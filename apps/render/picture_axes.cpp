@@ -13,11 +13,17 @@ namespace
 {
 constexpr double kMostPixels = 200;  // between two ticks
 constexpr int kTickPixels = 8;
-constexpr double kCharacterPixels = 8;  // of a number, about
 constexpr double kBarHeight = 12;  // [pixels] above the lower edge
 constexpr double kBarThickness = 4;
 constexpr double kMargin = 24;
 const mrpt::img::TColor kColor(90, 90, 90);
+
+/// The width of a number [pixels], about.
+double widthOf(const std::string& text)
+{
+  constexpr double kCharacterPixels = 8;
+  return kCharacterPixels * static_cast<double>(text.size());
+}
 
 /// The largest of 1, 2 and 5 times a power of ten that is no more than `most`.
 double roundStep(double most)
@@ -52,14 +58,13 @@ void PictureAxes::write(const PutText& put) const
        column(x) < size_.width - 4 * kMargin; x += step_)
   {
     const std::string text = textOf(std::abs(x) < 1e-9 ? 0 : x);
-    if (column(x) > kMargin)
-      put(column(x) - 0.5 * kCharacterPixels * text.size(), base_ - 14, text);
+    if (column(x) > kMargin) put(column(x) - 0.5 * widthOf(text), base_ - 14, text);
   }
   for (double y = first(view_.y + (base_ + kMargin - 0.5 * size_.height) * metres_per_pixel_);
        height(y) < size_.height - kMargin; y += step_)
   {
     const std::string text = textOf(std::abs(y) < 1e-9 ? 0 : y);
-    put(size_.width - kTickPixels - kCharacterPixels * (text.size() + 1), height(y) - 5, text);
+    put(size_.width - 2 * kTickPixels - widthOf(text), height(y) - 5, text);
   }
   const double bar = step_ / metres_per_pixel_;
   put(size_.width - kMargin - bar, kBarHeight + kBarThickness + 4, textOf(step_) + " m");
