@@ -63,7 +63,8 @@ nlohmann::ordered_json toJson(const Feature& feature)
 mrpt::obs::CObservationComment::Ptr beliefComment(const StepRecord& step)
 {
   const Belief& belief = step.belief;
-  nlohmann::ordered_json json = {{"verdict", toString(belief.verdict)},
+  nlohmann::ordered_json json = {{"source", "sigloc"},
+                                 {"verdict", toString(belief.verdict)},
                                  {"first_pose_probability", nullptr},
                                  {"elsewhere", belief.elsewhere},
                                  {"reason", belief.reason},
@@ -73,7 +74,6 @@ mrpt::obs::CObservationComment::Ptr beliefComment(const StepRecord& step)
   for (const auto& hypothesis : belief.hypotheses) json["hypotheses"].push_back(toJson(hypothesis));
   for (const Feature& feature : step.features) json["features"].push_back(toJson(feature));
   auto comment = mrpt::obs::CObservationComment::Create();
-  comment->sensorLabel = "sigloc_belief";
   comment->timestamp = mrpt::Clock::fromDouble(step.time);
   comment->text = json.dump(1);
   return comment;

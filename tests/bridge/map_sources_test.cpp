@@ -132,12 +132,6 @@ TEST(MapSources, ReadsARosMapOfRawOccupancies)
 
   writeText(folder / "m.pgm", "no image");
   EXPECT_NE(errorOf(folder / "m.yaml").find("m.pgm' cannot be read"), std::string::npos);
-}
-
-TEST(MapSources, TellsWhatAnImageLacks)
-{
-  const TemporaryFolder folder;
-  writeRosMap(folder);
   EXPECT_NE(errorOf(folder / "m.pgm").find("its .yaml file is"), std::string::npos);
 }
 

@@ -99,7 +99,7 @@ TEST(Readme, itsCommandsDoWhatItSays)
   {
     EXPECT_TRUE(fs::exists(folder / "answer" / name)) << name;
   }
-  EXPECT_NE(result.output.find("CObservation2DRangeScan"), std::string::npos) << "rawlog-edit";
+  EXPECT_NE(result.output.find("Overall number of objects"), std::string::npos) << "rawlog-edit";
 }
 
 // What installs and builds is run by CI itself; here only that it is there.

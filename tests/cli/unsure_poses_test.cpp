@@ -47,36 +47,51 @@ class UnsurePoses : public testing::Test
   CommandResult result_;
 };
 
-TEST_F(UnsurePoses, theRawlogLabelsThemAndKeepsThemWide)
+/// Every observation of the log's sensory frames.
+std::vector<mrpt::obs::CObservation::Ptr> observationsIn(const std::filesystem::path& path)
 {
+  std::vector<mrpt::obs::CObservation::Ptr> all;
   mrpt::obs::CRawlog log;
-  ASSERT_TRUE(log.loadFromRawLogFile((folder_ / "out/annotated.rawlog").string()));
-  std::size_t poses = 0;
-  std::ptrdiff_t beliefs = 0;
+  EXPECT_TRUE(log.loadFromRawLogFile(path.string()));
   for (std::size_t i = 0; i < log.size(); ++i)
   {
-    const auto object = log.getAsGeneric(i);
-    if (const auto pose = std::dynamic_pointer_cast<mrpt::obs::CObservationRobotPose>(object))
+    if (log.getType(i) != mrpt::obs::CRawlog::etSensoryFrame) continue;
+    for (const auto& observation : *log.getAsObservations(i)) all.push_back(observation);
+  }
+  return all;
+}
+
+void expectNoSureBelief(const json& belief)
+{
+  EXPECT_EQ(belief["source"], "sigloc");
+  EXPECT_NE(belief["verdict"], "localized");
+  EXPECT_FALSE(belief["reason"].get<std::string>().empty());
+  EXPECT_FALSE(belief["features"].empty());
+  double sum = belief["elsewhere"];
+  for (const json& hypothesis : belief["hypotheses"])
+  {
+    sum += hypothesis["probability"].get<double>();
+    EXPECT_EQ(hypothesis["covariance"].size(), 9U);
+  }
+  EXPECT_NEAR(sum, 1, 1e-6);
+  EXPECT_EQ(belief["first_pose_probability"].is_null(), belief["hypotheses"].empty());
+}
+
+TEST_F(UnsurePoses, theRawlogLabelsThemAndKeepsThemWide)
+{
+  std::size_t poses = 0;
+  std::ptrdiff_t beliefs = 0;
+  for (const auto& observation : observationsIn(folder_ / "out/annotated.rawlog"))
+  {
+    if (const auto pose = std::dynamic_pointer_cast<mrpt::obs::CObservationRobotPose>(observation))
     {
       EXPECT_EQ(pose->sensorLabel, "sigloc_unsure");
       EXPECT_GT(std::sqrt(pose->pose.cov(0, 0) + pose->pose.cov(1, 1)), kSureSigma);
       ++poses;
     }
-    const auto comment = std::dynamic_pointer_cast<mrpt::obs::CObservationComment>(object);
+    const auto comment = std::dynamic_pointer_cast<mrpt::obs::CObservationComment>(observation);
     if (!comment) continue;
-    EXPECT_EQ(comment->sensorLabel, "sigloc_belief");
-    const json belief = json::parse(comment->text);
-    EXPECT_NE(belief["verdict"], "localized");
-    EXPECT_FALSE(belief["reason"].get<std::string>().empty());
-    EXPECT_FALSE(belief["features"].empty());
-    double sum = belief["elsewhere"];
-    for (const json& hypothesis : belief["hypotheses"])
-    {
-      sum += hypothesis["probability"].get<double>();
-      EXPECT_EQ(hypothesis["covariance"].size(), 9U);
-    }
-    EXPECT_NEAR(sum, 1, 1e-6);
-    EXPECT_EQ(belief["first_pose_probability"].is_null(), belief["hypotheses"].empty());
+    expectNoSureBelief(json::parse(comment->text));
     ++beliefs;
   }
   EXPECT_GT(poses, 100U);

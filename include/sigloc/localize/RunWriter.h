@@ -70,11 +70,11 @@ std::string stepName(const StepRecord& step);
 ///
 /// * toRobotPoseObservation(): the first pose, labelled "sigloc" or "sigloc_unsure"; none without
 ///   hypotheses
-/// * a CObservationComment labelled "sigloc_belief", whose text is a JSON object
+/// * a CObservationComment, of which MRPT stores no label; its text is a JSON object
 ///
-/// The object has `verdict`, `first_pose_probability`, `elsewhere`, `reason`, `hypotheses` and, in
-/// the robot frame, `features`. A hypothesis has `probability`, `x`, `y`, `phi_deg` and
-/// `covariance`, row by row [m^2, m rad, rad^2].
+/// The object has `source`, "sigloc", `verdict`, `first_pose_probability`, `elsewhere`, `reason`,
+/// `hypotheses` and, in the robot frame, `features`. A hypothesis has `probability`, `x`, `y`,
+/// `phi_deg` and `covariance`, row by row [m^2, m rad, rad^2].
 void writeAnnotatedRawlog(const LocalizationRun& run, const std::filesystem::path& output);
 
 /// What one run adds to `<prefix>_SUMMARY.txt`.
