@@ -9,6 +9,7 @@
 
 #include "bridge/rawlog_files.h"
 #include "bridge/sample_maps.h"
+#include "sigloc/io/file_output.h"
 
 using namespace sigloc;
 using namespace sigloc::test;
@@ -78,13 +79,13 @@ TEST(SigmapFile, SaysWhetherAMapIsTooOldOrTooNew)
   const auto reasonFor = [&](std::uint8_t version)
   {
     const auto path = folder / "other.sigmap";
-    writeObjects(path,
-                 [version](mrpt::serialization::CArchive& archive)
-                 {
-                   const std::string magic = "sigloc-map\n";
-                   archive.WriteBuffer(magic.data(), magic.size());
-                   archive << version;
-                 });
+    sigloc::writeObjects(path,
+                         [version](mrpt::serialization::CArchive& archive)
+                         {
+                           const std::string magic = "sigloc-map\n";
+                           archive.WriteBuffer(magic.data(), magic.size());
+                           archive << version;
+                         });
     return loadError(path);
   };
   EXPECT_NE(reasonFor(99).find("version 99"), std::string::npos) << reasonFor(99);
