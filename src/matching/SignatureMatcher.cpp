@@ -25,12 +25,14 @@ constexpr double kPoorScore = 0.65;  // below this score further poses are propo
 constexpr std::size_t kMinLandmarks = 2;  // features needed without a laser
 constexpr std::size_t kMaxBeams = 400;  // of a scene that are used; more are thinned evenly
 
-/// Returns the probability that features alone missed the right pose, given the best pose. It is
-/// near 0 where the features that this pose explains are significant against the background.
-/// \cite algorithm eq. (7.6)
-double missedProbability(const std::vector<FeatureHypothesis>& hypotheses, const TPose2D& best)
+/// Returns the probability that the right pose was not proposed, or not refined. With hypotheses
+/// that features support it is near 0 where the best pose explains significantly many of them. In
+/// mode (e) it is 0 unless the search was cut short. \cite algorithm eq. (7.6)
+double missedProbability(const std::vector<FeatureHypothesis>& hypotheses, const TPose2D& best,
+                         bool was_cut_short)
 {
   constexpr double kMissed = 0.2;  // the probability where nothing significant was found
+  if (hypotheses.empty()) return was_cut_short ? kMissed : 0;
   double chance = 1;
   for (const FeatureHypothesis& hypothesis : hypotheses)
   {
@@ -172,10 +174,7 @@ SignatureMatcher::VerifiedPoses SignatureMatcher::verify(const DenseScan& scan,
                                                          VerifiedPoses before) const
 {
   const auto ranked = [&](const std::vector<PoseProposal>& poses, std::vector<RankedPose> rivals)
-  {
-    return verifier_->rank(scan, poses, options_.max_candidates, counters.poses_scored,
-                           std::move(rivals));
-  };
+  { return verifier_->rank(scan, poses, options_.max_candidates, counters, std::move(rivals)); };
   VerifiedPoses out;
   if (region)
   {
@@ -201,9 +200,10 @@ void SignatureMatcher::concludeDensely(const ObservedScene& scene, const DenseSc
     candidate.pose.covariance = verifier_->covarianceAt(scan, candidate.pose.mean);
     candidate.pose = withCommonError(candidate.pose, map_->error());
   }
-  const double missed = hypotheses.empty() || result.candidates.empty()
+  const double missed = result.candidates.empty()
                             ? 0
-                            : missedProbability(hypotheses, result.candidates.front().pose.mean);
+                            : missedProbability(hypotheses, result.candidates.front().pose.mean,
+                                                result.counters.cut_short > 0);
   result.view = angularCoverage(scene);
   weighCandidates(result, candidatesOf(verified.outside, *verifier_, scene), missed);
 }

@@ -83,10 +83,10 @@ TEST(DenseVerifier, RanksTheTrueCellOfALatticeFirst)
   {
     const TPose2D truth(x(random), y(random), heading(random));
     const DenseScan scan = makeDenseScan(room.scene(truth), 400);
-    std::uint64_t scored = 0;
-    const std::vector<RankedPose> ranked = verifier.rank(scan, lattice, 10, scored);
+    MatchingCounters counters;
+    const std::vector<RankedPose> ranked = verifier.rank(scan, lattice, 10, counters);
     ASSERT_FALSE(ranked.empty());
-    EXPECT_LE(scored, lattice.size());
+    EXPECT_LE(counters.poses_scored, lattice.size());
     EXPECT_NEAR(ranked.front().pose.x, truth.x, 0.06);
     EXPECT_NEAR(ranked.front().pose.y, truth.y, 0.06);
     EXPECT_NEAR(std::remainder(ranked.front().pose.phi - truth.phi, 2 * M_PI), 0, 0.02);
@@ -102,25 +102,25 @@ TEST(DenseVerifier, RanksFurtherProposalsBesideThoseBefore)
   const DenseScan scan = makeDenseScan(room.scene(truth), 400);
   const std::vector<PoseProposal> near{{3.2F, 2.4F, 0.75F}, {2.8F, 2.6F, 0.65F}};
   const std::vector<PoseProposal> elsewhere{{5, 5, 2}, {2, 5, -1.5F}, {6, 2, 3}};
-  std::uint64_t scored = 0;
-  const std::vector<RankedPose> right = verifier.rank(scan, near, 10, scored);
-  const std::vector<RankedPose> wrong = verifier.rank(scan, elsewhere, 10, scored);
+  MatchingCounters counters;
+  const std::vector<RankedPose> right = verifier.rank(scan, near, 10, counters);
+  const std::vector<RankedPose> wrong = verifier.rank(scan, elsewhere, 10, counters);
   ASSERT_EQ(right.size(), 1U);
   ASSERT_FALSE(wrong.empty());
   // Whichever come first, the best of all wins, and none of those before is lost. Proposals that
   // lie far behind are not refined any more.
-  const std::vector<RankedPose> right_last = verifier.rank(scan, near, 10, scored, wrong);
+  const std::vector<RankedPose> right_last = verifier.rank(scan, near, 10, counters, wrong);
   EXPECT_EQ(right_last.size(), wrong.size() + 1);
-  for (const auto& both : {verifier.rank(scan, elsewhere, 10, scored, right), right_last})
+  for (const auto& both : {verifier.rank(scan, elsewhere, 10, counters, right), right_last})
   {
     ASSERT_FALSE(both.empty());
     EXPECT_EQ(both.front().evidence.score, right.front().evidence.score);
     EXPECT_EQ(both.front().pose.x, right.front().pose.x);
   }
   // Each pose is kept once, and no more are kept than asked for.
-  EXPECT_EQ(verifier.rank(scan, near, 10, scored, right).size(), 1U);
-  EXPECT_EQ(verifier.rank(scan, near, 2, scored, wrong).size(), 2U);
-  EXPECT_EQ(verifier.rank(scan, {}, 10, scored, right).size(), 1U);
+  EXPECT_EQ(verifier.rank(scan, near, 10, counters, right).size(), 1U);
+  EXPECT_EQ(verifier.rank(scan, near, 2, counters, wrong).size(), 2U);
+  EXPECT_EQ(verifier.rank(scan, {}, 10, counters, right).size(), 1U);
 }
 
 TEST(DenseVerifier, CountsBeamsThatPassASolidWall)
@@ -164,9 +164,9 @@ TEST(DenseVerifier, ScoresNoProposalOffTheMap)
       }
     }
   }
-  std::uint64_t scored = 0;
-  EXPECT_TRUE(verifier.rank(scan, around, 10, scored).empty());
-  EXPECT_EQ(scored, 0U);
+  MatchingCounters counters;
+  EXPECT_TRUE(verifier.rank(scan, around, 10, counters).empty());
+  EXPECT_EQ(counters.poses_scored, 0U);
 }
 
 TEST(DenseVerifier, LoneReturnsInFreeSpaceSayNothing)

@@ -116,9 +116,8 @@ class LatticeRelocation : public RelocationMethod
     RelocationResult result;
     if (scene.beams.empty()) return result;
     const DenseScan scan = makeDenseScan(scene, kMaxBeams);
-    result.candidates =
-        candidatesOf(verifier_.rank(scan, proposals_, kMaxRanked, result.counters.poses_scored),
-                     verifier_, scene);
+    result.candidates = candidatesOf(verifier_.rank(scan, proposals_, kMaxRanked, result.counters),
+                                     verifier_, scene);
     result.view = angularCoverage(scene);
     weighCandidates(result);
     return result;

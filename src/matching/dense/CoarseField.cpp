@@ -27,6 +27,7 @@ constexpr double kStandingCell = 0.5;  // [m] cell that must have free space in 
 constexpr std::uint8_t kStanding = 1;
 constexpr std::size_t kReturns = CoarseScore::kReturns;
 constexpr std::size_t kThinningReturns = 8;  // first returns, by which proposals are thinned
+constexpr std::size_t kRoughReturns = 12;  // first returns, by which very many are thinned
 constexpr std::size_t kThinningShare = 4;  // one proposal in so many is kept
 constexpr std::size_t kLeastThinned = 512;  // lower bound of the proposals kept
 constexpr std::size_t kMostThinned = 8000;  // upper bound of the proposals kept, ties not counted
@@ -93,7 +94,7 @@ std::vector<std::uint8_t> withNeighbours(const RasterFrame& blocks,
 void keepBest(std::vector<CoarseScore>& scores, std::size_t count)
 {
   if (scores.size() <= count) return;
-  std::array<std::uint32_t, 255 * kThinningReturns + 1> with_score{};
+  std::array<std::uint32_t, 255 * kRoughReturns + 1> with_score{};
   for (const CoarseScore& entry : scores) ++with_score[entry.score];
   std::size_t kept = 0;
   auto lowest = static_cast<std::uint32_t>(with_score.size());
@@ -137,7 +138,8 @@ class CoarseField::TurnedReturns
     }
   }
 
-  /// Scores the proposals at which a robot could be, by the first kThinningReturns.
+  /// Scores the proposals at which a robot could be, by the first `returns`.
+  template <std::size_t returns>
   std::vector<CoarseScore> firstScores(const std::vector<PoseProposal>& proposals)
   {
     const auto near_rim = static_cast<float>(border_);
@@ -153,7 +155,7 @@ class CoarseField::TurnedReturns
       // No robot is in the border, and from there returns could fall outside.
       if (!(x >= near_rim && y >= near_rim && x < right_rim && y < top_rim)) continue;
       // The entry is kept or overwritten by the next one: a branch here could not be predicted.
-      scores[count] = {sumAt<0, kThinningReturns>(p), k};
+      scores[count] = {sumAt<0, returns>(p), k};
       const std::uint8_t here = *byteAt(static_cast<std::int32_t>(x), static_cast<std::int32_t>(y));
       count += here & kStanding;
     }
@@ -276,7 +278,16 @@ class CoarseField::TurnedReturns
   std::unique_ptr<Turned[]> table_;  // a row is not initialised before it is ready
 };
 
-CoarseField::CoarseField(const DenseField& field) : frame_(likelihoodFrame(field.frame))
+CoarseField::CoarseField(const DenseField& field) : CoarseField(field, likelihoodFrame(field.frame))
+{
+}
+
+CoarseField::CoarseField(const DenseField& field, double cell)
+    : CoarseField(field, coarserFrame(field.frame, cell))
+{
+}
+
+CoarseField::CoarseField(const DenseField& field, const RasterFrame& frame) : frame_(frame)
 {
   fillLikelihoods(field);
   markStanding(field);
@@ -329,6 +340,19 @@ void CoarseField::markStanding(const DenseField& field)
   }
 }
 
+std::vector<PoseProposal> CoarseField::best(const DenseScan& scan,
+                                            const std::vector<PoseProposal>& proposals,
+                                            std::size_t count) const
+{
+  std::vector<CoarseScore> scores =
+      TurnedReturns(scan, *this).firstScores<kRoughReturns>(proposals);
+  keepBest(scores, count);
+  std::vector<PoseProposal> kept;
+  kept.reserve(scores.size());
+  for (const CoarseScore& entry : scores) kept.push_back(proposals[entry.index]);
+  return kept;
+}
+
 std::uint32_t CoarseField::bestScore(const DenseScan& scan, const std::vector<TPose2D>& poses) const
 {
   TurnedReturns returns(scan, *this);
@@ -345,7 +369,7 @@ std::vector<CoarseScore> CoarseField::score(const DenseScan& scan,
                                             const std::vector<PoseProposal>& proposals) const
 {
   TurnedReturns returns(scan, *this);
-  std::vector<CoarseScore> scores = returns.firstScores(proposals);
+  std::vector<CoarseScore> scores = returns.firstScores<kThinningReturns>(proposals);
   keepBest(scores, std::clamp(scores.size() / kThinningShare, kLeastThinned, kMostThinned));
   returns.addOtherReturns(scores, proposals);
   return scores;

@@ -33,18 +33,27 @@ struct CoarseScore
 class CoarseField
 {
  public:
+  /// A field with cells of 0.1 m, or 0.2 m where that would be too large for the cache.
   explicit CoarseField(const DenseField& field);
+  /// A field with cells of about `cell` [m].
+  CoarseField(const DenseField& field, double cell);
 
   /// Returns the scores of the proposals at which a robot could be, in their order. Of very many
   /// only those are returned that are best by their first returns.
   std::vector<CoarseScore> score(const DenseScan& scan,
                                  const std::vector<PoseProposal>& proposals) const;
 
+  /// Returns the `count` proposals that are best by 12 returns, and those that equal the last of
+  /// them, in their order.
+  std::vector<PoseProposal> best(const DenseScan& scan, const std::vector<PoseProposal>& proposals,
+                                 std::size_t count) const;
+
   /// Returns the best score of any of the poses.
   std::uint32_t bestScore(const DenseScan& scan,
                           const std::vector<mrpt::math::TPose2D>& poses) const;
 
  private:
+  CoarseField(const DenseField& field, const RasterFrame& frame);
   class TurnedReturns;
   void fillLikelihoods(const DenseField& field);
   void markStanding(const DenseField& field);

@@ -16,7 +16,10 @@ using mrpt::math::TPose2D;
 
 namespace
 {
-// The cascade, \cite algorithm section 6. Stage 2, one pose of each neighbourhood:
+// The cascade, \cite algorithm section 6. Stage 1, where proposals are very many:
+constexpr double kRoughCell = 0.4;  // [m] of the raster that thins them
+constexpr std::size_t kRoughKept = 8000;  // proposals that are left, ties not counted
+// Stage 2, one pose of each neighbourhood:
 constexpr std::size_t kFirstBatch = 4;  // places refined first: one of them often explains all
 constexpr std::size_t kBatch = 64;  // places refined at a time after that
 constexpr std::size_t kMostRefined = 400;  // places; bounds the cost where many poses fit
@@ -93,6 +96,7 @@ DenseVerifier::DenseVerifier(const DenseField& field) : field_(field)
 {
   if (field.cells.empty()) throw std::invalid_argument("DenseVerifier: the field has no cells");
   coarse_field_ = std::make_unique<CoarseField>(field);
+  rough_field_ = std::make_unique<CoarseField>(field, kRoughCell);
   wall_crossings_ = std::make_unique<WallCrossings>(field);
 }
 
@@ -100,16 +104,20 @@ DenseVerifier::~DenseVerifier() = default;
 
 std::vector<RankedPose> DenseVerifier::rank(const DenseScan& scan,
                                             const std::vector<PoseProposal>& proposals,
-                                            std::size_t max_ranked, std::uint64_t& poses_scored,
+                                            std::size_t max_ranked, MatchingCounters& counters,
                                             std::vector<RankedPose> before) const
 {
   if (scan.size() == 0 || proposals.empty()) return before;
   // 1. Score every proposal coarsely with a few returns.
-  std::vector<CoarseScore> scores = coarse_field_->score(scan, proposals);
-  poses_scored += scores.size();
+  const bool are_many = proposals.size() > 2 * kRoughKept;
+  const std::vector<PoseProposal> likely =
+      are_many ? rough_field_->best(scan, proposals, kRoughKept) : std::vector<PoseProposal>{};
+  const std::vector<PoseProposal>& tried = are_many ? likely : proposals;
+  std::vector<CoarseScore> scores = coarse_field_->score(scan, tried);
+  counters.poses_scored += are_many ? proposals.size() : scores.size();
 
   // 2. Refine the best of each neighbourhood on some of the returns.
-  std::vector<RankedPose> poses = race(scan, proposals, std::move(scores), before);
+  std::vector<RankedPose> poses = race(scan, tried, std::move(scores), before, counters);
   // Neighbouring poses that did not converge stay rivals until all returns have scored them. Which
   // of them wins must not depend on where the proposals were.
   keepDistinct(poses, kFinalKept, kApartDistance);
@@ -149,7 +157,8 @@ std::vector<RankedPose> DenseVerifier::rank(const DenseScan& scan,
 std::vector<RankedPose> DenseVerifier::race(const DenseScan& scan,
                                             const std::vector<PoseProposal>& proposals,
                                             std::vector<CoarseScore> scores,
-                                            const std::vector<RankedPose>& before) const
+                                            const std::vector<RankedPose>& before,
+                                            MatchingCounters& counters) const
 {
   const auto worse = [](const CoarseScore& a, const CoarseScore& b)
   { return a.score != b.score ? a.score < b.score : a.index > b.index; };
@@ -193,6 +202,7 @@ std::vector<RankedPose> DenseVerifier::race(const DenseScan& scan,
       poses.push_back(pose);
     }
   }
+  if (can_win()) ++counters.cut_short;
   return poses;
 }
 

@@ -11,6 +11,7 @@
 #include "matching/dense/DenseEvidence.h"
 #include "matching/dense/DenseScan.h"
 #include "sigloc/map/DenseField.h"
+#include "sigloc/matching/RelocationResult.h"
 
 namespace sigloc
 {
@@ -33,10 +34,11 @@ class DenseVerifier
   ~DenseVerifier();
 
   /// Returns at most `max_ranked` distinct poses (more than 0.5 m or 17 degrees apart), best first.
-  /// `poses_scored` is increased by the number of poses scored. Poses ranked `before` for the same
+  /// Counts the poses scored, and a search cut short where more than 400 places fit nearly as well
+  /// as the best: the others are not refined. Poses ranked `before` for the same
   /// scan compete with those from the proposals. \cite algorithm section 6, "The cascade"
   std::vector<RankedPose> rank(const DenseScan& scan, const std::vector<PoseProposal>& proposals,
-                               std::size_t max_ranked, std::uint64_t& poses_scored,
+                               std::size_t max_ranked, MatchingCounters& counters,
                                std::vector<RankedPose> before = {}) const;
 
   /// Returns the pose refined by up to `steps` Gauss-Newton steps on the first `beams` returns. It
@@ -69,7 +71,8 @@ class DenseVerifier
  private:
   std::vector<RankedPose> race(const DenseScan& scan, const std::vector<PoseProposal>& proposals,
                                std::vector<CoarseScore> scores,
-                               const std::vector<RankedPose>& before) const;
+                               const std::vector<RankedPose>& before,
+                               MatchingCounters& counters) const;
   void refineAll(const DenseScan& scan, std::vector<mrpt::math::TPose2D>& poses, int steps,
                  std::size_t beams, float least = 0, float* most_weight = nullptr) const;
   void refineFinally(const DenseScan& scan, const DenseScan& balanced, RankedPose& pose) const;
@@ -79,6 +82,7 @@ class DenseVerifier
 
   const DenseField& field_;
   std::unique_ptr<const CoarseField> coarse_field_;
+  std::unique_ptr<const CoarseField> rough_field_;  // where proposals are very many
   std::unique_ptr<const WallCrossings> wall_crossings_;
 };
 }  // namespace sigloc

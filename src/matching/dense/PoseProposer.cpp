@@ -16,7 +16,7 @@ namespace
 {
 constexpr double kParallel = 0.35;  // [rad] between walls, below which one of them is enough
 constexpr double kMinPairDistance = 0.8;  // [m] of circles; shorter pairs give poor headings
-constexpr std::uint32_t kUsualProposals = 16384;  // for which memory is reserved
+constexpr std::size_t kUsualProposals = 16384;  // for which memory is reserved
 constexpr double kRadiusTolerance = 0.3;  // [m] gate on the radius of an observed circle
 constexpr double kPairTolerance = 0.15;  // [m] gate on the distance of two circles
 constexpr double kPairRange = 15.0;  // [m] largest distance of a pair of circles
@@ -24,14 +24,22 @@ constexpr double kSlideStep = 0.4;  // [m] of a slid wall
 constexpr double kOverhang = 0.3;  // share of an observed wall that may lie beyond the mapped one
 constexpr double kLengthTolerance = 0.3;  // [m] by which an observed wall may be the longer one
 
-constexpr std::uint32_t kBudget = 20000;  // most proposals of one scene, further ones not counted
 constexpr std::uint32_t kSlidWalls = 1;  // observed walls that are slid at least
 constexpr std::uint32_t kEnough = 2000;  // proposals; with fewer another observed wall is slid
 constexpr std::uint32_t kMaxPairs = 3;  // observed pairs of circles tried, rarest distance first
 // The same in all where further poses are proposed.
-constexpr std::uint32_t kThoroughBudget = 12000;
 constexpr std::uint32_t kThoroughSlidWalls = 3;
 constexpr std::uint32_t kThoroughPairs = 6;
+
+/// Orders points by their square of 8 m. What is tried one after the other then lies together in
+/// the map, whose memory is read once.
+bool isBefore(const TPoint2D& a, const TPoint2D& b)
+{
+  constexpr double kSquare = 8.0;  // [m]
+  const double row_a = std::floor(a.y / kSquare);
+  const double row_b = std::floor(b.y / kSquare);
+  return row_a != row_b ? row_a < row_b : std::floor(a.x / kSquare) < std::floor(b.x / kSquare);
+}
 
 /// Returns the pose with heading `phi` (cosine `c`, sine `s`) that maps a point of the robot frame
 /// to one of the map.
@@ -61,7 +69,8 @@ PoseProposer::PoseProposer(const FeatureMap& map)
   for (auto& ends : wall_ends_)
   {
     std::stable_sort(ends.begin(), ends.end(),
-                     [](const MappedEnd& a, const MappedEnd& b) { return a.length > b.length; });
+                     [](const MappedEnd& a, const MappedEnd& b)
+                     { return isBefore(a.position, b.position); });
   }
   for (const WallLine& line : map.lines())
   {
@@ -77,7 +86,8 @@ PoseProposer::PoseProposer(const FeatureMap& map)
     walls_.push_back({line.direction, -tangent.y, tangent.x, start, length});
   }
   std::stable_sort(walls_.begin(), walls_.end(),
-                   [](const MappedWall& a, const MappedWall& b) { return a.length > b.length; });
+                   [](const MappedWall& a, const MappedWall& b)
+                   { return isBefore(a.start, b.start); });
   for (const std::uint32_t a : circles)
   {
     for (const std::uint32_t b : circles)
@@ -103,30 +113,28 @@ PoseProposer::PoseProposer(const FeatureMap& map)
 std::vector<PoseProposal> PoseProposer::propose(const std::vector<Feature>& observed) const
 {
   std::vector<PoseProposal> proposals;
-  proposals.reserve(std::min(kBudget, kUsualProposals));
+  proposals.reserve(kUsualProposals);
   proposeWallEnds(observed, proposals);
   proposeCirclePairs(observed, 0, kMaxPairs, proposals);
   const std::vector<const Feature*> walls = wallsToSlide(observed);
   for (std::size_t i = 0; i < walls.size(); ++i)
   {
     if (i >= kSlidWalls && proposals.size() >= kEnough) break;
-    slide(*walls[i], kBudget, proposals);
+    slide(*walls[i], proposals);
   }
-  if (proposals.size() > kBudget) proposals.resize(kBudget);
   return proposals;
 }
 
 std::vector<PoseProposal> PoseProposer::proposeFurther(const std::vector<Feature>& observed) const
 {
   std::vector<PoseProposal> proposals;
-  proposals.reserve(std::min(kThoroughBudget, kUsualProposals));
+  proposals.reserve(kUsualProposals);
   proposeCirclePairs(observed, kMaxPairs, kThoroughPairs, proposals);
   const std::vector<const Feature*> walls = wallsToSlide(observed);
   for (std::size_t i = kSlidWalls; i < walls.size(); ++i)
   {
-    slide(*walls[i], kThoroughBudget, proposals);
+    slide(*walls[i], proposals);
   }
-  if (proposals.size() > kThoroughBudget) proposals.resize(kThoroughBudget);
   return proposals;
 }
 
@@ -140,7 +148,7 @@ void PoseProposer::proposeWallEnds(const std::vector<Feature>& observed,
     const double s = std::sin(end.direction);
     for (const MappedEnd& mapped : wall_ends_[static_cast<std::size_t>(end.side)])
     {
-      if (mapped.length + kLengthTolerance < end.size * (1.0 - kOverhang)) break;
+      if (mapped.length + kLengthTolerance < end.size * (1.0 - kOverhang)) continue;
       out.push_back(poseCarrying(end.position, mapped.position, mapped.direction - end.direction,
                                  mapped.c * c + mapped.s * s, mapped.s * c - mapped.c * s));
     }
@@ -170,17 +178,15 @@ std::vector<const Feature*> PoseProposer::wallsToSlide(const std::vector<Feature
   return slid;
 }
 
-/// Slides an observed wall along every mapped one that is long enough, until there are `most`
-/// proposals. Eq. (4.9)
-void PoseProposer::slide(const Feature& wall, std::size_t most,
-                         std::vector<PoseProposal>& out) const
+/// Slides an observed wall along every mapped one that is long enough. Eq. (4.9)
+void PoseProposer::slide(const Feature& wall, std::vector<PoseProposal>& out) const
 {
   const TPoint2D normal = directionVector(wall);
   const double inside = wall.size * (0.5 - kOverhang);
   for (const MappedWall& mapped : walls_)
   {
     const bool is_long = mapped.length + kLengthTolerance >= wall.size * (1.0 - kOverhang);
-    if (!is_long || out.size() >= most) break;
+    if (!is_long) continue;
     const double phi = mapped.direction - wall.direction;
     const double c = mapped.c * normal.x + mapped.s * normal.y;
     const double s = mapped.s * normal.x - mapped.c * normal.y;

@@ -22,11 +22,10 @@ class PoseProposer
   explicit PoseProposer(const FeatureMap& map);
 
   /// Returns the poses proposed for observed features: wall ends first, then circles, then slid
-  /// walls, at most 20000 poses. They are enough for nearly every scene.
+  /// walls. They are enough for nearly every scene. None is cut: in a large map they are very many.
   std::vector<PoseProposal> propose(const std::vector<Feature>& observed) const;
 
-  /// Returns further poses for a scene that the first ones explain poorly, at most
-  /// 12000 of them.
+  /// Returns further poses for a scene that the first ones explain poorly.
   std::vector<PoseProposal> proposeFurther(const std::vector<Feature>& observed) const;
 
  private:
@@ -56,12 +55,12 @@ class PoseProposer
 
   void proposeWallEnds(const std::vector<Feature>& observed, std::vector<PoseProposal>& out) const;
   std::vector<const Feature*> wallsToSlide(const std::vector<Feature>& observed) const;
-  void slide(const Feature& wall, std::size_t most, std::vector<PoseProposal>& out) const;
+  void slide(const Feature& wall, std::vector<PoseProposal>& out) const;
   void proposeCirclePairs(const std::vector<Feature>& observed, std::size_t first, std::size_t last,
                           std::vector<PoseProposal>& out) const;
 
-  std::array<std::vector<MappedEnd>, 2> wall_ends_;  // by side, longest wall first
-  std::vector<MappedWall> walls_;  // longest first
+  std::array<std::vector<MappedEnd>, 2> wall_ends_;  // by side, and by place
+  std::vector<MappedWall> walls_;  // by place
   std::vector<CirclePair> pairs_;  // by distance
 };
 }  // namespace sigloc
