@@ -244,6 +244,35 @@ TEST(FeatureTracking, SplitsWhereTwoPairingsAreAsGoodAndJoinsAgain)
   EXPECT_NEAR(joined.hypotheses[0].pose.mean.y, 0, 0.05);
 }
 
+TEST(FeatureTracking, WhereNothingIsMappedAClaimStands)
+{
+  std::vector<Feature> map;
+  for (const TPoint2D& p : kUnique) map.push_back(landmarkAt(p, 0.01));
+  HypothesisTracker tracker(
+      std::make_shared<const SignatureMatcher>(std::make_shared<const FeatureMap>(map)));
+  MotionIncrement still;
+  for (int step = 0; step < 3; ++step) tracker.step(still, sceneOf(kUnique));
+  ASSERT_EQ(tracker.belief().verdict, Verdict::localized);
+  Random random(5, 1);
+  for (int step = 1; step <= 8; ++step)
+  {
+    MotionIncrement drive;
+    drive.mean = {step == 1 ? 16.0 : 0.5, 0, 0};
+    drive.covariance(0, 0) = drive.covariance(1, 1) = 1e-4;
+    drive.covariance(2, 2) = 1e-6;
+    std::vector<TPoint2D> unmapped;
+    for (int k = 0; k < 6; ++k)
+    {
+      unmapped.emplace_back(random.uniform(0.5, 5.0), random.uniform(-4.0, 4.0));
+    }
+    const Belief& belief = tracker.step(drive, sceneOf(unmapped));
+    ASSERT_FALSE(belief.hypotheses.empty());
+    EXPECT_NEAR(belief.hypotheses[0].pose.mean.x, 15.5 + 0.5 * step, 0.1) << step;
+    EXPECT_GE(belief.hypotheses[0].weight, 0.99) << step;
+    EXPECT_EQ(belief.verdict, Verdict::localized) << step;
+  }
+}
+
 TEST(FeatureTracking, AFirstLookAtTooLittleDoesNotEndTheSearch)
 {
   std::vector<Feature> map;

@@ -57,9 +57,10 @@ struct FeatureAssociator::Option
   std::vector<FeaturePairing> pairings;
 };
 
-FeatureAssociator::FeatureAssociator(const FeatureVerifier& verifier,
+FeatureAssociator::FeatureAssociator(const FeatureVerifier& verifier, const FeatureSpacing& spacing,
                                      const std::vector<Feature>& observed, double travelled)
     : verifier_(verifier),
+      spacing_(spacing),
       scene_(observed, verifier.map(), verifier.options(), verifier.gates()),
       order_(observed.size()),
       travelled_(travelled)
@@ -96,7 +97,7 @@ bool FeatureAssociator::tryPairing(const FeaturePairing& pairing, Growing& growi
   int degrees = 2;
   const bool fresh = !result.correlation.knows(pairing.mapped);
   double gain = std::log(verifier_.options().detection_probability /
-                         verifier_.map().clutterDensity(observed.type())) +
+                         spacing_.clutterDensity(observed.type())) +
                 logDensity(distance, s, 2, fresh);
   const bool directed = hasBearing(observed.type());
   PlanarMeasurement direction;
@@ -158,7 +159,11 @@ FeatureAssociation FeatureAssociator::finished(const Growing& growing) const
   for (std::uint32_t q = 0; q < scene_.size(); ++q)
   {
     const bool counted = counts(scene_, {q, 0}, result.pairings);
-    if (!growing.paired[q] && counted) result.log_odds += scene_.miss_gain[q];
+    if (growing.paired[q] || !counted) continue;
+    // Where nothing is mapped, a feature without a partner is no surprise.
+    const DirectedFeature& view = scene_.views[q];
+    const bool expected = spacing_.isMapped(result.pose.place(view.position()), view.type());
+    if (expected) result.log_odds += scene_.miss_gain[q];
   }
   result.log_odds +=
       std::log1p(-verifier_.options().detection_probability) *

@@ -7,6 +7,7 @@
 
 #include "matching/features/FeatureVerifier.h"
 #include "sigloc/geometry/GaussianPose.h"
+#include "tracking/landmarks/FeatureSpacing.h"
 #include "tracking/tracks/SchmidtKalmanFilter.h"
 
 namespace sigloc
@@ -32,10 +33,10 @@ struct FeatureAssociation
 class FeatureAssociator
 {
  public:
-  /// Keeps references to the verifier and the features, which must outlive it. `travelled` [m]
-  /// counts from any start and never falls.
-  FeatureAssociator(const FeatureVerifier& verifier, const std::vector<Feature>& observed,
-                    double travelled);
+  /// Keeps references to the verifier, the spacing of its map and the features, which must outlive
+  /// it. `travelled` [m] counts from any start and never falls.
+  FeatureAssociator(const FeatureVerifier& verifier, const FeatureSpacing& spacing,
+                    const std::vector<Feature>& observed, double travelled);
 
   /// Returns the ways of pairing that have at least a twentieth of the best one's share, at
   /// distinct poses, best first. Never empty; one way where nothing is ambiguous. Eq. (8.15)
@@ -56,6 +57,7 @@ class FeatureAssociator
                                                  const std::vector<Option>& options) const;
 
   const FeatureVerifier& verifier_;
+  const FeatureSpacing& spacing_;
   PreparedScene scene_;
   std::vector<std::uint32_t> order_;  // nearest to the robot first, derived features last
   double travelled_;

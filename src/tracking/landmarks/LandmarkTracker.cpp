@@ -50,7 +50,10 @@ double bestScore(const std::vector<Track>& tracks)
 
 LandmarkTracker::LandmarkTracker(std::shared_ptr<const SignatureMatcher> matcher,
                                  const TrackerOptions& options)
-    : matcher_(std::move(matcher)), options_(options), mapped_types_(kFeatureTypes, false)
+    : matcher_(std::move(matcher)),
+      options_(options),
+      spacing_(matcher_->featureVerifier()->map()),
+      mapped_types_(kFeatureTypes, false)
 {
   for (const Feature& feature : matcher_->map().features())
   {
@@ -86,7 +89,7 @@ void LandmarkTracker::remember()
 
 void LandmarkTracker::update(TrackSet& set, double travelled, std::uint64_t& next_id)
 {
-  const FeatureAssociator associator(*matcher_->featureVerifier(), seen_, travelled);
+  const FeatureAssociator associator(*matcher_->featureVerifier(), spacing_, seen_, travelled);
   std::vector<Track> updated;
   updated.reserve(set.tracks.size());
   for (const Track& track : set.tracks)
@@ -169,7 +172,34 @@ bool LandmarkTracker::relocate(TrackSet& set, const std::optional<PoseRegion>& r
     slipped->features = there.features;
   }
   set.dealOut(result, [&](std::size_t k) { return startAt(result.candidates[k], next_id++); });
+  weighNewcomers(set);
   return true;
+}
+
+/// A new track has explained the gathered features already. So has the heaviest older one, and what
+/// came before. The new one may weigh as much where its log-odds are no lower, unless the older one
+/// is retained: look-alikes explain a part of the way as well. Eq. (8.24)
+void LandmarkTracker::weighNewcomers(TrackSet& set)
+{
+  const Track* heaviest = nullptr;
+  for (const Track& track : set.tracks)
+  {
+    if (track.isNew()) continue;
+    if (heaviest == nullptr || track.hypothesis.weight > heaviest->hypothesis.weight)
+    {
+      heaviest = &track;
+    }
+  }
+  if (heaviest == nullptr || heaviest->retained()) return;
+  const double weight = heaviest->hypothesis.weight;
+  const double log_odds = heaviest->confirmed;
+  for (Track& track : set.tracks)
+  {
+    if (!track.isNew()) continue;
+    const double lead = std::min(0.0, track.confirmed - log_odds);
+    track.hypothesis.weight = std::max(track.hypothesis.weight, weight * std::exp(lead));
+  }
+  set.normaliseTracks();
 }
 
 /// "Somewhere else" gains where a relocation finds poses without a track that are as good as those

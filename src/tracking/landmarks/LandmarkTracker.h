@@ -9,6 +9,7 @@
 
 #include "sigloc/matching/SignatureMatcher.h"
 #include "sigloc/tracking/TrackerOptions.h"
+#include "tracking/landmarks/FeatureSpacing.h"
 #include "tracking/tracks/TrackSet.h"
 
 namespace sigloc
@@ -66,10 +67,12 @@ class LandmarkTracker
   std::vector<Feature> gathered() const;
   RelocationResult localize(const std::optional<PoseRegion>& region, bool settled) const;
   void weighElsewhere(TrackSet& set, const RelocationResult& result, double fresh_share) const;
+  static void weighNewcomers(TrackSet& set);
   Track startAt(const Candidate& candidate, std::uint64_t id) const;
 
   std::shared_ptr<const SignatureMatcher> matcher_;
   TrackerOptions options_;
+  FeatureSpacing spacing_;
   std::vector<bool> mapped_types_;
   bool gathers_ = true;  // the map has no walls, so local maps of several steps are used
   std::vector<Feature> seen_;  // in the present step, of the types that the map has
