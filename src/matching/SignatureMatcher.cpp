@@ -3,6 +3,7 @@
 #include "sigloc/matching/SignatureMatcher.h"
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 
 #include "geometry/same_place.h"
@@ -14,6 +15,7 @@
 #include "matching/features/GeneratorOptions.h"
 #include "matching/features/HypothesisSet.h"
 #include "matching/generators.h"
+#include "matching/keypoints/KeyPairSearch.h"
 
 namespace sigloc
 {
@@ -22,6 +24,8 @@ using mrpt::math::TPose2D;
 namespace
 {
 constexpr double kPoorScore = 0.65;  // below this score further poses are proposed, section 4 (e)
+constexpr std::array<std::size_t, 3> kPairProposals = {1024, 4096, 16000};  // after each round
+constexpr std::size_t kLeastSupporters = 3;  // of a pose that ends the search
 constexpr std::size_t kMinLandmarks = 2;  // features needed without a laser
 constexpr std::size_t kMaxBeams = 400;  // of a scene that are used; more are thinned evenly
 
@@ -45,6 +49,20 @@ bool seesWalls(const ObservedScene& scene)
 {
   return std::any_of(scene.features.begin(), scene.features.end(),
                      [](const Feature& feature) { return feature.type == FeatureType::segment; });
+}
+
+/// Returns whether the best pose needs no further search: it explains the scan well, leads, and
+/// different pairs of key points have proposed it. \cite algorithm eq. (4.13)
+bool isSettled(const std::vector<RankedPose>& poses, const KeyPairSearch& search)
+{
+  constexpr double kLead = 0.05;
+  constexpr double kGood = 0.9;  // score of a pose that needs no more than this lead
+  constexpr double kFair = 0.65;  // least score of a pose with a larger lead
+  if (poses.empty()) return false;
+  const double score = poses[0].evidence.score;
+  const double lead = poses.size() > 1 ? score - poses[1].evidence.score : score;
+  if (lead < kLead || score < kFair || (score < kGood && score + lead < 1)) return false;
+  return search.supportOf(poses[0].pose).pairs >= kLeastSupporters;
 }
 
 std::vector<PoseProposal> proposalsOf(const std::vector<FeatureHypothesis>& hypotheses)
@@ -79,6 +97,10 @@ SignatureMatcher::SignatureMatcher(std::shared_ptr<const FeatureMap> map,
     if (!verifier_)
       throw std::invalid_argument("SignatureMatcher: minimal sets need a dense field");
     proposer_ = std::make_unique<PoseProposer>(*map_);
+    if (mode == GenerationMode::automatic)
+    {
+      key_pairs_ = std::make_unique<KeyPairIndex>(mappedKeyPoints(*map_), map_->error());
+    }
   }
   else
   {
@@ -114,7 +136,7 @@ RelocationResult SignatureMatcher::localize(const ObservedScene& scene,
     const DenseScan scan = makeDenseScan(scene, kMaxBeams);
     const VerifiedPoses verified =
         generator_ ? verify(scan, proposalsOf(hypotheses), region, result.counters, {})
-                   : verifyMinimalSets(scene, scan, region, result.counters);
+                   : searchDensely(scene, scan, region, result.counters);
     // 3. Weigh the candidates and "somewhere else", and decide the verdict.
     concludeDensely(scene, scan, verified, hypotheses, result);
     return result;
@@ -141,6 +163,12 @@ std::vector<TPose2D> SignatureMatcher::propose(const ObservedScene& scene) const
   std::vector<PoseProposal> proposals =
       generator_ ? proposalsOf(generator_->generate(scene.features, counters))
                  : proposer_->propose(scene.features);
+  if (key_pairs_)
+  {
+    const std::vector<PoseProposal> by_pairs =
+        KeyPairSearch(*key_pairs_, scene.features).next(kPairProposals.back());
+    proposals.insert(proposals.begin(), by_pairs.begin(), by_pairs.end());
+  }
   if (proposer_)
   {
     const std::vector<PoseProposal> further = proposer_->proposeFurther(scene.features);
@@ -152,15 +180,43 @@ std::vector<TPose2D> SignatureMatcher::propose(const ObservedScene& scene) const
   return poses;
 }
 
+/// Pairs of key points come first. What they propose is judged where a pose may be settled by it,
+/// else together with what minimal sets propose.
+SignatureMatcher::VerifiedPoses SignatureMatcher::searchDensely(
+    const ObservedScene& scene, const DenseScan& scan, const std::optional<PoseRegion>& region,
+    MatchingCounters& counters) const
+{
+  if (!key_pairs_) return verifyMinimalSets(scene, scan, region, counters, {}, {});
+  KeyPairSearch search(*key_pairs_, scene.features);
+  VerifiedPoses verified;
+  std::vector<PoseProposal> pending;
+  for (const std::size_t wanted : kPairProposals)
+  {
+    const std::vector<PoseProposal> proposals = search.next(wanted);
+    counters.hypotheses += proposals.size();
+    pending.insert(pending.end(), proposals.begin(), proposals.end());
+    if (!pending.empty() && search.anySupportedBy(kLeastSupporters))
+    {
+      verified = verify(scan, std::move(pending), region, counters, std::move(verified));
+      pending.clear();
+    }
+    if (search.finished() || isSettled(verified.inside, search)) break;
+  }
+  counters.signature_pairs += search.entriesRead();
+  if (isSettled(verified.inside, search)) return verified;
+  return verifyMinimalSets(scene, scan, region, counters, std::move(pending), std::move(verified));
+}
+
 /// The first proposals explain most scenes. Where they do so poorly, their results compete with
 /// those of further proposals.
 SignatureMatcher::VerifiedPoses SignatureMatcher::verifyMinimalSets(
     const ObservedScene& scene, const DenseScan& scan, const std::optional<PoseRegion>& region,
-    MatchingCounters& counters) const
+    MatchingCounters& counters, std::vector<PoseProposal> pending, VerifiedPoses before) const
 {
   std::vector<PoseProposal> proposals = proposer_->propose(scene.features);
   counters.hypotheses += proposals.size();
-  VerifiedPoses first = verify(scan, std::move(proposals), region, counters, {});
+  proposals.insert(proposals.end(), pending.begin(), pending.end());
+  VerifiedPoses first = verify(scan, std::move(proposals), region, counters, std::move(before));
   if (!first.inside.empty() && first.inside.front().evidence.score >= kPoorScore) return first;
   proposals = proposer_->proposeFurther(scene.features);
   counters.hypotheses += proposals.size();

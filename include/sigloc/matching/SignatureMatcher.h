@@ -18,7 +18,7 @@ namespace sigloc
 /// How hypotheses are generated: the modes of \cite algorithm section 4.
 enum class GenerationMode : std::uint8_t
 {
-  automatic = 0,  ///< minimal sets where the map has a dense field, else patterns
+  automatic = 0,  ///< key pairs, then minimal sets, for a dense field; else patterns
   plain = 1,  ///< (a) compares every signature with every mapped one
   anchors = 2,  ///< (b) sampled anchors and partners
   pairs = 3,  ///< (c) pair index
@@ -53,6 +53,7 @@ struct MatcherOptions
 
 class PoseProposer;
 class DenseVerifier;
+class KeyPairIndex;
 class FeatureHypothesisGenerator;
 class FeatureVerifier;
 struct DenseScan;
@@ -107,9 +108,13 @@ class SignatureMatcher
   VerifiedPoses verify(const DenseScan& scan, std::vector<PoseProposal> proposals,
                        const std::optional<PoseRegion>& region, MatchingCounters& counters,
                        VerifiedPoses before) const;
+  VerifiedPoses searchDensely(const ObservedScene& scene, const DenseScan& scan,
+                              const std::optional<PoseRegion>& region,
+                              MatchingCounters& counters) const;
   VerifiedPoses verifyMinimalSets(const ObservedScene& scene, const DenseScan& scan,
                                   const std::optional<PoseRegion>& region,
-                                  MatchingCounters& counters) const;
+                                  MatchingCounters& counters, std::vector<PoseProposal> pending,
+                                  VerifiedPoses before) const;
   /// Fills the result from the verified poses. `hypotheses` are those that the proposals came from;
   /// empty for mode (e), which hardly ever misses the right pose.
   void concludeDensely(const ObservedScene& scene, const DenseScan& scan,
@@ -121,6 +126,7 @@ class SignatureMatcher
   MatcherOptions options_;
   std::unique_ptr<const DenseVerifier> verifier_;
   std::unique_ptr<const PoseProposer> proposer_;  // mode (e)
+  std::unique_ptr<const KeyPairIndex> key_pairs_;  // mode (f)
   std::shared_ptr<const FeatureVerifier> feature_verifier_;  // of modes (a) to (d)
   std::unique_ptr<const FeatureHypothesisGenerator> generator_;  // modes (a) to (d)
 };

@@ -23,6 +23,7 @@ constexpr std::uint32_t kBearingBins = 48;
 constexpr std::uint32_t kTurnBins = 32;
 constexpr double kMaxRange = 12.0;  // [m] between the key points of a pair
 constexpr std::size_t kRangeSteps = 48;  // in which the range is chosen
+constexpr std::size_t kRangeSample = 5000;  // key points whose partners are counted for it, at most
 constexpr std::size_t kLeastSteps = 8;  // 2 m
 constexpr std::size_t kPartners = 64;  // of a key point within the range, on average
 constexpr std::size_t kSmallIndex = 200000;  // pairs that any map may have
@@ -77,9 +78,11 @@ double along(const Symmetric2& covariance, double x, double y)
   return covariance.xx * x * x + 2 * covariance.xy * x * y + covariance.yy * y * y;
 }
 
-/// Calls visit(a, b) for the ordered pairs of points within a range [m] that the index may hold.
+/// Calls visit(a, b) for the ordered pairs of points within a range [m] that the index may hold,
+/// where a is every `stride`-th point.
 template <class Visit>
-void forEachPair(const std::vector<KeyPoint>& points, double range, Visit&& visit)
+void forEachPair(const std::vector<KeyPoint>& points, double range, std::size_t stride,
+                 Visit&& visit)
 {
   const auto cellOf = [](double x, double y)
   {
@@ -92,7 +95,7 @@ void forEachPair(const std::vector<KeyPoint>& points, double range, Visit&& visi
     cells[cellOf(points[k].position.x, points[k].position.y)].push_back(k);
   }
   const int reach = static_cast<int>(std::ceil(range / kCell));
-  for (std::uint32_t i = 0; i < points.size(); ++i)
+  for (std::size_t i = 0; i < points.size(); i += stride)
   {
     const TPoint2D& from = points[i].position;
     for (int dx = -reach; dx <= reach; ++dx)
@@ -161,12 +164,12 @@ KeyPairIndex::KeyPairIndex(const std::vector<KeyPoint>& points, const MapErrorMo
       pairs / (rows_ * kEntriesPerCell), kMinDistanceBins, kMaxDistanceBins));
   // Pairs are counted by cell first, so that the entries are allocated once.
   cells_.assign(std::size_t{rows_} * distance_bins_ + 1, 0);
-  forEachPair(points, range_,
+  forEachPair(points, range_, 1,
               [&](const KeyPoint& a, const KeyPoint& b) { ++cells_[cellOf(keyPair(a, b))]; });
   std::exclusive_scan(cells_.begin(), cells_.end(), cells_.begin(), 0U);
   entries_.resize(pairs);
   std::vector<std::uint32_t> next(cells_.begin(), cells_.end() - 1);
-  forEachPair(points, range_,
+  forEachPair(points, range_, 1,
               [&](const KeyPoint& a, const KeyPoint& b)
               {
                 const KeyPair pair = keyPair(a, b);
@@ -180,14 +183,15 @@ KeyPairIndex::KeyPairIndex(const std::vector<KeyPoint>& points, const MapErrorMo
 /// near partners are few, and the pairs that tell most are those of far ones.
 std::size_t KeyPairIndex::chooseRange(const std::vector<KeyPoint>& points)
 {
+  const std::size_t stride = 1 + points.size() / kRangeSample;
   std::vector<std::size_t> counts(kRangeSteps, 0);
-  forEachPair(points, kMaxRange,
+  forEachPair(points, kMaxRange, stride,
               [&](const KeyPoint& a, const KeyPoint& b)
               {
                 const double share = (b.position - a.position).norm() / kMaxRange;
                 ++counts[std::min(kRangeSteps - 1, static_cast<std::size_t>(share * kRangeSteps))];
               });
-  const std::size_t most = std::max(kPartners * points.size(), kSmallIndex);
+  const std::size_t most = std::max(kPartners * points.size(), kSmallIndex) / stride;
   std::size_t steps = 0;
   std::size_t pairs = 0;
   while (steps < kRangeSteps && (pairs + counts[steps] <= most || steps < kLeastSteps))
@@ -196,7 +200,7 @@ std::size_t KeyPairIndex::chooseRange(const std::vector<KeyPoint>& points)
   }
   range_ = kMaxRange * static_cast<double>(steps) / kRangeSteps;
   pairs = 0;
-  forEachPair(points, range_, [&](const KeyPoint&, const KeyPoint&) { ++pairs; });
+  forEachPair(points, range_, 1, [&](const KeyPoint&, const KeyPoint&) { ++pairs; });
   return pairs;
 }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace sigloc
 {
@@ -119,20 +120,66 @@ void KeyPairSearch::propose(std::uint32_t index)
   }
 }
 
-std::size_t KeyPairSearch::supporters(const TPose2D& pose) const
+KeyPairSearch::Support KeyPairSearch::supportOf(const TPose2D& pose) const
 {
-  std::size_t count = 0;
+  constexpr auto kDistance = static_cast<float>(kSupportDistance * kSupportDistance);
+  const auto x = static_cast<float>(pose.x);
+  const auto y = static_cast<float>(pose.y);
+  Support support;
+  std::vector<bool> used(key_points_, false);
   std::int64_t last = -1;  // proposals come pair by pair
   for (std::size_t k = 0; k < proposals_.size(); ++k)
   {
     const PoseProposal& p = proposals_[k];
-    const double dx = p.x - pose.x;
-    const double dy = p.y - pose.y;
-    if (owners_[k] == last || dx * dx + dy * dy > kSupportDistance * kSupportDistance) continue;
+    const float dx = p.x - x;
+    const float dy = p.y - y;
+    if (dx * dx + dy * dy > kDistance || owners_[k] == last) continue;
     if (std::abs(wrapToPi(p.phi - pose.phi)) > kSupportAngle) continue;
     last = owners_[k];
-    ++count;
+    ++support.pairs;
+    for (const std::uint32_t point : {pairs_[owners_[k]].a, pairs_[owners_[k]].b})
+    {
+      if (!used[point]) ++support.points;
+      used[point] = true;
+    }
   }
-  return count;
+  return support;
+}
+bool KeyPairSearch::anySupportedBy(std::size_t pairs) const
+{
+  // Swept along a direction that walls seldom have, so that few proposals lie side by side.
+  constexpr float kAlongX = 0.84F;
+  constexpr float kAlongY = 0.54F;
+  std::vector<std::pair<float, std::uint32_t>> order;
+  order.reserve(proposals_.size());
+  for (std::uint32_t k = 0; k < proposals_.size(); ++k)
+  {
+    order.emplace_back(kAlongX * proposals_[k].x + kAlongY * proposals_[k].y, k);
+  }
+  std::sort(order.begin(), order.end());
+  const auto supports = [&](const PoseProposal& a, const PoseProposal& b)
+  {
+    const float dx = a.x - b.x;
+    const float dy = a.y - b.y;
+    return dx * dx + dy * dy <= kSupportDistance * kSupportDistance &&
+           std::abs(wrapToPi(a.phi - b.phi)) <= kSupportAngle;
+  };
+  std::vector<std::uint32_t> seen_by(pairs_.size(), 0);  // the last pose that a pair supported
+  std::size_t low = 0;
+  for (std::size_t i = 0; i < order.size(); ++i)
+  {
+    while (order[i].first - order[low].first > kSupportDistance) ++low;
+    std::size_t count = 0;
+    for (std::size_t k = low; k < order.size(); ++k)
+    {
+      if (order[k].first - order[i].first > kSupportDistance) break;
+      std::uint32_t& seen = seen_by[owners_[order[k].second]];
+      if (seen == i + 1 || !supports(proposals_[order[i].second], proposals_[order[k].second]))
+        continue;
+      seen = static_cast<std::uint32_t>(i + 1);
+      if (++count >= pairs) return true;
+    }
+  }
+  return false;
 }
 }  // namespace sigloc

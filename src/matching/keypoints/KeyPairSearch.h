@@ -26,8 +26,16 @@ class KeyPairSearch
   /// ones. None are left when it returns an empty list.
   std::vector<PoseProposal> next(std::size_t wanted);
 
-  /// Returns how many different observed pairs have proposed a pose within 0.4 m and 0.12 rad.
-  std::size_t supporters(const mrpt::math::TPose2D& pose) const;
+  /// What supports a pose: the observed pairs that have proposed one within 0.4 m and 0.12 rad.
+  struct Support
+  {
+    std::size_t pairs = 0;
+    std::size_t points = 0;  ///< different key points in these pairs
+  };
+  Support supportOf(const mrpt::math::TPose2D& pose) const;
+
+  /// Returns whether any pose proposed so far is supported by that many pairs.
+  bool anySupportedBy(std::size_t pairs) const;
 
   /// True when every pair with a mapped partner has proposed its poses.
   bool finished() const { return next_ == pairs_.size(); }
