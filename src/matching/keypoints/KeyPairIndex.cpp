@@ -41,7 +41,7 @@ constexpr double kDeviationRatio = 1.25;  // from one code to the next
 /// The variances that the codes stand for.
 const std::array<float, kCodes>& codedVariances()
 {
-  static const std::array<float, kCodes> variances = []
+  static const std::array<float, kCodes> kVariances = []
   {
     std::array<float, kCodes> table{};
     double deviation = kLeastDeviation;
@@ -52,7 +52,7 @@ const std::array<float, kCodes>& codedVariances()
     }
     return table;
   }();
-  return variances;
+  return kVariances;
 }
 
 /// Returns the code of the least variance that is not below the given one, or the last code.
@@ -84,7 +84,7 @@ template <class Visit>
 void forEachPair(const std::vector<KeyPoint>& points, double range, std::size_t stride,
                  Visit&& visit)
 {
-  const auto cellOf = [](double x, double y)
+  const auto cell_of = [](double x, double y)
   {
     return cellKey(static_cast<std::int64_t>(std::floor(x / kCell)),
                    static_cast<std::int64_t>(std::floor(y / kCell)));
@@ -92,7 +92,7 @@ void forEachPair(const std::vector<KeyPoint>& points, double range, std::size_t 
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells;
   for (std::uint32_t k = 0; k < points.size(); ++k)
   {
-    cells[cellOf(points[k].position.x, points[k].position.y)].push_back(k);
+    cells[cell_of(points[k].position.x, points[k].position.y)].push_back(k);
   }
   const int reach = static_cast<int>(std::ceil(range / kCell));
   for (std::size_t i = 0; i < points.size(); i += stride)
@@ -102,7 +102,7 @@ void forEachPair(const std::vector<KeyPoint>& points, double range, std::size_t 
     {
       for (int dy = -reach; dy <= reach; ++dy)
       {
-        const auto cell = cells.find(cellOf(from.x + dx * kCell, from.y + dy * kCell));
+        const auto cell = cells.find(cell_of(from.x + dx * kCell, from.y + dy * kCell));
         if (cell == cells.end()) continue;
         for (const std::uint32_t j : cell->second)
         {
