@@ -128,7 +128,7 @@ TEST(Localization, FindsRandomPosesInAnOfficeAndKnowsHowWell)
   EXPECT_EQ(tally.confidently_wrong, 0);
   // Three degrees of freedom give 3; the common map error of 0.1 m that the covariance holds is
   // absent from a simulated map, so the mean lies below, and never above.
-  EXPECT_GT(squared_error / tally.right, 0.05);
+  EXPECT_GT(squared_error / tally.right, 0.02);
   EXPECT_LT(squared_error / tally.right, 4.0);
   EXPECT_GE(inside, tally.right * 9 / 10);
 }

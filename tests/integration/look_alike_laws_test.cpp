@@ -119,12 +119,13 @@ TEST(LookAlikes, IdenticalRastersGetIdenticalWeights)
       if (found == 0) continue;
       EXPECT_EQ(found, copies) << "pose " << k;
       worst = std::min(worst, lightest / heaviest);
-      equal += lightest / heaviest > 1 - 1e-6;
+      equal += lightest / heaviest > 1 - 1e-3;
     }
     std::cout << copies << " identical rasters: lightest weight / heaviest " << worst
               << ", equal in " << equal << " of 20\n";
-    // Most are equal to the last bit; now and then the proposals differ between two copies and the
-    // refinements end a few centimetres apart.
+    // Most are equal but for rounding: the score takes distances from ridges, which are not whole
+    // units as those between cells are. Now and then the proposals differ between two copies and
+    // the refinements end a few centimetres apart.
     EXPECT_GE(equal, 12);
     EXPECT_GT(worst, 1.0 / (10.0 * copies));
   }
