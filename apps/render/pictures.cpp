@@ -62,11 +62,9 @@ const std::vector<LegendEntry> kStepLegend = {
     {"unsure pose", TColorf(0.45F, 0.45F, 0.45F)},
 };
 const std::vector<LegendEntry> kComparisonLegend = {
-    {"proposed", TColorf(0.59F, 0.35F, 0.86F)},
-    {"returns", TColorf(0.88F, 0.12F, 0.12F)},
-    {"candidates", TColorf(0.47F, 0.78F, 1)},
-    {"first candidate", TColorf(0, 0.59F, 0.24F)},
-    {"truth", TColorf(0, 0, 0)},
+    {"proposed", TColorf(0.59F, 0.35F, 0.86F)}, {"returns", TColorf(0.88F, 0.12F, 0.12F)},
+    {"candidates", TColorf(0.47F, 0.78F, 1)},   {"sure", TColorf(0, 0.59F, 0.24F)},
+    {"unsure", TColorf(0.45F, 0.45F, 0.45F)},   {"truth", TColorf(0, 0, 0)},
 };
 
 void addText(mrpt::opengl::COpenGLViewport& viewport, double x, double y, const std::string& text,

@@ -12,24 +12,12 @@
 #include "picture_file.h"
 #include "pictures.h"
 #include "sigloc/features/observe_scans.h"
+#include "sigloc/plugin/pose_pdf.h"
 
 namespace sigloc
 {
 namespace
 {
-/// The candidates as the hypotheses of a belief, because pictures are drawn from a belief.
-Belief beliefOf(const RelocationResult& answer)
-{
-  Belief belief;
-  for (const Candidate& candidate : answer.candidates)
-  {
-    belief.hypotheses.emplace_back();
-    belief.hypotheses.back().pose = candidate.pose;
-    belief.hypotheses.back().weight = candidate.probability;
-  }
-  return belief;
-}
-
 std::vector<std::string> titleOf(const FailedQuery& failure)
 {
   const RelocationRecord& record = failure.record;
@@ -101,7 +89,7 @@ void drawInto(const std::filesystem::path& folder, const std::vector<FailedQuery
       drawn_map = failure.map;
     }
     const ObservedScene scene = observeScene(failure.query.scans, failure.landmarks);
-    const Belief belief = beliefOf(failure.answer);
+    const Belief belief = toBelief(failure.answer);
     StepDrawing drawing;
     drawing.observed = &scene;
     drawing.belief = &belief;
