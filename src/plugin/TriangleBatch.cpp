@@ -94,8 +94,8 @@ mrpt::opengl::CSetOfObjects::Ptr TriangleBatch::object() const
   std::map<Tile, std::vector<mrpt::opengl::TTriangle>> tiles;
   for (const mrpt::opengl::TTriangle& triangle : triangles_)
   {
-    const auto tileOf = [](float x) { return std::lround(std::floor(x / kTile)); };
-    tiles[{tileOf(triangle.x(0)), tileOf(triangle.y(0))}].push_back(triangle);
+    const auto tile_of = [](float x) { return std::lround(std::floor(x / kTile)); };
+    tiles[{tile_of(triangle.x(0)), tile_of(triangle.y(0))}].push_back(triangle);
   }
   auto objects = mrpt::opengl::CSetOfObjects::Create();
   for (const auto& [tile, triangles] : tiles)

@@ -166,6 +166,7 @@ std::vector<RankedPose> DenseVerifier::race(const DenseScan& scan,
   std::make_heap(scores.begin(), scores.end(), worse);
   auto end = scores.end();
   std::vector<TPose2D> places;
+  places.reserve(before.size() + kBatch);
   for (const RankedPose& pose : before) places.push_back(pose.pose);
   std::uint32_t best = coarse_field_->bestScore(scan, places);
   constexpr auto kMargin = static_cast<std::uint32_t>(kCoarseMargin * CoarseScore::kMost);

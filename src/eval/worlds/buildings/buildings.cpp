@@ -60,8 +60,9 @@ std::vector<PlacedWorld> makeBuildings(WorldKind kind, const WorldOptions& layou
       const double square = std::sqrt(options.buildings * pitch.y / pitch.x);
       columns = static_cast<std::size_t>(std::max(1.0, std::round(square)));
     }
+    const std::size_t row = k / columns;
     const TPoint2D origin(pitch.x * static_cast<double>(k % columns),
-                          pitch.y * static_cast<double>(k / columns));
+                          pitch.y * static_cast<double>(row));
     buildings.push_back({std::move(world), origin});
   }
   return buildings;
