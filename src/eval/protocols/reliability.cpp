@@ -55,6 +55,8 @@ class MappedWorld
   std::optional<std::pair<ReliabilityCase, ReliabilityCase>> ask(double clutter);
 
  private:
+  std::vector<TPose2D> lookAlikes(const ObservedScene& scene, const DenseScan& dense,
+                                  const TPose2D& truth) const;
   ReliabilityCase judge(const LaserScan& scan, const DenseScan& dense, const TPose2D& pose,
                         const TPose2D& truth) const;
   double mrptsMeasure(const LaserScan& scan, const GaussianPose& pose) const;
@@ -80,14 +82,9 @@ std::optional<std::pair<ReliabilityCase, ReliabilityCase>> MappedWorld::ask(doub
   const ObservedScene scene = observeScene({scan});
   const DenseScan dense = makeDenseScan(scene, kBeams);
 
-  std::vector<TPose2D> look_alikes;
-  for (const Candidate& candidate : matcher_.localize(scene).candidates)
-  {
-    const PoseError error = errorBetween(candidate.pose.mean, truth);
-    if (judgeClaim(error, {}) == Claim::wrong) look_alikes.push_back(candidate.pose.mean);
-  }
-  const std::size_t chosen = look_alikes.empty() ? 0 : random_.index(look_alikes.size());
+  const std::vector<TPose2D> look_alikes = lookAlikes(scene, dense, truth);
   if (look_alikes.empty()) return std::nullopt;
+  const std::size_t chosen = random_.index(look_alikes.size());
   const TPose2D refined = matcher_.verifier()->refine(dense, predicted, kRefineSteps, dense.size());
   auto right = judge(scan, dense, refined, truth);
   auto wrong = judge(scan, dense, look_alikes[chosen], truth);
@@ -95,6 +92,30 @@ std::optional<std::pair<ReliabilityCase, ReliabilityCase>> MappedWorld::ask(doub
   right.right = true;
   right.clutter = wrong.clutter = clutter;
   return std::make_pair(right, wrong);
+}
+
+/// The best of all poses that are proposed and wrong. What relocation lists would be too few, for
+/// it stops where a pose is clear.
+std::vector<TPose2D> MappedWorld::lookAlikes(const ObservedScene& scene, const DenseScan& dense,
+                                             const TPose2D& truth) const
+{
+  constexpr std::size_t kMost = 10;
+  const auto is_wrong = [&](const TPose2D& pose)
+  { return judgeClaim(errorBetween(pose, truth), {}) == Claim::wrong; };
+  std::vector<PoseProposal> wrong;
+  for (const TPose2D& pose : matcher_.propose(scene))
+  {
+    if (!is_wrong(pose)) continue;
+    wrong.push_back(
+        {static_cast<float>(pose.x), static_cast<float>(pose.y), static_cast<float>(pose.phi)});
+  }
+  MatchingCounters counters;
+  std::vector<TPose2D> poses;
+  for (const RankedPose& ranked : matcher_.verifier()->rank(dense, wrong, kMost, counters))
+  {
+    if (is_wrong(ranked.pose)) poses.push_back(ranked.pose);
+  }
+  return poses;
 }
 
 ReliabilityCase MappedWorld::judge(const LaserScan& scan, const DenseScan& dense,
