@@ -95,7 +95,7 @@ def claims_by_kind(bench, run, kind_of):
 def of_another_kind(world, worlds, group):
     """The kind driven, if the map is of another one.
 
-    src/eval/track_simulated.cpp: worlds are of the three kinds in turn, and world i gets the map of
+    src/eval/wakeup/wakeup_simulated.cpp: worlds are of the three kinds in turn, and world i gets the map of
     world worlds + i + i / 3.
     """
     if KINDS[world % 3] != group:
