@@ -62,7 +62,7 @@ bool isSettled(const std::vector<RankedPose>& poses, const KeyPairSearch& search
   const double score = poses[0].evidence.score;
   const double lead = poses.size() > 1 ? score - poses[1].evidence.score : score;
   if (lead < kLead || score < kFair || (score < kGood && score + lead < 1)) return false;
-  return search.supportOf(poses[0].pose).pairs >= kLeastSupporters;
+  return search.supportersOf(poses[0].pose) >= kLeastSupporters;
 }
 
 std::vector<PoseProposal> proposalsOf(const std::vector<FeatureHypothesis>& hypotheses)

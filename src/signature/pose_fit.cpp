@@ -235,15 +235,6 @@ std::optional<PoseEstimate> poseFromPlaces(const TPoint2D* observed, const TPoin
   return pose;
 }
 
-std::optional<PoseEstimate> poseFromCorner(const DirectedPairing& pairing, double relative_sigma)
-{
-  if (!hasBearing(pairing.observed.type())) return std::nullopt;
-  PoseEstimate pose;
-  pose.setHeading(headingOf(pairing));
-  putOnto(pose, pairing);
-  return iterate(pose, &pairing, &pairing + 1, relative_sigma, 1);
-}
-
 std::optional<PoseEstimate> refinePose(const PoseEstimate& start,
                                        const std::vector<DirectedPairing>& pairings,
                                        double relative_sigma, int iterations)

@@ -31,9 +31,6 @@ std::optional<PoseEstimate> poseFromPlaces(const mrpt::math::TPoint2D* observed,
                                            const mrpt::math::TPoint2D* mapped, std::size_t count,
                                            double variance);
 
-/// Returns the pose that one corner or other directed place fixes by itself, else nullopt.
-std::optional<PoseEstimate> poseFromCorner(const DirectedPairing& pairing, double relative_sigma);
-
 /// Returns the least-squares pose over the pairings with its covariance, by Gauss-Newton from
 /// `start`. The extent of the walls limits a direction that no pairing fixes. Returns nullopt when
 /// the pairings do not fix a pose. \cite algorithm eq. (5.8)

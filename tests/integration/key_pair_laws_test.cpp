@@ -53,9 +53,9 @@ TEST(KeyPairLaws, ProposeTheTruePose)
     const TPose2D truth = office().randomPose(random);
     KeyPairSearch search(index, office().sceneAt(truth, random).features);
     proposed += holdsNear(search.next(kAll), truth, 0.5, 10 * M_PI / 180);
-    supported += search.supportOf(truth).pairs >= 2;
+    supported += search.supportersOf(truth) >= 2;
     EXPECT_TRUE(search.finished());
-    EXPECT_EQ(search.supportOf({truth.x + 500, truth.y, truth.phi}).pairs, 0U);
+    EXPECT_EQ(search.supportersOf({truth.x + 500, truth.y, truth.phi}), 0U);
   }
   // 0.96 in offices of the design study.
   EXPECT_GE(proposed, 0.96 * kScenes);

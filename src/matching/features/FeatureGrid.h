@@ -31,10 +31,6 @@ class FeatureGrid
     __builtin_prefetch(&starts_[slotOf(cellOf(place.x - origin_.x), cellOf(place.y - origin_.y))]);
   }
   double cellSize() const { return cell_; }
-  std::size_t bytes() const
-  {
-    return entries_.size() * sizeof(Entry) + starts_.size() * sizeof(starts_[0]);
-  }
 
  private:
   struct Entry

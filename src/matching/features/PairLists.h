@@ -53,10 +53,6 @@ class PairLists
   {
     return key_variance_[typeIndex(first)][typeIndex(second)];
   }
-  std::size_t bytes() const
-  {
-    return entries_.size() * sizeof(Entry) + rows_.size() * sizeof(rows_[0]);
-  }
 
  private:
   struct Entry

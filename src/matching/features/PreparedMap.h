@@ -50,8 +50,6 @@ class PreparedMap
   /// widened by `tolerance` [m]. \cite algorithm eq. (3.12)
   double coveredShare(std::size_t k, double low, double high, double tolerance) const;
 
-  std::size_t bytes() const { return views_.size() * sizeof(DirectedFeature) + grid_.bytes(); }
-
  private:
   const FeatureMap* map_;
   std::vector<DirectedFeature> views_;

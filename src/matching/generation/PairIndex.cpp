@@ -83,11 +83,4 @@ PairIndex::Runs PairIndex::find(FeatureType first, FeatureType second, const Bin
   if (first == second) append(observed.is_angle ? -observed.value : observed.value, true);
   return runs;
 }
-
-std::size_t PairIndex::bytes() const
-{
-  std::size_t sum = 0;
-  for (const auto& table : tables_) sum += table.capacity() * sizeof(Entry);
-  return sum;
-}
 }  // namespace sigloc

@@ -53,8 +53,6 @@ class PairIndex
     }
   }
 
-  std::size_t bytes() const;
-
  private:
   struct Entry
   {

@@ -363,9 +363,4 @@ void KeyPairIndex::collect(const KeyPair& observed, const Run& run,
     matches.push_back({entry.x, entry.y, bearing, first, second});
   }
 }
-
-std::size_t KeyPairIndex::bytes() const
-{
-  return entries_.capacity() * sizeof(Entry) + cells_.capacity() * sizeof(std::uint32_t);
-}
 }  // namespace sigloc

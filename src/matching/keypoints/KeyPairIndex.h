@@ -71,7 +71,6 @@ class KeyPairIndex
   /// partners on average. It is longer where the map has fewer than 200 000 pairs, 12 m at most.
   double range() const { return range_; }
   std::size_t size() const { return entries_.size(); }
-  std::size_t bytes() const;
 
  private:
   /// A mapped pair. What its row says is left out; standard deviations are rounded up.

@@ -46,7 +46,6 @@ KeyPairSearch::KeyPairSearch(const KeyPairIndex& index, const std::vector<Featur
     : index_(index)
 {
   const std::vector<KeyPoint> points = observedKeyPoints(observed);
-  key_points_ = points.size();
   for (std::uint32_t i = 0; i < points.size(); ++i)
   {
     for (std::uint32_t j = i + 1; j < points.size(); ++j)
@@ -120,13 +119,12 @@ void KeyPairSearch::propose(std::uint32_t index)
   }
 }
 
-KeyPairSearch::Support KeyPairSearch::supportOf(const TPose2D& pose) const
+std::size_t KeyPairSearch::supportersOf(const TPose2D& pose) const
 {
   constexpr auto kDistance = static_cast<float>(kSupportDistance * kSupportDistance);
   const auto x = static_cast<float>(pose.x);
   const auto y = static_cast<float>(pose.y);
-  Support support;
-  std::vector<bool> used(key_points_, false);
+  std::size_t supporters = 0;
   std::int64_t last = -1;  // proposals come pair by pair
   for (std::size_t k = 0; k < proposals_.size(); ++k)
   {
@@ -136,15 +134,11 @@ KeyPairSearch::Support KeyPairSearch::supportOf(const TPose2D& pose) const
     if (dx * dx + dy * dy > kDistance || owners_[k] == last) continue;
     if (std::abs(wrapToPi(p.phi - pose.phi)) > kSupportAngle) continue;
     last = owners_[k];
-    ++support.pairs;
-    for (const std::uint32_t point : {pairs_[owners_[k]].a, pairs_[owners_[k]].b})
-    {
-      if (!used[point]) ++support.points;
-      used[point] = true;
-    }
+    ++supporters;
   }
-  return support;
+  return supporters;
 }
+
 bool KeyPairSearch::anySupportedBy(std::size_t pairs) const
 {
   // Swept along a direction that walls seldom have, so that few proposals lie side by side.

@@ -26,21 +26,14 @@ class KeyPairSearch
   /// ones. None are left when it returns an empty list.
   std::vector<PoseProposal> next(std::size_t wanted);
 
-  /// What supports a pose: the observed pairs that have proposed one within 0.4 m and 0.12 rad.
-  struct Support
-  {
-    std::size_t pairs = 0;
-    std::size_t points = 0;  ///< different key points in these pairs
-  };
-  Support supportOf(const mrpt::math::TPose2D& pose) const;
+  /// Returns how many observed pairs support a pose: have proposed one within 0.4 m and 0.12 rad.
+  std::size_t supportersOf(const mrpt::math::TPose2D& pose) const;
 
   /// Returns whether any pose proposed so far is supported by that many pairs.
   bool anySupportedBy(std::size_t pairs) const;
 
   /// True when every pair with a mapped partner has proposed its poses.
   bool finished() const { return next_ == pairs_.size(); }
-  std::size_t pairs() const { return pairs_.size(); }
-  std::size_t keyPoints() const { return key_points_; }
   std::uint64_t entriesRead() const { return entries_read_; }
 
  private:
@@ -59,7 +52,6 @@ class KeyPairSearch
   std::vector<KeyPairIndex::Run> runs_;
   std::vector<Pair> pairs_;  // rarest first
   std::size_t next_ = 0;
-  std::size_t key_points_ = 0;
   std::uint64_t entries_read_ = 0;
   std::vector<PoseProposal> proposals_;  // of all pairs so far
   std::vector<std::uint32_t> owners_;  // the pair of each proposal
