@@ -75,12 +75,6 @@ bool countsSteps(const std::vector<Row>& rows)
   }
   return true;
 }
-
-bool isSimplemap(const std::filesystem::path& path)
-{
-  const auto name = path.extension() == ".gz" ? path.stem() : path.filename();
-  return name.extension() == ".simplemap";
-}
 }  // namespace
 
 /// The longest run of rows whose times grow. A path is written as it is driven, so a row that is
@@ -117,7 +111,7 @@ std::vector<GroundTruth::Entry> GroundTruth::inTimeOrder(const std::vector<Entry
 GroundTruth GroundTruth::read(const std::filesystem::path& path, const TPose2D& map_from_truth)
 {
   GroundTruth truth;
-  if (isSimplemap(path))
+  if (detail::extensionOf(path) == ".simplemap")
   {
     mrpt::maps::CSimpleMap simplemap;
     detail::readObjectFile(path, simplemap);

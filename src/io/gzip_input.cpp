@@ -50,6 +50,15 @@ std::uint64_t unpackedSize(const std::filesystem::path& path, std::uint64_t file
 }
 }  // namespace
 
+std::string extensionOf(const std::filesystem::path& path)
+{
+  const std::filesystem::path name = path.extension() == ".gz" ? path.stem() : path;
+  std::string extension = name.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
 std::string didYouMeanFile(const std::filesystem::path& path)
 {
   constexpr std::size_t kMostLooked = 2000;  // a folder may be huge

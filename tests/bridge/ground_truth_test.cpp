@@ -95,8 +95,8 @@ TEST(GroundTruth, ReadsTheKeyFramesOfASimplemap)
   const mrpt::poses::CPose3DPDFGaussian pose(mrpt::poses::CPose3D(1, 2, 0, 0.5, 0, 0));
   simplemap.insert(pose, *makeFrame(makeScan(1000.25)));
   const TemporaryFolder folder;
-  ASSERT_TRUE(simplemap.saveToFile((folder / "t.simplemap").string()));
-  const auto at = GroundTruth::read(folder / "t.simplemap").at(0, 1000.25);
+  ASSERT_TRUE(simplemap.saveToFile((folder / "t.SIMPLEMAP").string()));
+  const auto at = GroundTruth::read(folder / "t.SIMPLEMAP").at(0, 1000.25);
   ASSERT_TRUE(at);
   EXPECT_NEAR(at->phi, 0.5, 1e-9);
 }

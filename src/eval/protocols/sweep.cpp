@@ -69,16 +69,6 @@ World worldWhenAsked(const World& mapped, const SweepConditions& conditions, std
   return changedWorld(mapped, change, seed);
 }
 
-double distanceToSegment(const WallSegment& segment, const TPoint2D& p)
-{
-  const TPoint2D along = segment.end - segment.start;
-  const TPoint2D to_p = p - segment.start;
-  const double share = (along.x * to_p.x + along.y * to_p.y) /
-                       std::max(1e-12, along.x * along.x + along.y * along.y);
-  const TPoint2D off = to_p - along * std::clamp(share, 0.0, 1.0);
-  return std::hypot(off.x, off.y);
-}
-
 /// True when the changes since mapping leave room for a robot. Unlike FreeSpace, it does not
 /// require a path there: a robot may wake up behind a door that was shut.
 bool hasRoom(const World& world, const TPoint2D& p)
@@ -94,7 +84,7 @@ bool hasRoom(const World& world, const TPoint2D& p)
   }
   return std::none_of(world.doors.begin(), world.doors.end(),
                       [&](const Door& door)
-                      { return door.closed && distanceToSegment(door.leaf, p) < kClearance; });
+                      { return door.closed && distanceTo(door.leaf, p) < kClearance; });
 }
 
 TPose2D randomPose(const FreeSpace& mapped, const World& asked, Random& random)

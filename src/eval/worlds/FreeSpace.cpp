@@ -17,8 +17,9 @@ using mrpt::math::TPoint2D;
 namespace
 {
 constexpr double kMaxCells = 4e6;
+}  // namespace
 
-double distanceToSegment(const TPoint2D& p, const WallSegment& segment)
+double distanceTo(const WallSegment& segment, const TPoint2D& p)
 {
   const TPoint2D along = segment.end - segment.start;
   const TPoint2D to_p = p - segment.start;
@@ -27,7 +28,6 @@ double distanceToSegment(const TPoint2D& p, const WallSegment& segment)
       squared > 0 ? std::clamp((to_p.x * along.x + to_p.y * along.y) / squared, 0.0, 1.0) : 0.0;
   return std::hypot(to_p.x - share * along.x, to_p.y - share * along.y);
 }
-}  // namespace
 
 FreeSpace::FreeSpace(const World& world, double clearance, double cell_size)
     : bounds_(world.bounds), cell_size_(cell_size)
@@ -68,7 +68,7 @@ void FreeSpace::blockNearSegment(const WallSegment& segment, double clearance)
     for (auto c = clamped_column(x_low - reach); c <= clamped_column(x_high + reach); ++c)
     {
       const auto cell = static_cast<std::size_t>(r * columns_ + c);
-      if (free_[cell] != 0 && distanceToSegment(centreOf(cell), segment) < reach) free_[cell] = 0;
+      if (free_[cell] != 0 && distanceTo(segment, centreOf(cell)) < reach) free_[cell] = 0;
     }
   }
 }

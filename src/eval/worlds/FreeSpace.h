@@ -12,6 +12,9 @@
 
 namespace sigloc
 {
+/// Returns the distance of a point to a surface [m].
+double distanceTo(const WallSegment& segment, const mrpt::math::TPoint2D& p);
+
 /// Where a round robot can go in a world: the largest connected set of cells whose centres keep a
 /// clearance from every surface. Plans paths in it.
 class FreeSpace

@@ -58,19 +58,9 @@ const std::vector<MapFormat>& mapFormats()
   return kFormats;
 }
 
-std::string extensionOf(const std::filesystem::path& path)
-{
-  std::filesystem::path name = path.filename();
-  if (name.extension() == ".gz") name = name.stem();
-  std::string extension = name.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
-
 const MapFormat& formatOf(const std::filesystem::path& path)
 {
-  const std::string extension = extensionOf(path);
+  const std::string extension = detail::extensionOf(path);
   std::string known;
   for (const MapFormat& format : mapFormats())
   {

@@ -16,6 +16,7 @@
 
 #include "eval/data/method_names.h"
 #include "eval/data/occupancy_grid.h"
+#include "io/gzip_input.h"
 
 namespace sigloc
 {
@@ -61,12 +62,6 @@ LF_zRandom=0.05
 LF_maxRange=80
 LF_alternateAverageMethod=0
 )";
-
-bool endsIn(const std::filesystem::path& file, const std::string& extension)
-{
-  const std::filesystem::path name = file.extension() == ".gz" ? file.stem() : file;
-  return name.extension() == extension;
-}
 
 CActionRobotMovement2D::TMotionModelOptions gaussianModel(const OdometryNoise& noise)
 {
@@ -140,7 +135,7 @@ PoseRegion startRegionOf(const MonteCarloSettings& settings)
 
 bool isSimplemap(const std::filesystem::path& file)
 {
-  return endsIn(file, ".simplemap");
+  return detail::extensionOf(file) == ".simplemap";
 }
 
 mrpt::maps::CMultiMetricMap::Ptr localizationMapOf(const EvaluationMap& map, const std::string& ini)
@@ -162,7 +157,7 @@ mrpt::maps::CMultiMetricMap::Ptr localizationMapOf(const EvaluationMap& map, con
   }
   const auto grid = maps->mapByClass<COccupancyGridMap2D>();
   const auto likelihood_options = grid->likelihoodOptions;
-  if (endsIn(map.file, ".gridmap"))
+  if (detail::extensionOf(map.file) == ".gridmap")
   {
     mrpt::io::CFileGZInputStream file(map.file.string());
     mrpt::serialization::archiveFrom(file) >> *grid;
