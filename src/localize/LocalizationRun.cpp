@@ -2,12 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sigloc/localize/LocalizationRun.h"
 
-#include <mrpt/math/wrap2pi.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <stdexcept>
 

@@ -3,7 +3,6 @@
 //
 // How SignatureMonteCarlo2D judges its particles: how sure their pose is, and whether the robot is
 // lost.
-#include <mrpt/math/wrap2pi.h>
 
 #include <algorithm>
 #include <cmath>

@@ -4,9 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 #include "sigloc/map/FeatureMap.h"

@@ -3,7 +3,6 @@
 #include "eval/protocols/landmarks.h"
 
 #include <gtest/gtest.h>
-#include <mrpt/math/wrap2pi.h>
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,6 @@
 #include <cstring>
 #include <Eigen/Dense>
 #include <iostream>
-#include <limits>
 #include <string>
 
 #include "eval/process/run_parallel.h"

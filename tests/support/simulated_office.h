@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <memory>
-#include <vector>
 
 #include "eval/worlds/robot_simulation.h"
 #include "eval/worlds/world_generators.h"

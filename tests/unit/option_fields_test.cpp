@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 #include <mrpt/config/CConfigFileMemory.h>
 
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <string>

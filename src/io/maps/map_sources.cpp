@@ -6,7 +6,6 @@
 #include <mrpt/system/md5.h>
 
 #include <algorithm>
-#include <cctype>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tracking/tracks/TrackSet.h"
 
-#include <mrpt/math/wrap2pi.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
