@@ -36,6 +36,28 @@ std::vector<Feature> moved(const TPose2D& motion, const std::vector<Feature>& fe
   return out;
 }
 
+/// Map features mirrored at the y axis: chirality reversed, distances kept.
+std::vector<Feature> mirrored(const std::vector<Feature>& features)
+{
+  std::vector<Feature> out = features;
+  for (Feature& feature : out)
+  {
+    feature.position.x = -feature.position.x;
+    feature.position_covariance(0, 1) = -feature.position_covariance(0, 1);
+    feature.position_covariance(1, 0) = -feature.position_covariance(1, 0);
+    if (hasDirection(feature.type))
+    {
+      feature.direction = mrpt::math::wrapToPi(M_PI - feature.direction);
+    }
+    if (traitsOf(feature.type).has_side)
+    {
+      feature.side = feature.side == WallSide::start ? WallSide::end : WallSide::start;
+    }
+    std::swap(feature.start_seen, feature.end_seen);
+  }
+  return out;
+}
+
 FeatureWorldOptions smallScenes(bool every_type)
 {
   FeatureWorldOptions options;

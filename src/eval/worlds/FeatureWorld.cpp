@@ -142,25 +142,4 @@ std::vector<Feature> observeFeatures(const FeatureWorld& world, const TPose2D& m
   shuffle(seen);
   return seen;
 }
-
-std::vector<Feature> mirrored(const std::vector<Feature>& features)
-{
-  std::vector<Feature> out = features;
-  for (Feature& feature : out)
-  {
-    feature.position.x = -feature.position.x;
-    feature.position_covariance(0, 1) = -feature.position_covariance(0, 1);
-    feature.position_covariance(1, 0) = -feature.position_covariance(1, 0);
-    if (hasDirection(feature.type))
-    {
-      feature.direction = mrpt::math::wrapToPi(M_PI - feature.direction);
-    }
-    if (traitsOf(feature.type).has_side)
-    {
-      feature.side = feature.side == WallSide::start ? WallSide::end : WallSide::start;
-    }
-    std::swap(feature.start_seen, feature.end_seen);
-  }
-  return out;
-}
 }  // namespace sigloc

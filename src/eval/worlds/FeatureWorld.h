@@ -49,7 +49,4 @@ std::vector<Feature> observeFeatures(const FeatureWorld& world,
                                      const mrpt::math::TPose2D& map_from_robot,
                                      const FeatureWorldOptions& options, Random& random,
                                      std::size_t wanted = 0);
-
-/// Returns a map feature list mirrored at the y axis: chirality reversed, distances kept.
-std::vector<Feature> mirrored(const std::vector<Feature>& features);
 }  // namespace sigloc
