@@ -122,15 +122,29 @@ GzipInput::~GzipInput()
 
 std::size_t GzipInput::Read(void* buffer, std::size_t count)
 {
-  const std::size_t from_ahead = std::min(count, ahead_.size());
-  std::memcpy(buffer, ahead_.data(), from_ahead);
-  ahead_.erase(0, from_ahead);
-  std::size_t done = from_ahead;
+  const std::size_t from_ahead = std::min(count, ahead_.size() - ahead_from_);
+  std::memcpy(buffer, ahead_.data() + ahead_from_, from_ahead);
+  ahead_from_ += from_ahead;
+  if (ahead_from_ == ahead_.size())
+  {
+    ahead_.clear();
+    ahead_from_ = 0;
+  }
+  const std::size_t done =
+      from_ahead + readFile(static_cast<char*>(buffer) + from_ahead, count - from_ahead);
+  position_ += done;
+  return done;
+}
+
+/// Reads past what was looked at. Returns the bytes read.
+std::size_t GzipInput::readFile(char* buffer, std::size_t count)
+{
+  std::size_t done = 0;
   while (done < count)
   {
     // gzread takes at most INT_MAX bytes a call.
     const auto chunk = static_cast<unsigned>(std::min<std::size_t>(count - done, 1U << 30U));
-    const int got = gzread(file_, static_cast<char*>(buffer) + done, chunk);
+    const int got = gzread(file_, buffer + done, chunk);
     if (got > 0) done += static_cast<std::size_t>(got);
     if (got == static_cast<int>(chunk)) continue;
     int code = Z_OK;
@@ -138,24 +152,41 @@ std::size_t GzipInput::Read(void* buffer, std::size_t count)
     damaged_ = damaged_ || got < 0 || (code != Z_OK && code != Z_STREAM_END);
     break;
   }
-  position_ += done;
   return done;
 }
 
-void GzipInput::lookAhead(std::size_t count)
+std::string_view GzipInput::peek(std::size_t count)
 {
-  if (ahead_.size() >= count) return;
-  std::string all(count, '\0');
-  const std::uint64_t position = position_;
-  all.resize(Read(all.data(), count));
-  position_ = position;
-  ahead_ = std::move(all);
+  if (ahead_.size() - ahead_from_ < count)
+  {
+    ahead_.erase(0, ahead_from_);
+    ahead_from_ = 0;
+  }
+  while (ahead_.size() - ahead_from_ < count)
+  {
+    // In pieces: no more memory is taken than the file has data for.
+    const std::size_t size = ahead_.size();
+    const std::size_t piece = std::min<std::size_t>(count - size, kBufferBytes);
+    ahead_.resize(size + piece);
+    const std::size_t got = readFile(ahead_.data() + size, piece);
+    ahead_.resize(size + got);
+    if (got < piece) break;
+  }
+  return std::string_view(ahead_).substr(ahead_from_);
 }
 
 bool GzipInput::atEnd()
 {
-  lookAhead(1);
-  return ahead_.empty();
+  return peek(1).empty();
+}
+
+void GzipInput::skipToEnd(std::uint64_t most)
+{
+  std::vector<char> skipped(kBufferBytes);
+  for (std::uint64_t done = 0; done < most; done += skipped.size())
+  {
+    if (Read(skipped.data(), skipped.size()) < skipped.size()) return;
+  }
 }
 
 double GzipInput::progress() const
@@ -170,15 +201,15 @@ std::string GzipInput::nextClassName()
   // Header: length of the name (with the top bit set in one byte; in the oldest files in four
   // bytes, little-endian), name, version.
   constexpr std::size_t kOldLengthBytes = 4;
-  lookAhead(kLongestClassName + kOldLengthBytes);
-  if (ahead_.size() < kOldLengthBytes) return {};
-  const auto byte = static_cast<unsigned char>(ahead_[0]);
+  const std::string_view ahead = peek(kLongestClassName + kOldLengthBytes);
+  if (ahead.size() < kOldLengthBytes) return {};
+  const auto byte = static_cast<unsigned char>(ahead[0]);
   const bool old = byte < 0x80U;
-  if (old && ahead_.compare(1, 3, std::string(3, '\0')) != 0) return {};
+  if (old && ahead.compare(1, 3, std::string(3, '\0')) != 0) return {};
   const std::size_t length = byte & 0x7FU;
   const std::size_t start = old ? kOldLengthBytes : 1;
-  if (length == 0 || length > kLongestClassName || ahead_.size() < start + length) return {};
-  std::string name = ahead_.substr(start, length);
+  if (length == 0 || length > kLongestClassName || ahead.size() < start + length) return {};
+  std::string name(ahead.substr(start, length));
   return std::all_of(name.begin(), name.end(), isClassNameCharacter) ? name : std::string{};
 }
 

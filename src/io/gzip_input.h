@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 // zlib's handle, so that its header stays out of this one.
 struct gzFile_s;
@@ -30,8 +31,13 @@ class GzipInput final : public mrpt::io::CStream
   std::size_t Read(void* buffer, std::size_t count) override;
   /// True when not one more byte can be read.
   bool atEnd();
+  /// Reads on until the end, or until `most` bytes more, so that damaged() tells of all of them.
+  void skipToEnd(std::uint64_t most);
   /// True when the compressed data broke off or failed its check.
   bool damaged() const { return damaged_; }
+  /// Returns what comes next without consuming it: `count` bytes or more, fewer at the end. Valid
+  /// until the next call.
+  std::string_view peek(std::size_t count);
   /// Share of the file's contents consumed so far, in [0, 1].
   double progress() const;
   /// Returns the class of the MRPT object that comes next without consuming anything, or "" when no
@@ -45,14 +51,15 @@ class GzipInput final : public mrpt::io::CStream
   const std::filesystem::path& path() const { return path_; }
 
  private:
-  void lookAhead(std::size_t count);
+  std::size_t readFile(char* buffer, std::size_t count);
 
   std::filesystem::path path_;
   gzFile_s* file_ = nullptr;
   std::uint64_t file_size_ = 0;
   std::uint64_t unpacked_size_ = 0;
   std::uint64_t position_ = 0;
-  std::string ahead_;  // read from the file, not yet handed out
+  std::string ahead_;  // read from the file ...
+  std::size_t ahead_from_ = 0;  // ... and handed out up to here
   bool damaged_ = false;
 };
 

@@ -6,10 +6,10 @@
 
 #include <cstdint>
 #include <map>
-#include <stdexcept>
 #include <string>
 #include <type_traits>
 
+#include "io/archive_values.h"
 #include "sigloc/config/option_fields.h"
 
 namespace sigloc::detail
@@ -28,15 +28,16 @@ template <class Options>
 Options readOptions(mrpt::serialization::CArchive& in)
 {
   constexpr std::uint32_t kMostOptions = 1000;
+  constexpr std::uint32_t kLongestKey = 200;
   std::uint32_t count = 0;
   in >> count;
-  if (count > kMostOptions) throw std::runtime_error("damaged options");
+  if (count > kMostOptions) throw BadContent(std::to_string(count) + " options");
   std::map<std::string, double> stored;
   for (std::uint32_t i = 0; i < count; ++i)
   {
-    std::string key;
+    const std::string key = readText(in, kLongestKey);
     double value = 0;
-    in >> key >> value;
+    in >> value;
     stored[key] = value;
   }
   Options options;
@@ -45,7 +46,15 @@ Options readOptions(mrpt::serialization::CArchive& in)
       {
         using T = std::decay_t<decltype(options.*(field.member))>;
         const auto entry = stored.find(field.key);
-        if (entry != stored.end()) options.*(field.member) = static_cast<T>(entry->second);
+        if (entry == stored.end()) return;
+        // Asked before the cast, which is undefined for a number that the type cannot hold.
+        const double value = entry->second;
+        if (!(value >= static_cast<double>(field.minimum) &&
+              value <= static_cast<double>(field.maximum)))
+        {
+          throw BadContent(std::string("the option ") + field.key + " is out of range");
+        }
+        options.*(field.member) = static_cast<T>(value);
       });
   checkOptions(options);
   return options;

@@ -2,13 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sigloc/map/DenseField.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
 
-#include "map/raster_limits.h"
+#include "map/map_values.h"
 
 namespace sigloc
 {
@@ -185,14 +183,6 @@ class RowEnvelope
   std::vector<double> from_;
 };
 }  // namespace
-
-std::optional<std::string> unusableCells(double resolution)
-{
-  constexpr double kFinest = 0.005;  // [m]
-  constexpr double kCoarsest = 1.0;
-  if (resolution >= kFinest && resolution <= kCoarsest) return std::nullopt;
-  return fmt::format("cells of {:g} m, not of {:g} to {:g} m", resolution, kFinest, kCoarsest);
-}
 
 double truncationDistance(double resolution)
 {

@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sigloc/map/FeatureMap.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
+
+#include "map/map_values.h"
 
 namespace sigloc
 {
@@ -14,30 +13,10 @@ using mrpt::math::TPoint2D;
 
 namespace
 {
-void checkFeature(const Feature& feature, std::size_t k)
+/// Throws std::invalid_argument where there is a flaw.
+void refuse(const std::optional<std::string>& flaw)
 {
-  if (typeIndex(feature.type) >= kFeatureTypes)
-  {
-    throw std::invalid_argument("FeatureMap: feature " + std::to_string(k) + " has no known type");
-  }
-  const auto& p = feature.position_covariance;
-  const bool finite = std::isfinite(feature.position.x) && std::isfinite(feature.position.y) &&
-                      std::isfinite(feature.direction) && std::isfinite(feature.size) &&
-                      std::isfinite(feature.direction_variance) &&
-                      std::isfinite(feature.size_variance) && std::isfinite(p(0, 0)) &&
-                      std::isfinite(p(0, 1)) && std::isfinite(p(1, 0)) && std::isfinite(p(1, 1));
-  if (!finite)
-  {
-    throw std::invalid_argument(fmt::format("FeatureMap: feature {} is not finite", k));
-  }
-  const double determinant = p(0, 0) * p(1, 1) - p(0, 1) * p(1, 0);
-  const double tolerance = 1e-9 * (1e-12 + p(0, 0) * p(1, 1));
-  if (p(0, 0) < 0 || p(1, 1) < 0 || determinant < -tolerance || feature.direction_variance < 0 ||
-      feature.size_variance < 0)
-  {
-    throw std::invalid_argument(
-        fmt::format("FeatureMap: covariance of feature {} is not positive semi-definite", k));
-  }
+  if (flaw) throw std::invalid_argument(*flaw);
 }
 }  // namespace
 
@@ -49,7 +28,9 @@ FeatureMap::FeatureMap(std::vector<Feature> features, std::optional<DenseField> 
       error_(error),
       provenance_(std::move(provenance))
 {
-  for (std::size_t k = 0; k < features_.size(); ++k) checkFeature(features_[k], k);
+  refuse(flawOf(features_));
+  if (field_) refuse(flawOf(*field_));
+  refuse(flawOf(error_));
   lines_ = linkWalls(features_);
   for (std::size_t l = 0; l < lines_.size(); ++l)
   {

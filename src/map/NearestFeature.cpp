@@ -18,6 +18,8 @@ constexpr double kCell = 1.0;  // [m] of the hash
 // Features are entered by sample places at most this far apart [m], so a query has to search this
 // much farther than its radius.
 constexpr double kSpacing = 0.25;
+constexpr std::size_t kFewCells = 400;  // always looked up one by one
+constexpr double kFarthest = 1e9;  // [m] of a query, whose cell can be numbered
 
 std::int64_t cellIndex(double coordinate)
 {
@@ -88,22 +90,31 @@ NearestFeature::NearestFeature(std::vector<Feature> features) : features_(std::m
 std::optional<NearestFeature::Hit> NearestFeature::find(const TPoint2D& point, double radius) const
 {
   std::optional<Hit> best;
+  const auto look = [&](std::uint32_t k)
+  {
+    const TPoint2D place = nearestPlaceOn(features_[k], point);
+    const double distance = (place - point).norm();
+    if (!(distance <= radius)) return;
+    const bool better =
+        !best || distance < best->distance || (distance == best->distance && k < best->feature);
+    if (better) best = Hit{k, place, distance};
+  };
   const double reach = radius + kSpacing;
+  // In a large circle there are more cells than features.
+  const double cells_across = 2 * reach / kCell + 2;
+  if (!(cells_across * cells_across < static_cast<double>(features_.size() + kFewCells)) ||
+      !(std::abs(point.x) + std::abs(point.y) < kFarthest))
+  {
+    for (std::uint32_t k = 0; k < features_.size(); ++k) look(k);
+    return best;
+  }
   for (std::int64_t y = cellIndex(point.y - reach); y <= cellIndex(point.y + reach); ++y)
   {
     for (std::int64_t x = cellIndex(point.x - reach); x <= cellIndex(point.x + reach); ++x)
     {
       const auto cell = cells_.find(cellKey(x, y));
       if (cell == cells_.end()) continue;
-      for (const std::uint32_t k : cell->second)
-      {
-        const TPoint2D place = nearestPlaceOn(features_[k], point);
-        const double distance = (place - point).norm();
-        if (distance > radius) continue;
-        const bool better =
-            !best || distance < best->distance || (distance == best->distance && k < best->feature);
-        if (better) best = Hit{k, place, distance};
-      }
+      for (const std::uint32_t k : cell->second) look(k);
     }
   }
   return best;

@@ -32,7 +32,7 @@ class NearestFeature
   explicit NearestFeature(std::vector<Feature> features);
 
   /// Returns the nearest feature within `radius` [m], of equally near ones that of lower index. The
-  /// cost grows with the square of the radius.
+  /// cost grows with the square of the radius, up to that of asking each feature.
   std::optional<Hit> find(const mrpt::math::TPoint2D& point, double radius) const;
 
   const std::vector<Feature>& features() const { return features_; }

@@ -6,6 +6,7 @@
 #include <array>
 #include <stdexcept>
 
+#include "features/feature_values.h"
 #include "geometry/same_place.h"
 #include "matching/candidate_probabilities.h"
 #include "matching/candidates.h"
@@ -117,6 +118,7 @@ SignatureMatcher::~SignatureMatcher() = default;
 RelocationResult SignatureMatcher::localize(const ObservedScene& scene,
                                             const std::optional<PoseRegion>& region) const
 {
+  checkScene(scene);
   RelocationResult result;
   const bool enough = scene.beams.size() >= options_.min_beams ||
                       (scene.beams.empty() && scene.features.size() >= kMinLandmarks);
@@ -159,6 +161,7 @@ RelocationResult SignatureMatcher::localize(const ObservedScene& scene,
 
 std::vector<TPose2D> SignatureMatcher::propose(const ObservedScene& scene) const
 {
+  checkScene(scene);
   MatchingCounters counters;
   std::vector<PoseProposal> proposals =
       generator_ ? proposalsOf(generator_->generate(scene.features, counters))

@@ -4,7 +4,6 @@
 
 #include <fmt/core.h>
 #include <mrpt/core/bits_math.h>
-#include <mrpt/core/initializer.h>
 #include <mrpt/opengl/CSetOfObjects.h>
 #include <mrpt/poses/CPose2D.h>
 #include <mrpt/serialization/CArchive.h>
@@ -12,18 +11,15 @@
 #include <algorithm>
 #include <cmath>
 #include <ostream>
+#include <utility>
 
+#include "io/archive_values.h"
 #include "io/maps/feature_archive.h"
 #include "io/scan_conversion.h"
+#include "io/sensor_mount.h"
 #include "sigloc/plugin/map_drawing.h"
 
 IMPLEMENTS_SERIALIZABLE(ObservationSignatures, mrpt::obs::CObservation, sigloc)
-
-// Runs when the library is linked, preloaded or opened as a plug-in.
-MRPT_INITIALIZER(register_sigloc_observations)
-{
-  mrpt::rtti::registerClass(CLASS_ID(sigloc::ObservationSignatures));
-}
 
 namespace sigloc
 {
@@ -34,6 +30,11 @@ using mrpt::serialization::CArchive;
 
 namespace
 {
+// Made when the library is linked, preloaded or opened as a plug-in. It comes after the class's
+// identity, which clang, unlike g++, sets up no earlier; so MRPT_INITIALIZER would not do.
+[[maybe_unused]] const bool kRegistered =
+    (mrpt::rtti::registerClass(CLASS_ID(ObservationSignatures)), true);
+
 std::string textOf(const Feature& feature)
 {
   const FeatureTraits& traits = traitsOf(feature.type);
@@ -158,9 +159,19 @@ void ObservationSignatures::serializeTo(CArchive& out) const
 void ObservationSignatures::serializeFrom(CArchive& in, std::uint8_t version)
 {
   if (version != 0) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
-  std::uint32_t count = 0;
-  in >> timestamp >> sensorLabel >> source_label >> robot_from_sensor_ >> count;
-  features.clear();
-  for (std::uint32_t i = 0; i < count; ++i) features.push_back(detail::readFeature(in));
+  constexpr std::uint32_t kLongestLabel = 1U << 12U;
+  in >> timestamp;
+  std::string label = detail::readText(in, kLongestLabel);
+  std::string source = detail::readText(in, kLongestLabel);
+  CPose3D robot_from_sensor;
+  in >> robot_from_sensor;
+  if (!detail::isSensorMount(robot_from_sensor))
+  {
+    throw detail::BadContent("ObservationSignatures of a sensor that is not on the robot");
+  }
+  features = detail::readFeatures(in);
+  sensorLabel = std::move(label);
+  source_label = std::move(source);
+  robot_from_sensor_ = robot_from_sensor;
 }
 }  // namespace sigloc

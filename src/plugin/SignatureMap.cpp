@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sigloc/plugin/SignatureMap.h"
 
+#include "plugin/observation_fingerprint.h"
 #include "plugin/SignatureMap_state.h"
 
 #include <mrpt/maps/CPointsMap.h>
@@ -12,10 +13,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
-#include "io/maps/map_reach.h"
 #include "io/scan_conversion.h"
+#include "map/map_values.h"
 #include "sigloc/config/plural.h"
 #include "sigloc/io/map_files.h"
 #include "sigloc/plugin/map_drawing.h"
@@ -35,76 +35,6 @@ namespace
 constexpr std::size_t kObservationsKept = 16;
 constexpr float kFarSquared = 1e4F;  // [m^2]
 constexpr double kFar = 10.0;  // [m], the largest distance looked up
-
-void mixIn(std::uint64_t value, std::uint64_t& hash)
-{
-  hash = (hash ^ value) * 0x9E3779B97F4A7C15ULL;
-  hash ^= hash >> 29U;
-}
-
-void mixIn(double value, std::uint64_t& hash)
-{
-  std::uint64_t bits = 0;
-  std::memcpy(&bits, &value, sizeof(bits));
-  mixIn(bits, hash);
-}
-
-void mixIn(const CPose3D& pose, std::uint64_t& hash)
-{
-  for (const double value : {pose.x(), pose.y(), pose.z(), pose.yaw(), pose.pitch(), pose.roll()})
-  {
-    mixIn(value, hash);
-  }
-}
-
-/// Only a few of the ranges are used, because this is called for every particle.
-void mixIn(const CObservation2DRangeScan& scan, std::uint64_t& hash)
-{
-  constexpr std::size_t kSamples = 16;
-  const std::size_t n = scan.getScanSize();
-  mixIn(n, hash);
-  mixIn(scan.sensorPose, hash);
-  mixIn(static_cast<double>(scan.aperture), hash);
-  mixIn(static_cast<double>(scan.maxRange), hash);
-  mixIn(std::uint64_t{scan.rightToLeft}, hash);
-  const std::size_t stride = std::max<std::size_t>(1, n / kSamples);
-  for (std::size_t i = 0; i < n; i += stride)
-  {
-    mixIn(static_cast<double>(scan.getScanRange(i)), hash);
-    mixIn(std::uint64_t{scan.getScanRangeValidity(i)}, hash);
-  }
-}
-
-void mixIn(const CObservationBearingRange& landmarks, std::uint64_t& hash)
-{
-  mixIn(landmarks.sensorLocationOnRobot, hash);
-  for (const auto& measured : landmarks.sensedData)
-  {
-    for (const float value : {measured.range, measured.yaw, measured.pitch})
-    {
-      mixIn(static_cast<double>(value), hash);
-    }
-  }
-}
-
-/// Identifies an observation and the options that its points are extracted with. An address alone
-/// is not enough, because freed memory is used again.
-std::uint64_t fingerprintOf(const CObservation& observation, std::size_t max_points)
-{
-  std::uint64_t hash = 1;
-  mixIn(max_points, hash);
-  mixIn(std::uint64_t{reinterpret_cast<std::uintptr_t>(&observation)}, hash);
-  mixIn(static_cast<std::uint64_t>(observation.timestamp.time_since_epoch().count()), hash);
-  if (const auto* scan = dynamic_cast<const CObservation2DRangeScan*>(&observation))
-  {
-    mixIn(*scan, hash);
-  }
-  if (const auto* landmarks = dynamic_cast<const CObservationBearingRange*>(&observation))
-  {
-    mixIn(*landmarks, hash);
-  }
-  return hash;
-}
 
 std::vector<TPoint2D> returnsOf(const LaserScan& scan)
 {
@@ -152,6 +82,8 @@ SignatureMap::Learnt::Learnt(const Learnt& other)
 {
   const std::lock_guard<std::mutex> lock(other.mutex);
   builder = other.builder;
+  refused = other.refused;
+  refusal = other.refusal;
 }
 
 SignatureMap::Learnt& SignatureMap::Learnt::operator=(const Learnt& other)
@@ -159,6 +91,8 @@ SignatureMap::Learnt& SignatureMap::Learnt::operator=(const Learnt& other)
   if (this == &other) return *this;
   const std::scoped_lock lock(mutex, other.mutex);
   builder = other.builder;
+  refused = other.refused;
+  refusal = other.refusal;
   model.reset();
   observations.clear();
   return *this;
@@ -204,8 +138,13 @@ bool SignatureMap::isEmpty() const
 std::string SignatureMap::asString() const
 {
   const auto map = featureMap();
+  const std::lock_guard<std::mutex> lock(learnt_->mutex);
+  const std::string refused = learnt_->refused == 0
+                                  ? ""
+                                  : "; refused " + counted(learnt_->refused, "scan") +
+                                        ", the first because " + learnt_->refusal;
   return "SignatureMap of " + counted(map->features().size(), "feature") +
-         (map->field() ? " with a dense field" : "");
+         (map->field() ? " with a dense field" : "") + refused;
 }
 
 void SignatureMap::getVisualizationInto(mrpt::opengl::CSetOfObjects& scene) const
@@ -241,16 +180,25 @@ bool SignatureMap::internal_insertObservation(const CObservation& observation,
   }
   PosedScans posed;
   if (robot_pose) posed.map_from_robot = CPose2D(*robot_pose).asTPose();
-  if (const auto reason = detail::beyondReach(posed.map_from_robot.x, posed.map_from_robot.y))
-  {
-    throw std::invalid_argument("SignatureMap: a pose that " + *reason);
-  }
   posed.scans.push_back(std::move(*scan));
   const std::lock_guard<std::mutex> lock(learnt_->mutex);
+  if (const auto reason = beyondReach(posed.map_from_robot.x, posed.map_from_robot.y))
+  {
+    learnt_->refuse("its pose " + *reason);
+    return false;
+  }
   // Only the builder with the scan is kept.
   std::optional<MapBuilder> first;
   if (!learnt_->builder) first.emplace(insertion_options.building, baseMap());
-  (first ? *first : *learnt_->builder).add(posed, insertion_options.extraction);
+  try
+  {
+    (first ? *first : *learnt_->builder).add(posed, insertion_options.extraction);
+  }
+  catch (const std::invalid_argument& error)
+  {
+    learnt_->refuse(error.what());
+    return false;
+  }
   if (first) learnt_->builder = std::move(first);
   learnt_->model.reset();
   return true;

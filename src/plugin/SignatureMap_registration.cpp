@@ -3,7 +3,6 @@
 
 // How MRPT creates, configures and stores a SignatureMap.
 #include <mrpt/config/CConfigFileMemory.h>
-#include <mrpt/core/initializer.h>
 #include <mrpt/serialization/CArchive.h>
 
 #include <algorithm>
@@ -19,12 +18,6 @@
 MAP_DEFINITION_REGISTER("sigloc::SignatureMap", sigloc::SignatureMap)
 IMPLEMENTS_SERIALIZABLE(SignatureMap, mrpt::maps::CMetricMap, sigloc)
 
-// Runs when the library is linked, preloaded or opened as a plug-in.
-MRPT_INITIALIZER(register_sigloc_classes)
-{
-  mrpt::rtti::registerClass(CLASS_ID(sigloc::SignatureMap));
-}
-
 namespace sigloc
 {
 using mrpt::config::CConfigFileBase;
@@ -32,6 +25,10 @@ using mrpt::serialization::CArchive;
 
 namespace
 {
+// Made when the library is linked, preloaded or opened as a plug-in. It comes after the class's
+// identity, which clang, unlike g++, sets up no earlier; so MRPT_INITIALIZER would not do.
+[[maybe_unused]] const bool kRegistered = (mrpt::rtti::registerClass(CLASS_ID(SignatureMap)), true);
+
 /// Copies the keys of a section that `wanted` accepts.
 template <class Wanted>
 mrpt::config::CConfigFileMemory copyOf(const CConfigFileBase& source, const std::string& section,
@@ -132,15 +129,17 @@ void SignatureMap::serializeTo(CArchive& out) const
 void SignatureMap::serializeFrom(CArchive& in, std::uint8_t version)
 {
   if (version > 1) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
-  in >> genericMapParams;
-  insertion_options.building = detail::readOptions<MapBuildingOptions>(in);
-  insertion_options.extraction = detail::readOptions<FeatureExtractorOptions>(in);
-  likelihood_options.points = detail::readOptions<PointLikelihoodOptions>(in);
-  prepared_map_ = std::make_shared<FeatureMap>(readFeatureMap(in));
-  *learnt_ = Learnt();
+  // Read into another map, so that this one stays as it was where the archive is bad.
+  SignatureMap read;
+  in >> read.genericMapParams;
+  read.insertion_options.building = detail::readOptions<MapBuildingOptions>(in);
+  read.insertion_options.extraction = detail::readOptions<FeatureExtractorOptions>(in);
+  read.likelihood_options.points = detail::readOptions<PointLikelihoodOptions>(in);
+  read.prepared_map_ = std::make_shared<FeatureMap>(readFeatureMap(in));
   // Version 0 stored the finished map alone.
   bool has_builder = false;
   if (version >= 1) in >> has_builder;
-  if (has_builder) learnt_->builder = detail::readMapBuilder(in, baseMap());
+  if (has_builder) read.learnt_->builder = detail::readMapBuilder(in, read.baseMap());
+  *this = read;
 }
 }  // namespace sigloc

@@ -9,6 +9,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "map/building/MapBuilder.h"
@@ -43,5 +44,12 @@ struct SignatureMap::Learnt
   std::optional<MapBuilder> builder;  // of the scans, on top of the prepared map
   std::shared_ptr<const Model> model;
   std::deque<std::shared_ptr<const PreparedObservation>> observations;
+  std::size_t refused = 0;  // scans that the map cannot hold
+  std::string refusal;  // why, of the first
+
+  void refuse(const std::string& reason)
+  {
+    if (refused++ == 0) refusal = reason;
+  }
 };
 }  // namespace sigloc

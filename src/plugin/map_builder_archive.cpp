@@ -2,13 +2,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "plugin/map_builder_archive.h"
 
+#include <algorithm>
 #include <array>
-#include <stdexcept>
+#include <cmath>
+#include <initializer_list>
 #include <utility>
 #include <vector>
 
+#include "features/feature_values.h"
+#include "io/archive_values.h"
 #include "io/maps/feature_archive.h"
 #include "io/options_archive.h"
+#include "map/map_values.h"
 
 namespace sigloc::detail
 {
@@ -18,6 +23,21 @@ namespace
 {
 constexpr std::uint8_t kVersion = 1;
 constexpr std::uint8_t kVersionWithoutSums = 0;  // hits are taken to be at cell centres
+
+bool areSums(std::initializer_list<double> sums)
+{
+  constexpr double kLargest = 1e18;
+  return std::all_of(sums.begin(), sums.end(),
+                     [](double sum) { return std::abs(sum) <= kLargest; });  // false for NaN
+}
+
+/// A merged feature is derived from none, and where a map can hold it.
+void requireOwn(const Feature& feature)
+{
+  auto flaw = flawOf(feature, 0);
+  if (!flaw) flaw = beyondReach(feature.position.x, feature.position.y);
+  if (flaw) throw BadContent("a merged feature " + *flaw);
+}
 
 void write(const FeatureMerger::MergedSegment& segment, CArchive& out)
 {
@@ -31,6 +51,13 @@ void read(CArchive& in, FeatureMerger::MergedSegment& segment)
   in >> segment.weight >> segment.weighted_sum.x >> segment.weighted_sum.y >> segment.xx >>
       segment.xy >> segment.yy >> segment.sightings;
   segment.line = readFeature(in);
+  if (!isSegment(segment.line.type) ||
+      !areSums({segment.weight, segment.weighted_sum.x, segment.weighted_sum.y, segment.xx,
+                segment.xy, segment.yy}))
+  {
+    throw BadContent("a merged wall of impossible sums");
+  }
+  requireOwn(segment.line);
 }
 
 void write(const FeatureMerger::MergedPlace& place, CArchive& out)
@@ -43,6 +70,22 @@ void read(CArchive& in, FeatureMerger::MergedPlace& place)
 {
   in >> place.cosine_sum >> place.sine_sum >> place.count;
   place.feature = readFeature(in);
+  if (isSegment(place.feature.type) || place.count == 0 ||
+      !areSums({place.cosine_sum, place.sine_sum}))
+  {
+    throw BadContent("a merged place of impossible sums");
+  }
+  requireOwn(place.feature);
+}
+
+const Feature& featureOf(const FeatureMerger::MergedSegment& segment)
+{
+  return segment.line;
+}
+
+const Feature& featureOf(const FeatureMerger::MergedPlace& place)
+{
+  return place.feature;
 }
 
 template <class Item>
@@ -58,11 +101,14 @@ std::vector<Item> readAll(CArchive& in)
   std::uint32_t count = 0;
   in >> count;
   std::vector<Item> items;
+  double outline = 0;
   // Not resized at once: a damaged count must not allocate memory that the file has no data for.
   for (std::uint32_t i = 0; i < count; ++i)
   {
     items.emplace_back();
     read(in, items.back());
+    outline += outlineLength(featureOf(items.back()));
+    if (!(outline <= kLongestOutline)) throw BadContent("merged features that are too long");
   }
   return items;
 }
@@ -144,7 +190,7 @@ MapBuilder readMapBuilder(CArchive& in, std::shared_ptr<const FeatureMap> base)
 {
   std::uint8_t version = 0;
   in >> version;
-  if (version > kVersion) throw std::runtime_error("map builder of a later version");
+  if (version > kVersion) throw BadContent("a map builder of a later version");
   const auto options = readOptions<MapBuildingOptions>(in);
   MapBuilder builder(options, std::move(base));
   auto segments = readAll<FeatureMerger::MergedSegment>(in);

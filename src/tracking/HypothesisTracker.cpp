@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "features/feature_values.h"
 #include "matching/candidate_probabilities.h"
 #include "matching/dense/DenseVerifier.h"
 #include "tracking/belief_verdict.h"

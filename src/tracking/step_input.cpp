@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tracking/step_input.h"
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -25,14 +24,5 @@ void checkMotion(const MotionIncrement& motion)
     sound = sound && motion.covariance(r, r) >= 0;
   }
   if (!sound) throw std::invalid_argument("a motion is not finite or has a negative variance");
-}
-
-void checkScene(const ObservedScene& scene)
-{
-  const bool sound = std::all_of(scene.beams.begin(), scene.beams.end(),
-                                 [](const BeamEnd& beam) { return isFinite(beam.point); }) &&
-                     std::all_of(scene.features.begin(), scene.features.end(),
-                                 [](const Feature& feature) { return isFinite(feature.position); });
-  if (!sound) throw std::invalid_argument("a return or feature is at no finite place");
 }
 }  // namespace sigloc

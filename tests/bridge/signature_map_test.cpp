@@ -271,8 +271,12 @@ TEST(SignatureMap, RefusesAPoseThatIsNone)
 {
   SignatureMap map;
   const CPose3D nowhere(std::nan(""), 0, 0, 0, 0, 0);
-  EXPECT_THROW(map.insertObservation(*roomScan({0, 0, 0}), nowhere), std::invalid_argument);
+  EXPECT_FALSE(map.insertObservation(*roomScan({0, 0, 0}), nowhere));
+  EXPECT_FALSE(map.insertObservation(*roomScan({0, 0, 0}), CPose3D(2e5, 0, 0, 0, 0, 0)));
   EXPECT_TRUE(map.isEmpty());
+  EXPECT_NE(map.asString().find("refused 2 scans"), std::string::npos) << map.asString();
+  EXPECT_TRUE(map.insertObservation(*roomScan({0, 0, 0}), CPose3D()));
+  EXPECT_FALSE(map.insertObservation(*roomScan({0, 0, 0}), CPose3D(5e4, 5e4, 0, 0, 0, 0)));
 }
 
 TEST(SignatureMap, IsMadeFromAnIniAndDeepCopiedInAMultiMap)

@@ -30,7 +30,8 @@ MapSource readMapSource(const std::filesystem::path& path);
 std::string mapFormatNames();
 
 /// Returns a line on the key frames of a simplemap that are left out, or that are taken to be on
-/// one floor. The line is empty when there are none, and for other map sources. The same errors.
+/// one floor. For a ROS map the line is on thresholds that would make free what was never seen. It
+/// is empty when there is nothing to tell. The same errors.
 std::string warningOfMapSource(const std::filesystem::path& path);
 
 /// Returns a line on a map in which no robot is likely to be found, or an empty one. It has more

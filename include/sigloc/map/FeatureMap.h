@@ -40,8 +40,10 @@ class FeatureMap
  public:
   FeatureMap() = default;
 
-  /// Throws std::invalid_argument for a feature with a non-finite number or a covariance that is
-  /// not positive semi-definite.
+  /// Throws std::invalid_argument with the reason for values that no map has. These are a number
+  /// that is not finite, a size or variance out of range, or a covariance that is not positive
+  /// semi-definite. So are a parent that is no feature, a place beyond 100 km, and a field that
+  /// contradicts its frame.
   explicit FeatureMap(std::vector<Feature> features, std::optional<DenseField> field = std::nullopt,
                       MapErrorModel error = {}, MapProvenance provenance = {});
 

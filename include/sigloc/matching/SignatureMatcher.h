@@ -82,6 +82,8 @@ class SignatureMatcher
 
   /// Returns ranked candidates and a verdict. With a region the candidates come from proposals
   /// inside it. Poses outside that fit count as elsewhere, with a prior of 0.01 each.
+  /// Throws std::invalid_argument for a scene that cannot be used. It has a number that is not
+  /// finite or out of range, a beam of no sensor origin, or a parent that is no feature.
   RelocationResult localize(const ObservedScene& scene,
                             const std::optional<PoseRegion>& region = std::nullopt) const;
 

@@ -28,6 +28,9 @@ namespace sigloc
 /// area that it sees. The likelihood of scans is up to date at once; features are derived when they
 /// are asked for.
 ///
+/// A scan that the map cannot hold, far from all others or at no finite pose, is refused: inserting
+/// it returns false, and asString() tells how many were and why.
+///
 /// Const member functions may be called from several threads at once.
 class SignatureMap : public mrpt::maps::CMetricMap
 {

@@ -35,8 +35,8 @@ class HypothesisTracker
   /// Advances by one step and returns the belief after it. Without a motion a wide prior is used.
   /// The motion of the first step does not matter.
   /// Throws std::invalid_argument for a motion with a value that is not finite or a negative
-  /// variance, and for returns or features at positions that are not finite. The belief then stays
-  /// as it was.
+  /// variance, and for a scene that SignatureMatcher::localize() refuses. The belief then stays as
+  /// it was.
   const Belief& step(const std::optional<MotionIncrement>& motion, const ObservedScene& scene);
 
   const Belief& belief() const;

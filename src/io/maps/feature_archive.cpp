@@ -2,7 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/maps/feature_archive.h"
 
-#include <stdexcept>
+#include <limits>
+#include <string>
+
+#include "features/feature_values.h"
+#include "io/archive_values.h"
 
 namespace sigloc::detail
 {
@@ -28,12 +32,29 @@ Feature readFeature(CArchive& in)
       feature.position.y >> feature.direction >> feature.size >> covariance(0, 0) >>
       covariance(0, 1) >> covariance(1, 0) >> covariance(1, 1) >> feature.direction_variance >>
       feature.size_variance >> feature.label >> feature.sightings >> feature.parent;
-  if (type >= kFeatureTypes || side > static_cast<std::uint8_t>(WallSide::end))
-  {
-    throw std::runtime_error("unknown feature type");
-  }
   feature.type = static_cast<FeatureType>(type);
   feature.side = static_cast<WallSide>(side);
+  if (const auto flaw = flawOf(feature, std::numeric_limits<std::int32_t>::max()))
+  {
+    throw BadContent("a feature " + *flaw);
+  }
   return feature;
+}
+
+std::vector<Feature> readFeatures(CArchive& in)
+{
+  std::uint32_t count = 0;
+  in >> count;
+  std::vector<Feature> features;
+  // Grown as they come: a hostile count must not allocate memory that the file has no data for.
+  for (std::uint32_t k = 0; k < count; ++k)
+  {
+    features.push_back(readFeature(in));
+    if (const auto flaw = flawOf(features.back(), count))
+    {
+      throw BadContent("feature " + std::to_string(k) + " " + *flaw);
+    }
+  }
+  return features;
 }
 }  // namespace sigloc::detail

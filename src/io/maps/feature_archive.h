@@ -4,12 +4,16 @@
 
 #include <mrpt/serialization/CArchive.h>
 
+#include <vector>
+
 #include "sigloc/features/Feature.h"
 
 namespace sigloc::detail
 {
 void writeFeature(const Feature& feature, mrpt::serialization::CArchive& out);
 
-/// Throws std::runtime_error for a type that is not known.
+/// Throws BadContent for a feature that flawOf() refuses; its parent is an index of any size.
 Feature readFeature(mrpt::serialization::CArchive& in);
+/// Reads their number, and that many. Throws BadContent for one that flawOf() refuses.
+std::vector<Feature> readFeatures(mrpt::serialization::CArchive& in);
 }  // namespace sigloc::detail

@@ -7,6 +7,7 @@
 
 #include "io/maps/map_source_readers.h"
 #include "io/text_rows.h"
+#include "map/map_values.h"
 
 namespace sigloc::detail
 {
@@ -89,10 +90,15 @@ FeatureMap readLandmarks(const std::filesystem::path& path)
     }
     else if (!comment)
     {
+      if (line.find(';') != std::string_view::npos && line.find(',') != std::string_view::npos)
+      {
+        failAtLine(path, i, "both ',' and ';' in it: write decimal points");
+      }
       landmarks.push_back(toLandmark(row, columns, path, i));
     }
   }
   if (landmarks.empty()) throw std::runtime_error(path.string() + ": no landmark in it");
+  if (const auto flaw = flawOf(landmarks)) throw std::runtime_error(path.string() + ": " + *flaw);
   return FeatureMap(std::move(landmarks));
 }
 }  // namespace sigloc::detail

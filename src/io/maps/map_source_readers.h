@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "sigloc/map/map_building.h"
@@ -14,8 +15,17 @@ namespace sigloc::detail
 std::vector<PosedScans> readSimplemap(const std::filesystem::path& path);
 OccupancyRaster readGridmap(const std::filesystem::path& path);
 
-/// Free, wall and unknown by the file's thresholds; its image may be anything OpenCV reads.
+/// Returns the state of a cell that is occupied with this probability.
+CellState stateOfOccupancy(double occupied);
+/// Throws for a raster without a wall or a free cell, or with cells of an unusable size.
+void requireWallAndFree(const OccupancyRaster& raster, const std::filesystem::path& path);
+
+/// Free, wall and unknown by nav2's rules for the file's mode and thresholds; its image is a PGM or
+/// PNG. One difference: shade 205, with which map savers write what was never seen, stays unknown
+/// where the thresholds would make it free.
 OccupancyRaster readRosMap(const std::filesystem::path& path);
+/// Returns a line where that difference matters, else an empty one.
+std::string warningOfRosMap(const std::filesystem::path& path);
 /// Returns the image file that a ROS map names, as a path that can be opened.
 std::filesystem::path imageOfRosMap(const std::filesystem::path& path);
 

@@ -196,6 +196,7 @@ std::vector<PosedScans> posedScansOf(const mrpt::maps::CSimpleMap& simplemap)
 std::string warningOfMapSource(const std::filesystem::path& path)
 {
   constexpr double kOneFloor = 0.5;  // [m]
+  if (isReadBy(sourceBy<detail::readRosMap>, path)) return detail::warningOfRosMap(path);
   if (!isReadBy(sourceBy<detail::readSimplemap>, path)) return {};
   mrpt::maps::CSimpleMap simplemap;
   detail::readObjectFile(path, simplemap);

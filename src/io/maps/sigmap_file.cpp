@@ -5,14 +5,16 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "io/archive_values.h"
 #include "io/gzip_input.h"
 #include "io/maps/feature_archive.h"
-#include "io/maps/map_reach.h"
+#include "map/map_values.h"
 #include "sigloc/io/file_output.h"
 
 namespace sigloc
@@ -26,9 +28,9 @@ constexpr char kMagic[] = "sigloc-map\n";
 constexpr std::size_t kMagicSize = sizeof(kMagic) - 1;
 constexpr std::uint8_t kBodyVersion = 3;
 constexpr std::uint8_t kOldestBodyVersion = 2;  // it lacks the error of the map's turn
+constexpr std::uint64_t kMostSkipped = 1ULL << 28U;  // bytes, which take half a second
 constexpr std::size_t kBlockCells = 1U << 16U;
-constexpr std::size_t kFirstReserve = 1U << 14U;
-constexpr std::uint64_t kMostCells = 1ULL << 31U;
+constexpr std::uint32_t kLongestText = 1U << 16U;
 
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& reason)
 {
@@ -63,15 +65,17 @@ DenseField readField(CArchive& in)
   DenseField field;
   in >> field.frame.origin.x >> field.frame.origin.y >> field.frame.resolution >>
       field.frame.width >> field.frame.height >> field.free_area >> field.wall_cells;
-  const std::uint64_t count = std::uint64_t{field.frame.width} * field.frame.height;
-  if (count > kMostCells || !(field.frame.resolution > 0)) throw std::runtime_error("bad raster");
+  if (const auto flaw = flawOf(field.frame)) throw detail::BadContent(*flaw);
+  const std::size_t count = std::size_t{field.frame.width} * field.frame.height;
+  std::uint64_t wall_cells = 0;
+  std::uint64_t free_cells = 0;
   std::vector<std::uint8_t> planes(4 * kBlockCells);
   for (std::size_t first = 0; first < count; first += kBlockCells)
   {
     const std::size_t n = std::min<std::size_t>(kBlockCells, count - first);
     if (in.ReadBuffer(planes.data(), 4 * n) != 4 * n) throw std::runtime_error("raster cut off");
-    // After the first block it is known that the file holds data.
-    if (first == kBlockCells) field.cells.reserve(count);
+    // No more is allocated than eight times what the file has shown to hold.
+    if (first + n > field.cells.capacity()) field.cells.reserve(std::min(count, 8 * (first + n)));
     field.cells.resize(first + n);
     for (std::size_t i = 0; i < n; ++i)
     {
@@ -81,10 +85,20 @@ DenseField readField(CArchive& in)
       cell.dy = static_cast<std::int8_t>(planes[2 * n + i]);
       if (planes[3 * n + i] > static_cast<std::uint8_t>(CellState::solid_wall))
       {
-        throw std::runtime_error("unknown cell state");
+        throw detail::BadContent("a cell of no known state");
       }
       cell.state = static_cast<CellState>(planes[3 * n + i]);
+      if (isWall(cell.state)) ++wall_cells;
+      if (cell.state == CellState::free) ++free_cells;
     }
+  }
+  const double cell_area = field.frame.resolution * field.frame.resolution;
+  const double free_area = static_cast<double>(free_cells) * cell_area;
+  constexpr double kRounding = 1e-6;
+  if (field.wall_cells != wall_cells ||
+      !(std::abs(field.free_area - free_area) <= kRounding * (cell_area + free_area)))
+  {
+    throw detail::BadContent("the raster's free area or wall cells are not those of its cells");
   }
   return field;
 }
@@ -111,25 +125,25 @@ FeatureMap readFeatureMap(CArchive& in)
   if (version < kOldestBodyVersion || version > kBodyVersion)
   {
     const bool newer = version > kBodyVersion;
-    throw std::runtime_error(
+    throw detail::BadContent(
         fmt::format("feature map of version {}, this sigloc reads versions {} to {}: {}", version,
                     kOldestBodyVersion, kBodyVersion,
                     newer ? "a newer sigloc made it, and is needed to read it" : "build it again"));
   }
   MapProvenance provenance;
-  in >> provenance.source_path >> provenance.source_checksum >> provenance.options_digest;
+  provenance.source_path = detail::readText(in, kLongestText);
+  provenance.source_checksum = detail::readText(in, kLongestText);
+  provenance.options_digest = detail::readText(in, kLongestText);
   MapErrorModel error;
   in >> error.relative_constant >> error.relative_slope >> error.common_sigma;
   if (version > kOldestBodyVersion) in >> error.common_turn_sigma;
-  std::uint32_t count = 0;
-  in >> count;
-  std::vector<Feature> features;
-  features.reserve(std::min<std::size_t>(count, kFirstReserve));
-  for (std::uint32_t i = 0; i < count; ++i) features.push_back(detail::readFeature(in));
+  if (const auto flaw = flawOf(error)) throw detail::BadContent(*flaw);
+  std::vector<Feature> features = detail::readFeatures(in);
   bool has_field = false;
   in >> has_field;
   std::optional<DenseField> field;
   if (has_field) field = readField(in);
+  if (const auto flaw = flawOf(features)) throw detail::BadContent(*flaw);
   return FeatureMap(std::move(features), std::move(field), error, std::move(provenance));
 }
 
@@ -141,19 +155,24 @@ FeatureMap readSigmap(const std::filesystem::path& path)
   char magic[kMagicSize] = {};
   const std::size_t got = input.Read(magic, kMagicSize);
   if (std::memcmp(magic, kMagic, std::max<std::size_t>(got, 1)) != 0) fail(path, "not a .sigmap");
-  std::string reason = "truncated or damaged";
+  std::string reason;
   try
   {
     auto archive = mrpt::serialization::archiveFrom(input);
     FeatureMap map = readFeatureMap(archive);
     if (input.atEnd() && !input.damaged()) return map;
   }
-  catch (const std::exception& error)
+  catch (const detail::BadContent& error)
   {
-    const std::string what = error.what();
-    if (what.find("feature map of version") != std::string::npos) reason = what;
+    reason = error.what();
   }
-  fail(path, reason);
+  catch (const std::exception&)
+  {
+    // Cut off, or damaged so that MRPT's archive stumbles.
+  }
+  // Of a damaged file, no other reason can be believed. Its checksum comes last.
+  input.skipToEnd(kMostSkipped);
+  fail(path, reason.empty() || input.damaged() ? "truncated or damaged" : reason);
 }
 }  // namespace
 
@@ -172,8 +191,6 @@ void saveSigmap(const FeatureMap& map, const std::filesystem::path& path)
 
 FeatureMap loadSigmap(const std::filesystem::path& path)
 {
-  FeatureMap map = readSigmap(path);
-  detail::requireWithinReach(map, path);
-  return map;
+  return readSigmap(path);
 }
 }  // namespace sigloc

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "geometry/cell_key.h"
+#include "map/map_values.h"
 
 namespace sigloc
 {
@@ -16,7 +17,6 @@ namespace
 {
 constexpr std::uint16_t kSolidScans = 2;  // least scans that hit a solid wall, eq. (6.2)
 constexpr double kBorder = 1.5;  // [m] around the outermost return
-constexpr double kMaxCells = 4e8;  // bound of the extent, checked before allocating
 constexpr double kMaxIndex = 1e9;  // bound of a cell's index, in either direction
 constexpr std::int32_t kTile = BeamCounts::kTileCells;
 
@@ -129,6 +129,19 @@ BeamCounts::BeamCounts(double resolution, const TPoint2D& anchor)
 {
 }
 
+/// Whether a raster can be made of the extent; false where it is not finite.
+bool BeamCounts::isHeld(const Extent& extent) const
+{
+  const TPoint2D size = extent.high - extent.low;
+  const double border = 2 * kBorder;
+  const double cells = (size.x + border) * (size.y + border) / (resolution_ * resolution_);
+  const TPoint2D low = extent.low - anchor_;
+  const TPoint2D high = extent.high - anchor_;
+  const double farthest =
+      std::max({std::abs(low.x), std::abs(low.y), std::abs(high.x), std::abs(high.y)});
+  return size.x >= 0 && size.y >= 0 && cells < kMostCells && farthest / resolution_ < kMaxIndex;
+}
+
 void BeamCounts::add(const PosedScans& posed, double max_range)
 {
   Extent extent = extent_;
@@ -139,17 +152,7 @@ void BeamCounts::add(const PosedScans& posed, double max_range)
                   extent.add(end);
                 });
   if (extent.empty()) return;
-  const TPoint2D size = extent.high - extent.low;
-  const double border = 2 * kBorder;
-  const double cells = (size.x + border) * (size.y + border) / (resolution_ * resolution_);
-  const TPoint2D low = extent.low - anchor_;
-  const TPoint2D high = extent.high - anchor_;
-  const double farthest =
-      std::max({std::abs(low.x), std::abs(low.y), std::abs(high.x), std::abs(high.y)});
-  if (!(cells < kMaxCells && farthest / resolution_ < kMaxIndex))
-  {
-    throw std::invalid_argument("the scans spread over too large an area");
-  }
+  if (!isHeld(extent)) throw std::invalid_argument("the scans spread over too large an area");
   extent_ = extent;
   ++scan_;
   Cursor cursor;
@@ -276,9 +279,14 @@ BeamCounts::TileCells BeamCounts::cellsOf(const CellIndex& name, std::uint32_t m
 
 CellBox BeamCounts::box() const
 {
+  return boxOf(extent_);
+}
+
+CellBox BeamCounts::boxOf(const Extent& extent) const
+{
   const TPoint2D border(kBorder, kBorder);
-  const TPoint2D high = extent_.high + border - anchor_;
-  return {cellAt(extent_.low - border, anchor_, resolution_),
+  const TPoint2D high = extent.high + border - anchor_;
+  return {cellAt(extent.low - border, anchor_, resolution_),
           {static_cast<std::int32_t>(std::ceil(high.x / resolution_)),
            static_cast<std::int32_t>(std::ceil(high.y / resolution_))}};
 }
@@ -346,7 +354,11 @@ const BeamCounts::Tile& BeamCounts::tile(const CellIndex& name) const
 
 void BeamCounts::restore(const Extent& extent, const CellIndex& name, const Tile& tile)
 {
-  if (name.x % kTile != 0 || name.y % kTile != 0)
+  if (!isHeld(extent)) throw std::invalid_argument("BeamCounts: counts over too large an area");
+  const CellBox box = boxOf(extent);
+  const bool inside = name.x < box.high.x && name.y < box.high.y && name.x > box.low.x - kTile &&
+                      name.y > box.low.y - kTile;
+  if (!inside || name.x % kTile != 0 || name.y % kTile != 0)
   {
     throw std::invalid_argument("BeamCounts: no such tile");
   }

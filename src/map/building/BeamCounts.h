@@ -99,8 +99,8 @@ class BeamCounts
   const Extent& extent() const { return extent_; }
   std::vector<CellIndex> tileNames() const;  ///< in order
   const Tile& tile(const CellIndex& name) const;
-  /// Restores stored counts. Throws std::invalid_argument for a name that no tile can have, or for
-  /// counts that no scans can cause.
+  /// Restores stored counts. Throws std::invalid_argument for an extent too large for a raster, a
+  /// name that no tile within it can have, or counts that no scans can cause.
   void restore(const Extent& extent, const CellIndex& name, const Tile& tile);
 
  private:
@@ -110,6 +110,8 @@ class BeamCounts
     std::uint64_t key = ~0ULL;
     Tile* tile = nullptr;
   };
+  bool isHeld(const Extent& extent) const;
+  CellBox boxOf(const Extent& extent) const;
   Cursor enterTile(const CellIndex& cell);
   void markChanged(std::uint64_t key, Tile& tile);
   const Count* find(const CellIndex& cell) const;

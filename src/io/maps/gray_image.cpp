@@ -1,0 +1,192 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/maps/gray_image.h"
+
+#include <fmt/core.h>
+#include <png.h>
+
+#include <cctype>
+#include <csetjmp>
+#include <cstdio>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "map/map_values.h"
+
+namespace sigloc::detail
+{
+namespace
+{
+using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+
+[[noreturn]] void fail(const std::filesystem::path& path, const std::string& reason)
+{
+  throw std::runtime_error(path.string() + ": " + reason);
+}
+
+/// Throws for a picture that is empty or larger than a map may be.
+void requireSize(const std::filesystem::path& path, double width, double height)
+{
+  if (width * height >= 1 && width * height <= kMostCells) return;
+  fail(path, fmt::format("a picture of {:.0f} x {:.0f} pixels, not of 1 to {:g}", width, height,
+                         kMostCells));
+}
+
+/// Returns the next number of a PGM's head or text, behind blanks and comments, or -1 for none.
+/// One character behind it is consumed.
+int nextNumber(std::FILE* file)
+{
+  constexpr int kMost = 100000000;
+  int c = std::fgetc(file);
+  while (std::isspace(c) != 0 || c == '#')
+  {
+    const bool comment = c == '#';
+    while (comment && c != '\n' && c != EOF) c = std::fgetc(file);
+    c = std::fgetc(file);
+  }
+  if (std::isdigit(c) == 0) return -1;
+  int number = 0;
+  for (; std::isdigit(c) != 0 && number <= kMost; c = std::fgetc(file))
+  {
+    number = 10 * number + (c - '0');
+  }
+  return number <= kMost ? number : -1;
+}
+
+GrayImage readPgm(std::FILE* file, bool text, const std::filesystem::path& path)
+{
+  constexpr int kWhite = 255;
+  constexpr int kMostWhite = 65535;
+  const int width = nextNumber(file);
+  const int height = nextNumber(file);
+  const int white = nextNumber(file);
+  if (width < 0 || height < 0 || white < 1 || white > kMostWhite) fail(path, "not a PGM picture");
+  requireSize(path, width, height);
+  GrayImage image;
+  image.width = static_cast<std::uint32_t>(width);
+  image.height = static_cast<std::uint32_t>(height);
+  // Row by row, so that no more is allocated than the file holds data for.
+  for (int y = 0; y < height; ++y)
+  {
+    for (int x = 0; x < width; ++x)
+    {
+      int value = text ? nextNumber(file) : std::fgetc(file);
+      if (!text && white > kWhite && value >= 0) value = 256 * value + std::fgetc(file);
+      if (value < 0 || std::feof(file) != 0) fail(path, "its picture is cut off");
+      if (value > white) fail(path, "its picture has a pixel whiter than white");
+      image.shades.push_back(static_cast<std::uint8_t>((value * kWhite + white / 2) / white));
+    }
+  }
+  return image;
+}
+
+/// What libpng calls back; it must not return.
+[[noreturn]] void onPngError(png_structp png, png_const_charp)
+{
+  png_longjmp(png, 1);
+}
+void onPngWarning(png_structp, png_const_charp) {}
+
+/// libpng's structures for reading.
+struct PngReader
+{
+  png_structp png =
+      png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, onPngError, onPngWarning);
+  png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
+
+  PngReader() = default;
+  ~PngReader() { png_destroy_read_struct(&png, &info, nullptr); }
+  PngReader(const PngReader&) = delete;
+  PngReader& operator=(const PngReader&) = delete;
+};
+
+// The two calls into libpng that may jump back hold no object with a destructor.
+
+/// Reads the head and asks for rows of gray and alpha or of colours and alpha, of one byte each.
+bool readPngHead(const PngReader& reader, std::FILE* file)
+{
+  if (setjmp(png_jmpbuf(reader.png)) != 0) return false;
+  png_init_io(reader.png, file);
+  // So that a picture's own limits are asked, not libpng's of a million pixels a side.
+  png_set_user_limits(reader.png, 0x7fffffff, 0x7fffffff);
+  png_read_info(reader.png, reader.info);
+  png_set_expand(reader.png);
+  png_set_scale_16(reader.png);
+  return true;
+}
+
+bool readPngRows(const PngReader& reader, png_bytepp rows)
+{
+  if (setjmp(png_jmpbuf(reader.png)) != 0) return false;
+  png_read_image(reader.png, rows);
+  png_read_end(reader.png, nullptr);
+  return true;
+}
+
+bool startPngRows(const PngReader& reader)
+{
+  if (setjmp(png_jmpbuf(reader.png)) != 0) return false;
+  png_set_interlace_handling(reader.png);
+  png_read_update_info(reader.png, reader.info);
+  return true;
+}
+
+GrayImage readPng(std::FILE* file, const std::filesystem::path& path)
+{
+  constexpr unsigned kMostChannels = 4;
+  const PngReader reader;
+  if (reader.info == nullptr || !readPngHead(reader, file)) fail(path, "not a PNG picture");
+  GrayImage image;
+  image.width = png_get_image_width(reader.png, reader.info);
+  image.height = png_get_image_height(reader.png, reader.info);
+  requireSize(path, image.width, image.height);
+  if (!startPngRows(reader)) fail(path, "its picture is damaged");
+  const std::size_t channels = png_get_channels(reader.png, reader.info);
+  const std::size_t row_bytes = png_get_rowbytes(reader.png, reader.info);
+  if (channels < 1 || channels > kMostChannels || row_bytes != channels * image.width)
+  {
+    fail(path, "a PNG picture of an unknown kind");
+  }
+  // Packing makes no picture smaller than by this, so it is asked before memory is taken.
+  constexpr double kBestPacking = 1100;
+  const double size = static_cast<double>(row_bytes) * image.height;
+  std::error_code error;
+  const auto file_size = static_cast<double>(std::filesystem::file_size(path, error));
+  if (error || size > kBestPacking * file_size) fail(path, "its picture is cut off");
+  std::vector<std::uint8_t> bytes(row_bytes * image.height);
+  std::vector<png_bytep> rows(image.height);
+  for (std::size_t y = 0; y < rows.size(); ++y) rows[y] = &bytes[y * row_bytes];
+  if (!readPngRows(reader, rows.data())) fail(path, "its picture is cut off or damaged");
+
+  const bool has_alpha = channels % 2 == 0;
+  const std::size_t colours = has_alpha ? channels - 1 : channels;
+  for (std::size_t at = 0; at < bytes.size(); at += channels)
+  {
+    std::size_t sum = 0;
+    for (std::size_t c = 0; c < colours; ++c) sum += bytes[at + c];
+    image.shades.push_back(static_cast<std::uint8_t>((sum + colours / 2) / colours));
+    if (has_alpha) image.alphas.push_back(bytes[at + colours]);
+  }
+  return image;
+}
+}  // namespace
+
+GrayImage readGrayImage(const std::filesystem::path& path)
+{
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) fail(path, "no such file");
+  if (!std::filesystem::is_regular_file(status)) fail(path, "is no regular file");
+  const File file(std::fopen(path.c_str(), "rbe"), std::fclose);
+  if (!file) fail(path, "cannot be read");
+  const int first = std::fgetc(file.get());
+  const int second = std::fgetc(file.get());
+  if (first == EOF) fail(path, "is empty");
+  if (first == 'P' && (second == '2' || second == '5'))
+    return readPgm(file.get(), second == '2', path);
+  if (first != 0x89 || second != 'P') fail(path, "is no PGM or PNG picture");
+  std::rewind(file.get());
+  return readPng(file.get(), path);
+}
+}  // namespace sigloc::detail
