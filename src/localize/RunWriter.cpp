@@ -196,6 +196,8 @@ void checkRunFolder(const fs::path& folder, const std::vector<fs::path>& inputs)
   const fs::path results = resultsFolder(folder);
   refuseToReplaceInputs(results, inputs);
   refuseToReplaceInputs(workFolderBeside(results), inputs);
+  detail::requireNoOtherRun(workFolderBeside(results));
+  detail::requireNoOtherRun(results / detail::kInnerWork);
   detail::requireFinishedRun(results);
   detail::requireUnfinishedRun(workFolderBeside(results));
 }
@@ -216,11 +218,32 @@ RunWriter::RunWriter(const fs::path& folder, const std::vector<fs::path>& inputs
 /// Makes an empty work folder with the parts that every run has.
 std::error_code RunWriter::makeWorkFolder()
 {
-  std::error_code error;
-  fs::remove_all(work_, error);
   created_ = work_;
-  std::error_code ignored;
-  while (!fs::exists(created_.parent_path(), ignored)) created_ = created_.parent_path();
+  std::error_code error;
+  while (!fs::exists(created_.parent_path(), error)) created_ = created_.parent_path();
+  try
+  {
+    lock_ = std::make_unique<detail::FolderLock>(work_);
+  }
+  catch (const fs::filesystem_error& failed)
+  {
+    return failed.code();
+  }
+  // What another run has finished since the folders were checked is replaced, or refused.
+  try
+  {
+    detail::requireFinishedRun(folder_);
+  }
+  catch (const std::runtime_error&)
+  {
+    fs::remove_all(created_, error);
+    throw;
+  }
+  error.clear();
+  for (const fs::directory_entry& entry : fs::directory_iterator(work_, error))
+  {
+    if (!error) fs::remove_all(entry.path(), error);
+  }
   for (const char* const part : {"belief", "3D"})
   {
     if (!error) fs::create_directories(work_ / part, error);
@@ -258,8 +281,8 @@ void RunWriter::writeBelief(const StepRecord& step, const GaussianPose& anywhere
 {
   const mrpt::poses::CPosePDFSOG sum = toSumOfGaussians(withElsewhere(step.belief, anywhere));
   const fs::path stem = work_ / "belief" / stepName(step);
-  writeFile(stem.string() + ".CPosePDFSOG", bytesOf(sum));
-  writeFile(stem.string() + ".txt", modeRows(sum));
+  writeFile(stem.string() + ".CPosePDFSOG", bytesOf(sum), Durability::with_folder);
+  writeFile(stem.string() + ".txt", modeRows(sum), Durability::with_folder);
 }
 
 void RunWriter::writeScene(const FeatureMap& map, const StepRecord& step,
@@ -270,8 +293,10 @@ void RunWriter::writeScene(const FeatureMap& map, const StepRecord& step,
   scene.insert(drawStep(drawing));
   const auto& hypotheses = step.belief.hypotheses;
   if (!hypotheses.empty()) lookAt(hypotheses.front().pose.mean, scene);
-  writeObjects(work_ / "3D" / (stepName(step) + ".3Dscene"),
-               [&](mrpt::serialization::CArchive& archive) { archive << scene; });
+  writeObjects(
+      work_ / "3D" / (stepName(step) + ".3Dscene"),
+      [&](mrpt::serialization::CArchive& archive) { archive << scene; }, kQuickCompression,
+      Durability::with_folder);
 }
 
 void RunWriter::finish(const LocalizationRun& run)
@@ -283,8 +308,10 @@ void RunWriter::finish(const LocalizationRun& run)
   writePfLocalizationFiles(run, work_);
   writeFile(work_ / detail::kRunSummaryFile,
             toJson(summaryColumns(), Figures{run.summary(), run}).dump(2) + "\n");
+  syncFolder(work_);
   replaceFolder();
   finished_ = true;
+  syncFolder(folder_.parent_path());
 }
 
 std::string stepName(const StepRecord& step)

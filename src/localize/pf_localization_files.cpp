@@ -120,7 +120,7 @@ void writeParticles(const LocalizationRun& run, const std::filesystem::path& fol
     const auto path = folder / fmt::format("particles_{:05}.txt", step.number);
     const Belief whole = withElsewhere(step.belief, run.anywhere());
     const auto samples = toParticles(whole, kSamples, run.setup().matcher.seed + step.number);
-    writeFile(path, particleRows(samples));
+    writeFile(path, particleRows(samples), Durability::with_folder);
   }
 }
 }  // namespace

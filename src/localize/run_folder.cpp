@@ -2,6 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "localize/run_folder.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -82,6 +88,23 @@ bool isRunSummary(const fs::path& path)
          summary.contains("confidently_wrong_steps");
 }
 
+/// Returns the descriptor of a folder, locked where the file system can; -1 where it is not there.
+int openLocked(const fs::path& folder)
+{
+  const int file = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (file < 0 || flock(file, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return file;
+  close(file);
+  throw std::runtime_error(folder.string() + ": another run writes here");
+}
+
+bool isSame(int file, const fs::path& folder)
+{
+  struct stat opened = {};
+  struct stat named = {};
+  return fstat(file, &opened) == 0 && stat(folder.c_str(), &named) == 0 &&
+         opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
+}
+
 bool isMissing(const fs::path& folder)
 {
   std::error_code unnameable;
@@ -106,5 +129,28 @@ void requireUnfinishedRun(const fs::path& folder)
 {
   if (isMissing(folder) || !requireRunFilesOnly(folder)) return;
   if (!fs::is_directory(folder / "belief")) refuse(folder, "is not the work folder of a run");
+}
+
+FolderLock::FolderLock(const fs::path& folder)
+{
+  while (true)
+  {
+    fs::create_directories(folder);
+    file_ = openLocked(folder);
+    // Another run may have renamed the folder, or removed it, before it let go of the lock.
+    if (file_ < 0 || isSame(file_, folder)) return;
+    close(file_);
+  }
+}
+
+FolderLock::~FolderLock()
+{
+  if (file_ >= 0) close(file_);
+}
+
+void requireNoOtherRun(const fs::path& folder)
+{
+  const int file = openLocked(folder);
+  if (file >= 0) close(file);
 }
 }  // namespace sigloc::detail

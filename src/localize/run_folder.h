@@ -16,4 +16,23 @@ void requireFinishedRun(const std::filesystem::path& folder);
 
 /// The same for the folder that a run works in, which holds no summary until it ends.
 void requireUnfinishedRun(const std::filesystem::path& folder);
+
+/// Makes a run the only one that writes into a folder as long as the object exists. The folder may
+/// be renamed meanwhile. On a file system without locks the object has no effect.
+class FolderLock
+{
+ public:
+  /// Makes the folder if it is not there. Throws std::runtime_error ("folder: another run writes
+  /// here") for one that is locked, and std::filesystem::filesystem_error where none can be made.
+  explicit FolderLock(const std::filesystem::path& folder);
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int file_ = -1;
+};
+
+/// Throws the same for a folder that is locked. One that does not exist is not.
+void requireNoOtherRun(const std::filesystem::path& folder);
 }  // namespace sigloc::detail

@@ -19,8 +19,16 @@ namespace sigloc
 // disk, it is renamed to the file, or to the file that a link points to. A failed write leaves the
 // earlier file as it was and throws std::runtime_error ("path: cannot be written: reason").
 
+/// When the bytes go to the disk itself, so that a power cut cannot take them back.
+enum class Durability
+{
+  at_once,  ///< before the file has its name
+  with_folder,  ///< when syncFolder() is called, for the many files of a folder
+};
+
 /// Writes a file of these bytes.
-void writeFile(const std::filesystem::path& path, std::string_view bytes);
+void writeFile(const std::filesystem::path& path, std::string_view bytes,
+               Durability durability = Durability::at_once);
 
 constexpr int kQuickCompression = 1;
 constexpr int kBestCompression = 9;
@@ -28,7 +36,10 @@ constexpr int kBestCompression = 9;
 /// Writes what `write` puts into an archive, gz-compressed by zlib's level `compression`.
 void writeObjects(const std::filesystem::path& path,
                   const std::function<void(mrpt::serialization::CArchive&)>& write,
-                  int compression = kQuickCompression);
+                  int compression = kQuickCompression, Durability durability = Durability::at_once);
+
+/// Waits until all that was written in a folder is on the disk. Throws like writeFile().
+void syncFolder(const std::filesystem::path& folder);
 
 /// The name of a file whose temporary file, perhaps left by a run that was killed, is called
 /// `name`; any other name is returned as it is.

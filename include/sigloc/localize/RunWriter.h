@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -13,9 +14,14 @@
 
 namespace sigloc
 {
+namespace detail
+{
+class FolderLock;
+}
+
 /// Throws std::runtime_error ("folder: reason") when a run that writes into `folder` would replace
 /// one of `inputs`, or anything but an earlier run of sigloc-localize. Such a run has a
-/// summary.json.
+/// summary.json. Throws the same while another run writes into `folder`.
 void checkRunFolder(const std::filesystem::path& folder,
                     const std::vector<std::filesystem::path>& inputs);
 
@@ -58,6 +64,7 @@ class RunWriter
 
   std::filesystem::path folder_;
   std::filesystem::path work_;
+  std::unique_ptr<detail::FolderLock> lock_;  // of the work folder
   std::filesystem::path created_;  // the topmost folder that did not exist before
   bool finished_ = false;
 };
