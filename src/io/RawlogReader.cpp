@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "io/gzip_input.h"
+#include "io/log_entry_check.h"
 #include "io/motion_conversion.h"
 #include "io/scan_conversion.h"
 #include "io/sensor_mount.h"
@@ -147,12 +148,10 @@ mrpt::serialization::CSerializable::Ptr RawlogReader::State::readObject()
   if (ended) return nullptr;
   try
   {
-    if (!input.atEnd())
-    {
-      auto object = mrpt::serialization::archiveFrom(input).ReadObject();
-      if (object) return object;
-    }
-    truncated = input.damaged();
+    const bool more = !input.atEnd();
+    auto object = more ? detail::readLogEntry(input) : nullptr;
+    if (object) return object;
+    truncated = more || input.damaged();
   }
   catch (const std::exception&)
   {

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/gzip_input.h"
+#include "io/log_entry_check.h"
 #include "sigloc/io/file_output.h"
 #include "sigloc/localize/RunWriter.h"
 #include "sigloc/plugin/pose_pdf.h"
@@ -25,7 +26,7 @@ mrpt::serialization::CSerializable::Ptr nextObject(detail::GzipInput& input)
   try
   {
     if (input.atEnd()) return nullptr;
-    return mrpt::serialization::archiveFrom(input).ReadObject();
+    return detail::readLogEntry(input);
   }
   catch (const std::exception&)
   {
