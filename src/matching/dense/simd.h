@@ -8,9 +8,10 @@
 #include <cstring>
 
 /// Placed before a function, this compiles it twice. The form for wide vectors runs where the
-/// processor has them. Everything called in its loops is inlined into both forms.
+/// processor has them. Everything called in its loops is inlined into both forms. Sanitizers do
+/// without: the choice is made by instrumented code, before they are ready.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__)
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define SIGLOC_WIDE_VECTORS __attribute__((target_clones("avx2", "default"), flatten))
 #else
 #define SIGLOC_WIDE_VECTORS
