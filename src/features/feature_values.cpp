@@ -34,8 +34,9 @@ bool isVariance(double value)
 bool isCovariance(const mrpt::math::CMatrixDouble22& p)
 {
   if (!isVariance(p(0, 0)) || !isVariance(p(1, 1))) return false;
-  const double determinant = p(0, 0) * p(1, 1) - p(0, 1) * p(1, 0);
-  return determinant >= -1e-9 * (1e-12 + p(0, 0) * p(1, 1));  // false for NaN
+  const double both = p(0, 0) * p(1, 1);
+  const double most = both + 1e-9 * (1e-12 + both);
+  return p(0, 1) * p(0, 1) <= most && p(1, 0) * p(1, 0) <= most;  // false for NaN
 }
 }  // namespace
 

@@ -198,9 +198,14 @@ void Walk::sensoryFrame(int version)
 void Walk::movement2D(int version)
 {
   constexpr std::size_t kOldOptions = 44;
-  if (version < 4 && version != 3 && version != 2) throw Unsound{};  // of before 2008
+  if (version < 2) object(only(Part::distribution_2d));
   const auto method = value<std::int32_t>();
-  if (method == 0)  // from odometry
+  if (version == 0) return;
+  if (version == 1)
+  {
+    // Its distribution came first.
+  }
+  else if (method == 0)  // from odometry
   {
     object(only(Part::pose_2d));
     if (version == 2)
@@ -303,7 +308,6 @@ void Walk::robotPose(int)
 
 void Walk::comment(int)
 {
-  text();
   text();
   skip(sizeof(std::uint64_t));
 }

@@ -87,10 +87,11 @@ std::optional<std::string> flawOf(const std::vector<Feature>& features)
   double outline = 0;
   for (std::size_t k = 0; k < features.size(); ++k)
   {
-    auto flaw = flawOf(features[k], features.size());
-    if (flaw) return fmt::format("feature {} {}", k, *flaw);
-    flaw = beyondReach(features[k].position.x, features[k].position.y);
+    const mrpt::math::TPoint2D& at = features[k].position;
+    auto flaw = std::isfinite(at.x) && std::isfinite(at.y) ? beyondReach(at.x, at.y) : std::nullopt;
     if (flaw) return flaw;
+    flaw = flawOf(features[k], features.size());
+    if (flaw) return fmt::format("feature {} {}", k, *flaw);
     outline += outlineLength(features[k]);
   }
   if (outline <= kLongestOutline) return std::nullopt;

@@ -65,6 +65,7 @@ std::vector<CSerializable::Ptr> everyEntry()
   frame->insert(intense);
   auto seen = mrpt::obs::CObservationBearingRange::Create();
   seen->sensedData.resize(3);
+  for (auto& measured : seen->sensedData) measured.landmarkID = -1;
   frame->insert(seen);
   auto exact = std::make_shared<mrpt::obs::CObservationBearingRange>(*seen);
   exact->validCovariances = true;
@@ -179,7 +180,7 @@ TEST(LogEntryCheck, NoChangedByteHurtsTheReader)
   const std::string sound = plainBytesOf(everyEntry());
   std::mt19937 random(20120230);
   std::size_t accepted = 0;
-  constexpr std::size_t kMutants = 3000;
+  constexpr std::size_t kMutants = 1000;
   for (std::size_t k = 0; k < kMutants; ++k)
   {
     std::string bytes = sound;

@@ -96,11 +96,8 @@ TEST(SignatureMap, LearnsARoomFromInsertedScans)
 TEST(SignatureMap, RefusesScansWhereFloatsCannotHoldThem)
 {
   SignatureMap map;
-  const auto far_away = [&] {
-    map.insertObservation(*roomScan({0, 0, 0}), CPose3D(5e5, 5e6, 0, 0, 0, 0));
-  };
-  EXPECT_NE(messageOf<std::invalid_argument>(far_away).find("shift the map's origin"),
-            std::string::npos);
+  EXPECT_FALSE(map.insertObservation(*roomScan({0, 0, 0}), CPose3D(5e5, 5e6, 0, 0, 0, 0)));
+  EXPECT_NE(map.asString().find("shift the map's origin"), std::string::npos) << map.asString();
   EXPECT_TRUE(map.isEmpty());
 }
 
