@@ -133,7 +133,7 @@ const Walk::Layout* Walk::layoutOf(std::string_view name)
       {"CObservation2DRangeScan", P::observation, 7, &W::rangeScan},
       {"CObservationOdometry", P::observation, 2, &W::odometry},
       {"CObservationBearingRange", P::observation, 3, &W::bearingRange},
-      {"CObservationRobotPose", P::observation, 0, &W::robotPose},
+      {"CObservationRobotPose", P::observation, 1, &W::robotPose},
       {"CObservationComment", P::observation, 0, &W::comment},
       {"ObservationSignatures", P::observation, 0, &W::signatures},
       {"CPose2D", P::pose_2d, 1, &W::pose2D},
@@ -299,11 +299,12 @@ void Walk::bearingRange(int version)
   if (version >= 1) text();
 }
 
-void Walk::robotPose(int)
+void Walk::robotPose(int version)
 {
   object(only(Part::distribution_3d));
   text();
   skip(sizeof(std::uint64_t));
+  if (version >= 1) object(only(Part::pose_3d));
 }
 
 void Walk::comment(int)
