@@ -152,7 +152,7 @@ std::vector<HostileMap> hostileMaps()
       {"free_nan", [](M& m) { m.free_area = kNan; }, "free area"},
       {"free_of_others", [](M& m) { m.free_area = 1e6; }, "free area"},
       {"walls_of_others", [](M& m) { m.wall_cells = 5; }, "wall cells"},
-      {"features_missing", [](M& m) { m.announced = 0xFFFFFFF0U; }, "truncated"},
+      {"features_missing", [](M& m) { m.announced = 0xFFFFFFF0U; }, "feature 3 has"},
       {"text_of_four_gigabytes", [](M& m) { m.text_length = 0xFFFFFFF0U; }, "a text of"},
   };
 }

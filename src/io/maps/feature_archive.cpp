@@ -22,7 +22,9 @@ void writeFeature(const Feature& feature, CArchive& out)
       << feature.label << feature.sightings << feature.parent;
 }
 
-Feature readFeature(CArchive& in)
+namespace
+{
+Feature readFields(CArchive& in)
 {
   Feature feature;
   std::uint8_t type = 0;
@@ -34,6 +36,13 @@ Feature readFeature(CArchive& in)
       feature.size_variance >> feature.label >> feature.sightings >> feature.parent;
   feature.type = static_cast<FeatureType>(type);
   feature.side = static_cast<WallSide>(side);
+  return feature;
+}
+}  // namespace
+
+Feature readFeature(CArchive& in)
+{
+  const Feature feature = readFields(in);
   if (const auto flaw = flawOf(feature, std::numeric_limits<std::int32_t>::max()))
   {
     throw BadContent("a feature " + *flaw);
@@ -49,7 +58,7 @@ std::vector<Feature> readFeatures(CArchive& in)
   // Grown as they come: a hostile count must not allocate memory that the file has no data for.
   for (std::uint32_t k = 0; k < count; ++k)
   {
-    features.push_back(readFeature(in));
+    features.push_back(readFields(in));
     if (const auto flaw = flawOf(features.back(), count))
     {
       throw BadContent("feature " + std::to_string(k) + " " + *flaw);
