@@ -201,11 +201,8 @@ void Walk::movement2D(int version)
   if (version < 2) object(only(Part::distribution_2d));
   const auto method = value<std::int32_t>();
   if (version == 0) return;
-  if (version == 1)
-  {
-    // Its distribution came first.
-  }
-  else if (method == 0)  // from odometry
+  const bool told = version > 1;  // else the distribution came first
+  if (told && method == 0)  // from odometry
   {
     object(only(Part::pose_2d));
     if (version == 2)
@@ -221,11 +218,11 @@ void Walk::movement2D(int version)
       floats(version >= 5 ? 6 : 4);
     }
   }
-  else if (method == 1)  // from matched scans
+  else if (told && method == 1)  // from matched scans
   {
     object(only(Part::distribution_2d));
   }
-  else
+  else if (told)
   {
     throw Unsound{};
   }

@@ -131,7 +131,7 @@ TEST(MapSources, ReadsARosMapOfRawOccupancies)
   EXPECT_EQ(raster.cells[3], CellState::solid_wall) << "the image's last row is the map's lowest";
 
   writeText(folder / "m.pgm", "no image");
-  EXPECT_NE(errorOf(folder / "m.yaml").find("m.pgm' cannot be read"), std::string::npos);
+  EXPECT_NE(errorOf(folder / "m.yaml").find("m.pgm: is no PGM or PNG picture"), std::string::npos);
   EXPECT_NE(errorOf(folder / "m.pgm").find("its .yaml file is"), std::string::npos);
 }
 
