@@ -16,6 +16,7 @@ namespace
 {
 constexpr double kMostFeatures = 1e7;
 constexpr double kMostPoses = 1e6;
+constexpr double kMostBuildings = 1e5;
 
 struct ScaleFlags
 {
@@ -32,6 +33,7 @@ struct ScaleFlags
       options.poses = std::min<std::size_t>(options.poses, common.max_queries);
       options.slow_poses = std::min<std::size_t>(options.slow_poses, common.max_queries);
     }
+    if (!options.buildings.empty()) options.methods = {"signature"};
     common.passTo(options, command_line);
     options.seed = common.seed;
     options.generator.seed = common.seed;
@@ -69,6 +71,12 @@ std::function<int()> setUpScale(CLI::App& command, const std::string& command_li
                   "counts that the observed features are thinned to, in the first map")
       ->check(numberFrom(1, kMostFeatures))
       ->delimiter(',');
+  CLI::Option* const buildings =
+      command
+          .add_option("--buildings", options.buildings,
+                      "growth with the area: one scan among so many offices of 48 m x 15 m")
+          ->check(numberFrom(1, kMostBuildings))
+          ->delimiter(',');
   addNumber(command, "--density", options.world.density, "features per m^2", 1e-3, 100);
   addNumber(command, "--range", options.world.range, "m, within which features are seen", 0.1,
             1000);
@@ -88,6 +96,11 @@ std::function<int()> setUpScale(CLI::App& command, const std::string& command_li
        {"--density", "--range", "--noise", "--spurious", "--slow-poses", "--slow-limit"})
   {
     dlr->excludes(command.get_option(of_worlds));
+    buildings->excludes(command.get_option(of_worlds));
+  }
+  for (const char* of_features : {"--map-features", "--observed", "--dlr"})
+  {
+    buildings->excludes(command.get_option(of_features));
   }
   flags->common.declare(command, featureMethodNames());
   return [flags, command_line] { return flags->run(command_line); };

@@ -114,7 +114,7 @@ std::vector<Item> readAll(CArchive& in)
 }
 
 // The counts of a tile as three planes: hits, passes, scans. Then the sums of the hits' positions.
-constexpr std::size_t kCells = std::tuple_size_v<decltype(BeamCounts::Tile::counts)>;
+constexpr std::size_t kCells = BeamCounts::kCellsOfTile;
 using Planes = std::array<std::uint16_t, 3 * kCells>;
 using Sums = std::array<std::int32_t, 2 * kCells>;
 
@@ -124,11 +124,12 @@ void writeTile(const CellIndex& name, const BeamCounts::Tile& tile, CArchive& ou
   Sums sums{};
   for (std::size_t i = 0; i < kCells; ++i)
   {
-    planes[i] = tile.counts[i].hits;
-    planes[kCells + i] = tile.counts[i].passes;
-    planes[2 * kCells + i] = tile.counts[i].scans;
-    sums[i] = tile.counts[i].sum_x;
-    sums[kCells + i] = tile.counts[i].sum_y;
+    const BeamCounts::Count count = tile.count(i);
+    planes[i] = count.hits;
+    planes[kCells + i] = count.passes;
+    planes[2 * kCells + i] = count.scans;
+    sums[i] = count.sum_x;
+    sums[kCells + i] = count.sum_y;
   }
   out << name.x << name.y;
   out.WriteBufferFixEndianness(planes.data(), planes.size());
@@ -144,11 +145,8 @@ BeamCounts::Tile readTile(CArchive& in, bool with_sums)
   BeamCounts::Tile tile;
   for (std::size_t i = 0; i < kCells; ++i)
   {
-    tile.counts[i].hits = planes[i];
-    tile.counts[i].passes = planes[kCells + i];
-    tile.counts[i].scans = planes[2 * kCells + i];
-    tile.counts[i].sum_x = sums[i];
-    tile.counts[i].sum_y = sums[kCells + i];
+    tile.set(i,
+             {0, planes[i], planes[kCells + i], planes[2 * kCells + i], sums[i], sums[kCells + i]});
   }
   return tile;
 }

@@ -152,6 +152,18 @@ TEST(Scale, ExponentOfAPowerLaw)
   EXPECT_NEAR(fit.low, fit.high, 1e-6);
 }
 
+TEST(Scale, IntervalOfAnExponentHasStudentsQuantile)
+{
+  // Residuals of (e, -2 e, e) over x = (0, 1, 2): slope variance 6 e^2 / 1 / 2, quantile 12.706.
+  const double e = 0.01;
+  const auto at = [](double x, double y) { return std::pair{std::exp(x), std::exp(y)}; };
+  const FittedExponent fit = fitExponent({at(0, e), at(1, 1 - 2 * e), at(2, 2 + e)});
+  EXPECT_NEAR(fit.slope, 1, 1e-9);
+  EXPECT_NEAR(fit.high - fit.slope, 12.7062 * std::sqrt(3.0) * e, 1e-4);
+  EXPECT_NEAR(fit.slope - fit.low, fit.high - fit.slope, 1e-9);
+  EXPECT_TRUE(std::isinf(fitExponent({at(0, 0), at(1, 1)}).high));
+}
+
 TEST(Landmarks, TheMapHoldsWhatHasAnIdentityEvenIfSeenOnce)
 {
   LandmarkData data;

@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "bridge/sample_maps.h"
+#include "map/building/counted_field.h"
 
 using namespace sigloc;
 using mrpt::math::TPose2D;
@@ -113,6 +114,18 @@ TEST(MapBuilder, LearnsLookByLookWhatABatchLearns)
   }
 }
 
+TEST(DenseFieldOf, IsSolvedInStripsAsInOnePiece)
+{
+  BeamCounts counts(0.05);
+  for (const PosedScans& posed : tour(42, 7)) counts.add(posed, 30);
+  ASSERT_GT(counts.box().height(), 256) << "several strips of the least height";
+  for (const std::uint32_t min_scans : {1U, 3U})
+  {
+    test::expectSameField(denseFieldOf(counts, min_scans, 1),
+                          buildDenseField(counts.raster(counts.box(), min_scans)));
+  }
+}
+
 TEST(MapBuilder, ExtendsAMapLookByLook)
 {
   const std::vector<PosedScans> scans = tour(30, 8);
@@ -196,7 +209,7 @@ TEST(BeamCounts, RefuseStoredCountsThatNoScansLeadTo)
   const auto restore = [&](const BeamCounts::Count& count)
   {
     BeamCounts::Tile tile;
-    tile.counts[5] = count;
+    tile.set(5, count);
     BeamCounts(0.05).restore(extent, {0, 0}, tile);
   };
   restore({0, 2, 1, 2, 64, -64});

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "eval/process/cpu_time.h"
 
+#include <malloc.h>
 #include <ctime>
 
 #include <fstream>
@@ -32,5 +33,11 @@ double peakMemoryMb()
     return kilobytes / 1024.0;
   }
   return 0;
+}
+
+double heapBytes()
+{
+  const struct mallinfo2 heap = mallinfo2();
+  return static_cast<double>(heap.uordblks + heap.hblkhd);
 }
 }  // namespace sigloc

@@ -13,4 +13,7 @@ void resetPeakMemory();
 
 /// The largest resident set since the last reset [MB].
 double peakMemoryMb();
+
+/// Memory that this process has allocated and not freed [bytes].
+double heapBytes();
 }  // namespace sigloc

@@ -4,8 +4,6 @@
 
 #include <fmt/core.h>
 
-#include <malloc.h>
-
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -16,16 +14,6 @@
 
 namespace sigloc::detail
 {
-namespace
-{
-/// Memory that this process has allocated and not freed [bytes].
-double heapBytes()
-{
-  const struct mallinfo2 heap = mallinfo2();
-  return static_cast<double>(heap.uordblks + heap.hblkhd);
-}
-}  // namespace
-
 void checkThinning(const std::vector<std::size_t>& counts, std::size_t most)
 {
   for (const std::size_t count : counts)
@@ -80,8 +68,10 @@ void GrowthMeter::ask(const FeatureHypothesisGenerator& generator, const GrowthS
 
 std::string progressLine(const ScaleRow& row)
 {
-  return fmt::format("{}: {}, {:.1f} observed, {:.3f} ms", row.method,
-                     counted(row.map_features, "feature"), row.observed, medianTime(row));
+  std::string line = fmt::format("{}: {}", row.method, counted(row.map_features, "feature"));
+  if (row.area > 0) line += fmt::format(", {:.0f} m^2", row.area);
+  if (row.observed > 0) line += fmt::format(", {:.1f} observed", row.observed);
+  return line + fmt::format(", {:.3f} ms", medianTime(row));
 }
 
 ScaleRow GrowthMeter::row() const

@@ -10,6 +10,7 @@
 
 #include "eval/methods/feature_methods.h"
 #include "eval/process/cpu_time.h"
+#include "eval/protocols/area_growth.h"
 #include "eval/protocols/GrowthMeter.h"
 #include "eval/protocols/landmark_growth.h"
 
@@ -71,6 +72,7 @@ std::vector<std::size_t> mapSizes(const ScaleOptions& options)
 
 ScaleReport runScale(const ScaleOptions& options)
 {
+  if (!options.buildings.empty()) return detail::runAreaGrowth(options);
   checkFeatureMethods(options.methods);
   if (!options.dlr.empty()) return detail::runLandmarkGrowth(options);
   ScaleReport report;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,9 @@ struct ScaleOptions
   /// are the discs nearest to each.
   std::filesystem::path dlr;
   std::size_t local_map_steps = 20;  ///< on the log
+  /// Counts of buildings: growth of relocation from one scan in maps of laser scans. `methods` are
+  /// those of relocation, `poses` the queries, and `world` and the map sizes say nothing.
+  std::vector<std::uint32_t> buildings;
   std::size_t keep_failures = 0;  ///< how many failed poses of each row the report keeps
   std::string command;
   std::function<void(const std::string&)> progress;  ///< called with one line a row
@@ -46,8 +50,10 @@ struct ScaleOptions
 /// One method in one map, over all poses.
 struct ScaleRow
 {
+  static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   std::string method;
   std::size_t map_features = 0;
+  double area = kNone;  ///< [m^2] of all buildings; NaN: the map has none
   std::size_t wanted = 0;  ///< observed features asked for; 0: all that are visible
   double observed = 0;  ///< mean number of observed features
   std::vector<Outcome> records;  ///< of each pose
@@ -58,11 +64,14 @@ struct ScaleRow
   double build_seconds = 0;
   double reference_ms = 0;  ///< median time that time_ratio refers to
   double bytes_per_feature = 0;  ///< of the map and its index, as allocated
+  double bytes_per_m2 = kNone;  ///< the same over the area
+  double map_seconds = kNone;  ///< CPU time of building the map from scans
 
   double operations() const { return signature_pairs + hypotheses + checks; }
 };
 
-/// Slope of log y over log x with its 95 % interval (normal errors).
+/// Slope of log y over log x with its 95 % interval: Student's t with two degrees of freedom fewer
+/// than points. Two points or fewer leave it unbounded.
 struct FittedExponent
 {
   double slope = 0;

@@ -3,7 +3,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
+#include <limits>
 
 #include "eval/process/cpu_time.h"
 #include "eval/protocols/scale.h"
@@ -15,17 +17,35 @@ namespace
 {
 using Curve = std::vector<std::pair<double, double>>;
 
-/// A quantity of one method over the map's size, or over the scene's where that was varied.
+/// What is varied: the features of the map, those observed, or the mapped area.
+enum class Axis : std::uint8_t
+{
+  features,
+  observed,
+  area,
+};
+
+Axis axisOf(const ScaleRow& row)
+{
+  if (!std::isnan(row.area)) return Axis::area;
+  return row.wanted > 0 ? Axis::observed : Axis::features;
+}
+
+double placeOn(Axis axis, const ScaleRow& row)
+{
+  if (axis == Axis::area) return row.area;
+  return axis == Axis::observed ? row.observed : static_cast<double>(row.map_features);
+}
+
+/// A quantity of one method over what was varied.
 template <class Value>
-Curve curveOf(const ScaleReport& report, const std::string& method, bool over_observed,
-              Value&& value)
+Curve curveOf(const ScaleReport& report, const std::string& method, Axis axis, Value&& value)
 {
   Curve curve;
   for (const ScaleRow& row : report.rows)
   {
-    if (row.method != method || (row.wanted > 0) != over_observed) continue;
-    const double x = over_observed ? row.observed : static_cast<double>(row.map_features);
-    curve.emplace_back(x, value(row));
+    if (row.method != method || axisOf(row) != axis) continue;
+    curve.emplace_back(placeOn(axis, row), value(row));
   }
   return curve;
 }
@@ -33,6 +53,16 @@ Curve curveOf(const ScaleReport& report, const std::string& method, bool over_ob
 double operationsOf(const ScaleRow& row)
 {
   return row.operations();
+}
+
+double meanTimeOf(const ScaleRow& row)
+{
+  return quantiles(&Outcome::times_ms)(row).mean;
+}
+
+double mapSecondsOf(const ScaleRow& row)
+{
+  return row.map_seconds;
 }
 
 /// The rows, their times compared with those of the same method's reference map.
@@ -97,7 +127,12 @@ Columns<ScaleRow> rowColumns()
       C("build_s", &R::build_seconds, "CPU time of building the index", 2, {"build s"}, kWork,
         kJson),
       C("bytes_per_feature", &R::bytes_per_feature, "of the map and its index", 0,
-        {"bytes/feature"}, kWork, kJson)};
+        {"bytes/feature"}, kWork, kJson),
+      C("area_m2", &R::area, "of all buildings in the map", 0, {"area m2"}),
+      C("bytes_per_m2", &R::bytes_per_m2, "of the map and its index over the area", 0, {"bytes/m2"},
+        kWork, kJson),
+      C("map_build_s", &R::map_seconds, "CPU time of building the map from its scans", 2,
+        {"map build s"}, kWork, kJson)};
 }
 
 /// The exponent that a curve grows with, as far as it has points for one.
@@ -117,10 +152,10 @@ struct Growth
   const ScaleReport& report;
 };
 
-auto exponent(bool over_observed, double (*value)(const ScaleRow&))
+auto exponent(Axis axis, double (*value)(const ScaleRow&))
 {
   return [=](const Growth& growth)
-  { return exponentOf(curveOf(growth.report, growth.method, over_observed, value)); };
+  { return exponentOf(curveOf(growth.report, growth.method, axis, value)); };
 }
 
 Columns<Growth> exponentColumns()
@@ -128,10 +163,17 @@ Columns<Growth> exponentColumns()
   using C = Column<Growth>;
   const auto time = medianTime<ScaleRow>;
   return {C("", &Growth::method, "", 0, {"method"}),
-          C("operations_exponent_in_m", exponent(false, operationsOf), "", 2, {"operations in m"}),
-          C("time_exponent_in_m", exponent(false, time), "", 2, {"median time in m"}),
-          C("operations_exponent_in_n", exponent(true, operationsOf), "", 2, {"operations in n"}),
-          C("time_exponent_in_n", exponent(true, time), "", 2, {"median time in n"})};
+          C("operations_exponent_in_m", exponent(Axis::features, operationsOf), "", 2,
+            {"operations in m"}),
+          C("time_exponent_in_m", exponent(Axis::features, time), "", 2, {"median time in m"}),
+          C("operations_exponent_in_n", exponent(Axis::observed, operationsOf), "", 2,
+            {"operations in n"}),
+          C("time_exponent_in_n", exponent(Axis::observed, time), "", 2, {"median time in n"}),
+          C("time_exponent_in_area", exponent(Axis::area, time), "", 2, {"median time in area"}),
+          C("mean_time_exponent_in_area", exponent(Axis::area, meanTimeOf), "", 2,
+            {"mean time in area"}),
+          C("map_build_exponent_in_area", exponent(Axis::area, mapSecondsOf), "", 2,
+            {"map building in area"})};
 }
 
 /// Time and operations over the sizes of the map and of the scene, as far as they were varied.
@@ -142,20 +184,23 @@ std::vector<std::pair<std::string, Plot>> growthPlots(const ScaleReport& report)
     const char* file;
     const char* x;
     const char* y;
-    bool over_observed;
+    Axis axis;
     double (*value)(const ScaleRow&);
   } figures[] = {
-      {"time.png", "map features", "median time [ms]", false, medianTime<ScaleRow>},
-      {"operations.png", "map features", "operations", false, operationsOf},
-      {"time-observed.png", "observed features", "median time [ms]", true, medianTime<ScaleRow>},
-      {"operations-observed.png", "observed features", "operations", true, operationsOf}};
+      {"time.png", "map features", "median time [ms]", Axis::features, medianTime<ScaleRow>},
+      {"operations.png", "map features", "operations", Axis::features, operationsOf},
+      {"time-observed.png", "observed features", "median time [ms]", Axis::observed,
+       medianTime<ScaleRow>},
+      {"operations-observed.png", "observed features", "operations", Axis::observed, operationsOf},
+      {"time-area.png", "mapped area [m2]", "median time [ms]", Axis::area, medianTime<ScaleRow>},
+      {"build-area.png", "mapped area [m2]", "time of map building [s]", Axis::area, mapSecondsOf}};
   std::vector<std::pair<std::string, Plot>> plots;
   for (const auto& figure : figures)
   {
     Plot plot{"Growth" + report.where, figure.x, figure.y, true, true, {}};
     for (const std::string& method : methodsOf(report.rows))
     {
-      const Curve curve = curveOf(report, method, figure.over_observed, figure.value);
+      const Curve curve = curveOf(report, method, figure.axis, figure.value);
       if (curve.size() > 1) plot.series.push_back({method, curve, true, {}});
     }
     if (!plot.series.empty()) plots.emplace_back(figure.file, plot);
@@ -189,7 +234,13 @@ FittedExponent fitExponent(const Curve& points)
     const double off = std::log(std::max(y, 1e-12)) - sy - fit.slope * (std::log(x) - sx);
     residuals += off * off;
   }
-  const double spread = n > 2 && xx > 0 ? 1.96 * std::sqrt(residuals / (n - 2) / xx) : 0;
+  // Two parameters are fitted, so that two points leave nothing to tell the error by.
+  double spread = std::numeric_limits<double>::infinity();
+  if (n > 2 && xx > 0)
+  {
+    const boost::math::students_t distribution(n - 2);
+    spread = boost::math::quantile(distribution, 0.975) * std::sqrt(residuals / (n - 2) / xx);
+  }
   fit.low = fit.slope - spread;
   fit.high = fit.slope + spread;
   return fit;

@@ -182,20 +182,21 @@ void BeamCounts::addBeam(const TPoint2D& origin, const TPoint2D& end, Cursor& cu
   const double length = beam.norm();
   const double resolution = resolution_;
   const TPoint2D anchor = anchor_;
-  const auto count_of = [&](const CellIndex& cell) -> Count&
+  const auto tile_of = [&](const CellIndex& cell) -> Tile&
   {
     if (keyOf(cell) != cursor.key || cursor.tile == nullptr) cursor = enterTile(cell);
-    return cursor.tile->counts[indexInTile(cell)];
+    return *cursor.tile;
   };
   const auto steps = static_cast<std::int64_t>(length / resolution - 1.0);
   for (std::int64_t k = 0; k < steps; ++k)
   {
     const double share = static_cast<double>(k) * resolution / length;
-    increase(count_of(cellAt(origin + beam * share, anchor, resolution)).passes);
+    const CellIndex passed = cellAt(origin + beam * share, anchor, resolution);
+    increase(tile_of(passed).passes(indexInTile(passed)));
   }
   cells_counted_ += static_cast<std::uint64_t>(std::max<std::int64_t>(steps, 0)) + 1;
   const CellIndex hit_cell = cellAt(end, anchor, resolution);
-  Count& hit = count_of(hit_cell);
+  Tile::Hits& hit = tile_of(hit_cell).hitsAt(indexInTile(hit_cell));
   if (hit.hits < 65535)  // where the count saturates, the mean stays
   {
     hit.sum_x += placeInCell(end.x, anchor.x, resolution, hit_cell.x);
@@ -229,12 +230,6 @@ void BeamCounts::touchNeighbours(const CellIndex& hit)
   }
 }
 
-const BeamCounts::Count* BeamCounts::find(const CellIndex& cell) const
-{
-  const auto tile = tiles_.find(keyOf(cell));
-  return tile == tiles_.end() ? nullptr : &tile->second.counts[indexInTile(cell)];
-}
-
 /// True when a cell was hit often enough together with its neighbours, because a far wall spreads
 /// over two or three cells. Eq. (6.1)
 bool BeamCounts::hitOftenAround(const CellIndex& cell, std::uint32_t min_scans) const
@@ -244,8 +239,8 @@ bool BeamCounts::hitOftenAround(const CellIndex& cell, std::uint32_t min_scans) 
   {
     for (std::int32_t x = cell.x - 1; x <= cell.x + 1; ++x)
     {
-      const Count* beside = find({x, y});
-      if (beside != nullptr) sum += beside->scans;
+      const auto tile = tiles_.find(keyOf({x, y}));
+      if (tile != tiles_.end()) sum += tile->second.scans(indexInTile({x, y}));
     }
   }
   return sum >= min_scans;
@@ -269,7 +264,7 @@ BeamCounts::TileCells BeamCounts::cellsOf(const CellIndex& name, std::uint32_t m
   {
     for (std::int32_t x = 0; x < kTile; ++x, ++i)
     {
-      const Count& count = tile->second.counts[i];
+      const Count count = tile->second.count(i);
       cells.states[i] = state_of({name.x + x, name.y + y}, count);
       if (isWall(cells.states[i])) cells.hits[i] = hitsOf(count);
     }
@@ -307,8 +302,14 @@ OccupancyRaster BeamCounts::raster(const CellBox& box, std::uint32_t min_scans) 
   OccupancyRaster raster{frame, {}, {}};
   raster.cells.resize(static_cast<std::size_t>(frame.width) * frame.height);
   raster.hits.resize(raster.cells.size());
-  for (const CellIndex& name : tileNames())
+  for (const auto& [key, counted] : tiles_)
   {
+    const CellIndex name = nameOf(key);
+    if (name.x >= box.high.x || name.y >= box.high.y || name.x + kTile <= box.low.x ||
+        name.y + kTile <= box.low.y)
+    {
+      continue;
+    }
     const TileCells tile = cellsOf(name, min_scans);
     for (std::size_t i = 0; i < tile.states.size(); ++i)
     {
@@ -362,9 +363,12 @@ void BeamCounts::restore(const Extent& extent, const CellIndex& name, const Tile
   {
     throw std::invalid_argument("BeamCounts: no such tile");
   }
-  if (!std::all_of(tile.counts.begin(), tile.counts.end(), isPossible))
+  for (std::size_t i = 0; i < kCellsOfTile; ++i)
   {
-    throw std::invalid_argument("BeamCounts: a cell's counts contradict each other");
+    if (!isPossible(tile.count(i)))
+    {
+      throw std::invalid_argument("BeamCounts: a cell's counts contradict each other");
+    }
   }
   extent_ = extent;
   const std::uint64_t key = keyOf(name);

@@ -49,10 +49,39 @@ class BeamCounts
     std::int32_t sum_x = 0, sum_y = 0;
   };
   static constexpr double kPlaceUnit = 1.0 / 64;  ///< [cells]
-  struct Tile
+  static constexpr std::size_t kCellsOfTile = std::size_t{kTileCells} * kTileCells;
+
+  /// The counts of a square of cells, by their index, row by row. Beams pass nearly all cells and
+  /// end in few, so that only cells with a hit have more than the count of passes.
+  class Tile
   {
-    std::array<Count, static_cast<std::size_t>(kTileCells) * kTileCells> counts;
+   public:
+    Count count(std::size_t cell) const;
+    void set(std::size_t cell, const Count& count);
+    std::uint16_t& passes(std::size_t cell) { return passes_[cell]; }
+    std::uint16_t passes(std::size_t cell) const { return passes_[cell]; }
+    std::uint16_t scans(std::size_t cell) const
+    {
+      return slots_[cell] == 0 ? std::uint16_t{0} : hits_[slots_[cell] - 1U].scans;
+    }
+
     bool changed = false;
+
+   private:
+    friend class BeamCounts;
+    struct Hits
+    {
+      std::uint32_t last_scan = 0;
+      std::int32_t sum_x = 0, sum_y = 0;
+      std::uint16_t hits = 0;
+      std::uint16_t scans = 0;
+    };
+    /// Returns the hits of a cell; makes them where there were none.
+    Hits& hitsAt(std::size_t cell);
+
+    std::array<std::uint16_t, kCellsOfTile> passes_{};
+    std::array<std::uint16_t, kCellsOfTile> slots_{};  // one more than the index in hits_; 0: none
+    std::vector<Hits> hits_;
   };
   /// Box around all that was counted [m].
   struct Extent
@@ -74,8 +103,8 @@ class BeamCounts
   /// Eq. (6.1), (6.2), (6.12)
   struct TileCells
   {
-    std::array<CellState, static_cast<std::size_t>(kTileCells) * kTileCells> states{};
-    std::array<WallHits, static_cast<std::size_t>(kTileCells) * kTileCells> hits{};  ///< of walls
+    std::array<CellState, kCellsOfTile> states{};
+    std::array<WallHits, kCellsOfTile> hits{};  ///< of walls
   };
   TileCells cellsOf(const CellIndex& name, std::uint32_t min_scans) const;
 
@@ -114,7 +143,6 @@ class BeamCounts
   CellBox boxOf(const Extent& extent) const;
   Cursor enterTile(const CellIndex& cell);
   void markChanged(std::uint64_t key, Tile& tile);
-  const Count* find(const CellIndex& cell) const;
   void touchNeighbours(const CellIndex& hit);
   void addBeam(const mrpt::math::TPoint2D& origin, const mrpt::math::TPoint2D& end, Cursor& cursor);
   bool hitOftenAround(const CellIndex& cell, std::uint32_t min_scans) const;

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "map/building/counted_field.h"
 #include "map/building/feature_union.h"
 #include "map/building/wall_end_lengths.h"
 #include "map/scene_in_map.h"
@@ -81,6 +82,7 @@ FeatureMap buildMapFromScans(const std::vector<PosedScans>& scans,
   {
     throw std::invalid_argument("buildMapFromScans: no scan has a valid return");
   }
-  return builder.map(provenance);
+  return FeatureMap(builder.features(), denseFieldOf(builder.counts(), options.min_hits), {},
+                    provenance);
 }
 }  // namespace sigloc

@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+#include "map/building/BeamCounts.h"
+#include "sigloc/map/DenseField.h"
+
+namespace sigloc
+{
+/// Returns the dense field of all that was counted, cell by cell that of `buildDenseField` for the
+/// whole raster. It is solved strip by strip, each of about `strip_cells` cells, so that little
+/// memory is needed besides. Must not be called on empty counts.
+DenseField denseFieldOf(const BeamCounts& counts, std::uint32_t min_scans,
+                        std::int32_t strip_cells = 1 << 22);
+}  // namespace sigloc
