@@ -41,7 +41,7 @@ def introduction(bench):
 def page(bench, drawn):
     makers = (scans.data, scans.one_scan, scans.foreign, drives.wake_ups, drives.particle_filter,
               drives.landmarks, simulated.wake_ups, simulated.foreign, simulated.sweeps,
-              growth.growth, growth.lost)  # fmt: skip
+              growth.growth, growth.area, growth.lost)  # fmt: skip
     sections = [maker(bench) for maker in makers]
     short = bullets(shortcomings.shortcomings({part.title: part.table for part in sections}))
     lines = introduction(bench) + ["## Where sigloc falls short"] + short + [""]

@@ -5,6 +5,7 @@ from results.numbers import Z, exponent, number, share, times
 from results.page import Section, Table
 
 GROWTH = "Growth, maps of landmarks"
+AREA = "Growth, offices side by side"
 LOST = "Am I lost?"
 METHODS = ("signature", "signature-anchors", "jcbb")
 
@@ -46,6 +47,26 @@ def growth(bench):
         "Walls are not varied. Few points in view leave many look-alikes: a negative slope says that.",
     )
     return Section(GROWTH, table, text, "growth.png")
+
+
+def area(bench):
+    rows = [row for row in bench.rows("growth-area", "results.csv") if row["method"] == "signature"]
+    table = Table("area m²", "features", "recall@1", "ms median", "ms 95 %", "map built in s")
+    for row in rows:
+        table.add(number(float(row["area_m2"]), 0), row["map_features"],
+                  share(int(row["success"]), int(row["cases"])),
+                  number(float(row["time_ms_median"]), 3), number(float(row["time_ms_p95"]), 3),
+                  number(float(row["map_build_s"]), 1))  # fmt: skip
+    if not rows:
+        return Section(AREA, table)
+    building = [(float(row["area_m2"]), float(row["map_build_s"])) for row in rows]
+    text = (
+        "Asked: what does one scan cost, and how often is it right, as more buildings are mapped?",
+        "Offices of 48 m × 15 m, each of its own seed; rooms stay as large as they are.",
+        f"Exponent of the median time in the area: {exponent(points(rows, 'area_m2'))}.",
+        f"Exponent of the time of building the map: {exponent(building)}.",
+    )
+    return Section(AREA, table, text)
 
 
 def lost(bench):

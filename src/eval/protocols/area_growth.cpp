@@ -63,6 +63,7 @@ ScaleRow runRow(const std::string& name, const Offices& offices, const ScaleOpti
   ScaleRow row;
   row.method = name;
   row.map_features = offices.map.features->features().size();
+  row.observed = ScaleRow::kNone;  // the scan is what is seen
   row.area = offices.area;
   row.map_seconds = offices.map.build_seconds;
   RelocationMethodOptions method_options;
