@@ -63,8 +63,8 @@ void checkRelocationMethods(const std::vector<std::string>& names);
 /// std::runtime_error ("path: reason") for a file that cannot be used.
 RelocateReport runRelocate(const RelocateOptions& options);
 
-/// Writes summary.json, results.csv, report.md and the plots into a folder, making it if need be.
-/// Throws std::runtime_error ("path: reason").
+/// Writes summary.json, results.csv, candidates.csv, report.md and the plots into a folder, making
+/// it if need be. Throws std::runtime_error ("path: reason").
 void writeRelocateReport(const RelocateReport& report, const std::filesystem::path& folder);
 
 /// Returns the table of the report as aligned text, a line a method.

@@ -40,6 +40,23 @@ std::string resultsCsv(const RelocateReport& report)
   return csv;
 }
 
+std::string candidatesCsv(const RelocateReport& report)
+{
+  std::string csv = "method,query,view," + csvHead(candidateColumns()) + "\n";
+  for (const RelocateMethodReport& method : report.methods)
+  {
+    for (const RelocationRecord& record : method.records)
+    {
+      for (const CandidateRecord& candidate : record.listed)
+      {
+        csv += fmt::format("{},{},{:.4f},{}\n", method.name, record.query, record.view,
+                           csvRow(candidateColumns(), candidate));
+      }
+    }
+  }
+  return csv;
+}
+
 /// What the table does not say.
 std::string remarks(const RelocateReport& report)
 {
@@ -104,6 +121,7 @@ void writeRelocateReport(const RelocateReport& report, const std::filesystem::pa
   files.summary["complete"] = report.complete;
   files.summary["without_truth"] = report.without_truth;
   files.results = resultsCsv(report);
+  files.tables = {{"candidates.csv", candidatesCsv(report)}};
   files.text = "# Relocation from one scan\n\n" + relocateTable(report) + "\n" + remarks(report);
   files.plots = detail::queryPlots(curvesOf(report), "Time from raw scan to ranked candidates");
   files.notes = relocationDefinitions() + mapSection(report.map);

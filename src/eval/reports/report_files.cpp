@@ -56,8 +56,8 @@ void writeFiles(const RunReport& report, const std::filesystem::path& folder)
 
 bool isReportFile(const std::string& name)
 {
-  static const std::set<std::string> kNames = {"summary.json", "results.csv", "runs.csv",
-                                               "report.md", "failures"};
+  static const std::set<std::string> kNames = {"summary.json", "results.csv", "candidates.csv",
+                                               "runs.csv",     "report.md",   "failures"};
   return kNames.count(name) > 0 || std::filesystem::path(name).extension() == ".png";
 }
 

@@ -85,6 +85,7 @@ RelocationRecord judgeRelocation(const EvaluationQuery& query, const RelocationR
   record.candidates = answer.candidates.size();
   record.poses_scored = answer.counters.poses_scored;
   record.cut_short = answer.counters.cut_short > 0;
+  record.view = answer.view;
   if (!answer.candidates.empty())
   {
     record.first = answer.candidates.front().pose.mean;
@@ -93,13 +94,16 @@ RelocationRecord judgeRelocation(const EvaluationQuery& query, const RelocationR
   }
   const auto is_right = [&](const TPose2D& pose)
   { return isRight(errorBetween(pose, *query.truth), gates); };
-  if (query.truth)
+  const std::size_t listed = std::min(kListedCandidates, answer.candidates.size());
+  for (std::size_t i = 0; i < listed; ++i)
   {
-    const std::size_t listed = std::min(kListedCandidates, answer.candidates.size());
-    for (std::size_t i = 0; i < listed && record.rank_of_right == 0; ++i)
-    {
-      if (is_right(answer.candidates[i].pose.mean)) record.rank_of_right = i + 1;
-    }
+    CandidateRecord& one = record.listed.emplace_back();
+    one.rank = i + 1;
+    one.candidate = answer.candidates[i];
+    one.candidate.pairings.clear();
+    if (!query.truth) continue;
+    one.right = is_right(one.candidate.pose.mean);
+    if (*one.right && record.rank_of_right == 0) record.rank_of_right = one.rank;
   }
   if (proposals)
   {
@@ -140,6 +144,27 @@ const Columns<RelocationRecord>& relocationColumns()
       C("poses_scored", &R::poses_scored, "poses compared with the scan"),
       C(kAddedLater, &R::cut_short, "the search ended at its budget"),
       C("time_ms", &R::time_ms, "CPU time, from raw scan to ranked candidates")};
+  return kColumns;
+}
+
+const Columns<CandidateRecord>& candidateColumns()
+{
+  using R = CandidateRecord;
+  using C = Column<R>;
+  static const Columns<R> kColumns = {
+      C("rank", &R::rank, "from 1"),
+      C(
+          "x,y,phi", [](const R& r) { return r.candidate.pose.mean; }, "[m, rad], in the map", 4),
+      C(
+          "score", [](const R& r) { return r.candidate.score; }, "", 5),
+      C(
+          "probability", [](const R& r) { return r.candidate.probability; }, "", 6),
+      C(
+          "through_wall", [](const R& r) { return r.candidate.through_wall; }, "share of beams", 5),
+      C(
+          "in_free", [](const R& r) { return r.candidate.in_free; }, "share of returns", 5),
+      C("constraints", [](const R& r) { return r.candidate.explained_constraints; }),
+      C("right", &R::right, "empty without truth")};
   return kColumns;
 }
 

@@ -52,6 +52,14 @@ Claim judgeClaim(const std::optional<PoseError>& error, const AccuracyGates& gat
 constexpr std::size_t kBeamsToSee = 10;
 std::size_t countValidBeams(const std::vector<LaserScan>& scans);
 
+/// A candidate of an answer, judged: a row of candidates.csv.
+struct CandidateRecord
+{
+  std::size_t rank = 0;  ///< from 1
+  Candidate candidate;
+  std::optional<bool> right;  ///< none without truth
+};
+
 /// One query's answer, judged: a row of results.csv.
 struct RelocationRecord
 {
@@ -71,6 +79,8 @@ struct RelocationRecord
   std::uint64_t poses_scored = 0;
   bool cut_short = false;  ///< the search ended at its budget, unfinished
   double time_ms = 0;
+  double view = 0;  ///< [rad] angular coverage of the scan
+  std::vector<CandidateRecord> listed;  ///< the first ten
 
   bool sawNothing() const { return valid_beams < kBeamsToSee; }
 };
@@ -83,6 +93,9 @@ RelocationRecord judgeRelocation(const EvaluationQuery& query, const RelocationR
 
 /// What results.csv holds of a query, after the method's name.
 const Columns<RelocationRecord>& relocationColumns();
+
+/// What candidates.csv holds of a candidate, after the names of the method and the query.
+const Columns<CandidateRecord>& candidateColumns();
 
 /// Reads a row back that was written with these columns, to the digits that it has.
 /// Throws std::runtime_error ("path: line N: reason").
