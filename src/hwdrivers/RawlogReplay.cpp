@@ -4,13 +4,12 @@
 
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CObservationOdometry.h>
-#include <mrpt/obs/CRawlog.h>
 #include <mrpt/obs/CSensoryFrame.h>
-#include <mrpt/serialization/CArchive.h>
 
-#include <cstdio>
-#include <fstream>
 #include <stdexcept>
+#include <utility>
+
+#include "io/archive/checked_archive.h"
 
 IMPLEMENTS_GENERIC_SENSOR(RawlogReplay, sigloc)
 
@@ -30,9 +29,7 @@ void RawlogReplay::loadConfig_sensorSpecific(const mrpt::config::CConfigFileBase
 
 void RawlogReplay::initialize()
 {
-  // MRPT opens a file that is not there by asking for its size, which throws a reason of its own.
-  const bool readable = std::ifstream(path_, std::ios::binary).get() != EOF;
-  if (!readable || !file_.open(path_)) throw std::runtime_error(path_ + ": cannot read");
+  input_ = std::make_unique<detail::GzipInput>(path_);
   m_state = ssWorking;
 }
 
@@ -47,37 +44,46 @@ void RawlogReplay::doProcess()
   }
 }
 
-/// Returns false at the end of the log.
+/// Returns false at the end of the log, or where it is damaged.
 bool RawlogReplay::playNext()
 {
-  auto archive = mrpt::serialization::archiveFrom(file_);
-  CActionCollection::Ptr actions;
-  CSensoryFrame::Ptr frame;
-  CObservation::Ptr observation;
-  if (!mrpt::obs::CRawlog::getActionObservationPairOrObservation(archive, actions, frame,
-                                                                 observation, entry_))
+  mrpt::serialization::CSerializable::Ptr entry;
+  try
   {
-    return false;
+    if (!input_->atEnd()) entry = detail::readLogEntry(*input_);
   }
-  const auto label = [&](const CObservation::Ptr& seen)
+  catch (const std::exception&)
   {
-    // Stock programs can't export or remove observations without a label.
-    if (seen->sensorLabel.empty()) seen->sensorLabel = m_sensorLabel;
-    return seen;
-  };
-  if (observation) appendObservation(label(observation));
-  if (!frame || frame->empty()) return true;
+    // Of a class that nobody registered: nothing after it can be read.
+  }
+  if (!entry) return false;
+  if (const auto actions = std::dynamic_pointer_cast<CActionCollection>(entry)) actions_ = actions;
+  if (const auto seen = std::dynamic_pointer_cast<CObservation>(entry)) appendLabelled(seen);
+  if (const auto frame = std::dynamic_pointer_cast<CSensoryFrame>(entry)) play(*frame);
+  return true;
+}
+
+void RawlogReplay::play(const CSensoryFrame& frame)
+{
+  const CActionCollection::Ptr actions = std::exchange(actions_, nullptr);
+  if (frame.empty()) return;
   const auto movement = actions ? actions->getBestMovementEstimation() : nullptr;
   if (movement)
   {
     odometry_ = odometry_ + movement->poseChange->getMeanVal();
     auto odometry = CObservationOdometry::Create();
-    odometry->timestamp = (*frame->begin())->timestamp;
+    odometry->timestamp = (*frame.begin())->timestamp;
     odometry->sensorLabel = "ODOMETRY";
     odometry->odometry = odometry_;
     appendObservation(odometry);
   }
-  for (const CObservation::Ptr& seen : *frame) appendObservation(label(seen));
-  return true;
+  for (const CObservation::Ptr& seen : frame) appendLabelled(seen);
+}
+
+/// Stock programs can't export or remove observations without a label.
+void RawlogReplay::appendLabelled(const CObservation::Ptr& seen)
+{
+  if (seen->sensorLabel.empty()) seen->sensorLabel = m_sensorLabel;
+  appendObservation(seen);
 }
 }  // namespace sigloc

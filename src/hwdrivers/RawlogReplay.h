@@ -3,11 +3,14 @@
 #pragma once
 
 #include <mrpt/hwdrivers/CGenericSensor.h>
-#include <mrpt/io/CFileGZInputStream.h>
+#include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/poses/CPose2D.h>
 
-#include <cstddef>
+#include <memory>
 #include <string>
+
+#include "io/archive/gzip_input.h"
 
 namespace sigloc
 {
@@ -34,11 +37,13 @@ class RawlogReplay : public mrpt::hwdrivers::CGenericSensor
   void loadConfig_sensorSpecific(const mrpt::config::CConfigFileBase& source,
                                  const std::string& section) override;
   bool playNext();
+  void play(const mrpt::obs::CSensoryFrame& frame);
+  void appendLabelled(const mrpt::obs::CObservation::Ptr& seen);
 
   std::string path_;
   double stop_after_end_ = 10;  // [s]
-  mrpt::io::CFileGZInputStream file_;
-  std::size_t entry_ = 0;
+  std::unique_ptr<detail::GzipInput> input_;
+  mrpt::obs::CActionCollection::Ptr actions_;  // before the next frame
   double idle_ = 0;  // [s] since the end
   mrpt::poses::CPose2D odometry_;
 };

@@ -11,7 +11,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "io/gzip_input.h"
+#include "io/archive/checked_archive.h"
+#include "io/archive/gzip_input.h"
 #include "io/text_rows.h"
 
 namespace sigloc

@@ -14,8 +14,8 @@
 #include <string>
 #include <utility>
 
-#include "io/gzip_input.h"
-#include "io/log_entry_check.h"
+#include "io/archive/checked_archive.h"
+#include "io/archive/gzip_input.h"
 #include "io/motion_conversion.h"
 #include "io/scan_conversion.h"
 #include "io/sensor_mount.h"

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "io/gzip_input.h"
+#include "io/archive/gzip_input.h"
 
 namespace sigloc::detail
 {

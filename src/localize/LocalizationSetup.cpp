@@ -14,7 +14,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "io/gzip_input.h"
+#include "io/archive/gzip_input.h"
 #include "io/text_rows.h"
 #include "localize/ini_warnings.h"
 #include "sigloc/io/file_output.h"

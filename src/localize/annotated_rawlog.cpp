@@ -8,8 +8,8 @@
 #include <exception>
 #include <nlohmann/json.hpp>
 
-#include "io/gzip_input.h"
-#include "io/log_entry_check.h"
+#include "io/archive/checked_archive.h"
+#include "io/archive/gzip_input.h"
 #include "sigloc/io/file_output.h"
 #include "sigloc/localize/RunWriter.h"
 #include "sigloc/plugin/pose_pdf.h"

@@ -41,14 +41,14 @@ std::optional<std::string> unusableCells(double resolution)
 
 std::optional<std::string> flawOf(const RasterFrame& frame)
 {
-  if (const auto reason = unusableCells(frame.resolution)) return reason;
+  if (auto reason = unusableCells(frame.resolution)) return reason;
   const double cells = static_cast<double>(frame.width) * frame.height;
   if (!isWithin(cells, 1, kMostCells))
   {
     return fmt::format("a raster of {} x {} cells, not of 1 to {:g}", frame.width, frame.height,
                        kMostCells);
   }
-  if (const auto reason = beyondReach(frame.origin.x, frame.origin.y)) return reason;
+  if (auto reason = beyondReach(frame.origin.x, frame.origin.y)) return reason;
   return beyondReach(frame.origin.x + frame.width * frame.resolution,
                      frame.origin.y + frame.height * frame.resolution);
 }

@@ -8,7 +8,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "io/gzip_input.h"
+#include "io/archive/checked_archive.h"
+#include "io/archive/gzip_input.h"
 #include "io/maps/map_source_readers.h"
 #include "map/map_values.h"
 #include "sigloc/io/map_files.h"

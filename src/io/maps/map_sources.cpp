@@ -16,7 +16,8 @@
 #include <tuple>
 #include <utility>
 
-#include "io/gzip_input.h"
+#include "io/archive/checked_archive.h"
+#include "io/archive/gzip_input.h"
 #include "io/maps/map_reach.h"
 #include "io/maps/map_source_readers.h"
 #include "io/scan_conversion.h"

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "io/gzip_input.h"
+#include "io/archive/gzip_input.h"
 #include "io/text_rows.h"
 #include "map/map_values.h"
 

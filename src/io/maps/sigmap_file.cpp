@@ -11,8 +11,8 @@
 #include <string>
 #include <utility>
 
+#include "io/archive/gzip_input.h"
 #include "io/archive_values.h"
-#include "io/gzip_input.h"
 #include "io/maps/feature_archive.h"
 #include "map/map_values.h"
 #include "sigloc/io/file_output.h"

@@ -16,7 +16,7 @@
 
 #include "eval/data/method_names.h"
 #include "eval/data/occupancy_grid.h"
-#include "io/gzip_input.h"
+#include "io/archive/gzip_input.h"
 
 namespace sigloc
 {

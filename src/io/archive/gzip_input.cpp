@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "io/gzip_input.h"
+#include "io/archive/gzip_input.h"
 
 #include <zlib.h>
 
@@ -213,6 +213,13 @@ std::string GzipInput::nextClassName()
   return std::all_of(name.begin(), name.end(), isClassNameCharacter) ? name : std::string{};
 }
 
+void GzipInput::drop(std::size_t count)
+{
+  const std::size_t dropped = std::min(count, ahead_.size() - ahead_from_);
+  ahead_from_ += dropped;
+  position_ += dropped;
+}
+
 std::size_t GzipInput::Write(const void*, std::size_t)
 {
   throw std::logic_error("GzipInput is for reading only");
@@ -223,30 +230,4 @@ std::uint64_t GzipInput::Seek(std::int64_t, TSeekOrigin)
   throw std::logic_error("GzipInput reads front to back only");
 }
 
-void readObjectFile(const std::filesystem::path& path, mrpt::serialization::CSerializable& object)
-{
-  requireFile(path);
-  requireIntact(path);
-  GzipInput input(path);
-  const std::string name = input.nextClassName();
-  const auto* const expected = object.GetRuntimeClass();
-  if (input.damaged()) fail(path, "truncated or damaged");
-  if (name.empty()) fail(path, "not an MRPT file");
-  if (mrpt::rtti::findRegisteredClass(name) != expected)
-  {
-    fail(path, "holds a '" + name + "', not a '" + expected->className + "'");
-  }
-  try
-  {
-    auto archive = mrpt::serialization::archiveFrom(input);
-    archive.ReadObject(&object);
-    // The checksum of a compressed file comes after its last byte.
-    input.atEnd();
-  }
-  catch (const std::exception&)
-  {
-    fail(path, "truncated or damaged");
-  }
-  if (input.damaged()) fail(path, "truncated or damaged");
-}
 }  // namespace sigloc::detail

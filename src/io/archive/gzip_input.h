@@ -3,8 +3,6 @@
 #pragma once
 
 #include <mrpt/io/CStream.h>
-#include <mrpt/serialization/CArchive.h>
-#include <mrpt/serialization/CSerializable.h>
 
 #include <cstdint>
 #include <filesystem>
@@ -38,6 +36,8 @@ class GzipInput final : public mrpt::io::CStream
   /// Returns what comes next without consuming it: `count` bytes or more, fewer at the end. Valid
   /// until the next call.
   std::string_view peek(std::size_t count);
+  /// Consumes what was looked at by peek(), `count` bytes of it.
+  void drop(std::size_t count);
   /// Share of the file's contents consumed so far, in [0, 1].
   double progress() const;
   /// Returns the class of the MRPT object that comes next without consuming anything, or "" when no
@@ -67,11 +67,6 @@ class GzipInput final : public mrpt::io::CStream
 /// own check; one that is merely cut off passes. MRPT's readers may crash on objects with wrong
 /// bytes in them, so this is called before them. Costs one decompression of the file.
 void requireIntact(const std::filesystem::path& path);
-
-/// Fills `object` from a file that holds one object of its class.
-/// Throws std::runtime_error "path: reason" for a file that is missing, empty, truncated, damaged
-/// or holds something else.
-void readObjectFile(const std::filesystem::path& path, mrpt::serialization::CSerializable& object);
 
 /// Returns "; did you mean '...'?" with the entry of the path's folder whose name is nearest to
 /// that of a file that does not exist, or an empty text.

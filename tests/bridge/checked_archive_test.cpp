@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "io/log_entry_check.h"
+#include "io/archive/checked_archive.h"
 
 #include <gtest/gtest.h>
 #include <mrpt/obs/CActionRobotMovement3D.h>

@@ -4,7 +4,9 @@
 
 #include <mrpt/serialization/CSerializable.h>
 
-#include "io/gzip_input.h"
+#include <filesystem>
+
+#include "io/archive/gzip_input.h"
 
 namespace sigloc::detail
 {
@@ -15,12 +17,15 @@ enum class Soundness
   unknown,  ///< of a class, or with one inside, whose layout is not known here
 };
 
-/// Judges the next object of a log without consuming it. MRPT's readers believe every count and
-/// every class name. This walks the bytes of the classes that sigloc uses, in all versions that
-/// MRPT 2.5 reads, and compares each count with the bytes that are there.
+/// Judges the next object of a log without consuming it, by an ArchiveWalk.
 Soundness soundnessOfNext(GzipInput& input);
 
 /// Returns the next object of a log, or null where there is none or it is unsound. Exceptions of
 /// MRPT's readers pass.
 mrpt::serialization::CSerializable::Ptr readLogEntry(GzipInput& input);
+
+/// Fills `object` from a file that holds one object of its class.
+/// Throws std::runtime_error "path: reason" for a file that is missing, empty, truncated, damaged
+/// or holds something else.
+void readObjectFile(const std::filesystem::path& path, mrpt::serialization::CSerializable& object);
 }  // namespace sigloc::detail

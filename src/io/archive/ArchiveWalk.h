@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "io/archive/gzip_input.h"
+
+namespace sigloc::detail
+{
+/// The part that a class plays in a file. An object is refused where another part is wanted.
+enum class ArchivePart : std::uint16_t
+{
+  entry = 1,  ///< of a log
+  action = 2,
+  observation = 4,  ///< a log's entry too
+  pose_2d = 8,
+  pose_3d = 16,
+  matrix = 32,
+  distribution_2d = 64,
+  distribution_3d = 128,
+  simplemap = 256,
+  grid_map = 512,
+  map_parameters = 1024,
+};
+
+constexpr unsigned only(ArchivePart part)
+{
+  return static_cast<unsigned>(part);
+}
+
+/// Walks over MRPT's objects in a file without making them. MRPT's readers believe every count and
+/// every class name; the walk compares each count with the bytes that are there. It knows the
+/// classes that sigloc uses, in all versions that MRPT 2.5 reads.
+class ArchiveWalk
+{
+ public:
+  /// Cut off, or with a value that MRPT would crash, hang or take all memory for.
+  struct Unsound : std::runtime_error
+  {
+    explicit Unsound(const std::string& reason = "truncated or damaged")
+        : std::runtime_error(reason)
+    {
+    }
+  };
+
+  /// Of a class, or with one inside, whose layout is not known here.
+  struct Unknown
+  {
+  };
+
+  enum class Input
+  {
+    kept,  ///< what is walked over can be read afterwards
+    consumed,  ///< less memory, for a whole file
+  };
+
+  ArchiveWalk(GzipInput& input, Input use) : input_(input), use_(use) {}
+
+  /// Walks over an object that plays one of these parts. Throws Unsound or Unknown.
+  void object(unsigned parts);
+
+ private:
+  void skip(std::size_t bytes);
+
+  template <class T>
+  T value()
+  {
+    need(sizeof(T));
+    T value;
+    std::memcpy(&value, ahead_.data() + at_, sizeof(T));
+    at_ += sizeof(T);
+    return value;
+  }
+
+  /// A truth value as MRPT writes it.
+  bool flag() { return value<std::uint8_t>() != 0; }
+
+  /// The number of items that follow, of at least `bytes` each.
+  std::size_t count(std::size_t bytes);
+
+  void text() { skip(count(1)); }
+  void doubles(std::size_t n) { skip(n * sizeof(double)); }
+  void floats(std::size_t n) { skip(n * sizeof(float)); }
+
+  void need(std::size_t bytes);
+  void drop();
+
+  void actionCollection(int version);
+  void sensoryFrame(int version);
+  void movement2D(int version);
+  void movement3D(int version);
+  void rangeScan(int version);
+  void odometry(int version);
+  void bearingRange(int version);
+  void robotPose(int version);
+  void comment(int version);
+  void signatures(int version);
+  void pose2D(int version);
+  void pose3D(int version);
+  void matrix(int version) { cells(version, sizeof(float)); }
+  void doubleMatrix(int version) { cells(version, sizeof(double)); }
+  void cells(int version, std::size_t bytes);
+  void gaussian2D(int version);
+  void gaussian3D(int version);
+  void sumOfGaussians2D(int version);
+  void particles2D(int version);
+  void particles3D(int version);
+  void simplemap(int version);
+  void gridMap(int version);
+  void mapParameters(int version);
+
+  struct Layout
+  {
+    std::string_view name;  // without its namespace, which old files lack
+    ArchivePart part;
+    int newest;  // version
+    void (ArchiveWalk::*walk)(int version);
+  };
+  static const Layout* layoutOf(std::string_view name);
+
+  GzipInput& input_;
+  Input use_;
+  std::string_view ahead_;
+  std::size_t at_ = 0;
+};
+}  // namespace sigloc::detail
