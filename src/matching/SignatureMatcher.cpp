@@ -128,11 +128,12 @@ RelocationResult SignatureMatcher::localize(const ObservedScene& scene,
     result.probability = 1;
     return result;
   }
-  // 1. Propose: minimal sets, or hypotheses that features alone support.
+  // 1. Propose by the signatures of features, in the modes that do so.
   std::vector<FeatureHypothesis> hypotheses;
   if (generator_) hypotheses = generator_->generate(scene.features, result.counters);
 
-  // 2. Verify: by the dense field where the map has one and the scene has returns.
+  // 2. Judge by the dense field, where the map has one and the scene has returns. Without proposals
+  // so far, pairs of key points and minimal sets propose, and are judged in turn.
   if (verifier_ && !scene.beams.empty())
   {
     const DenseScan scan = makeDenseScan(scene, kMaxBeams);
