@@ -89,6 +89,11 @@ const Belief& HypothesisTracker::belief() const
 {
   return state_->belief;
 }
+InMapEvidence HypothesisTracker::evidence() const
+{
+  const std::vector<Track>& tracks = state_->set.tracks;
+  return tracks.empty() ? InMapEvidence{} : tracks.front().summary();
+}
 bool HypothesisTracker::relocated() const
 {
   return state_->relocated;

@@ -15,9 +15,11 @@ namespace
 {
 using testing::wallAhead;
 
-std::vector<float> allExplained(const DenseScan& scan, float share)
+/// Every return explained by the same share. One that is not explained at all is off the map's
+/// walls.
+std::vector<ExplainedReturn> allExplained(const DenseScan& scan, float share)
 {
-  return std::vector<float>(scan.size(), share);
+  return std::vector<ExplainedReturn>(scan.size(), {share, false, share <= 0});
 }
 
 TEST(ObservedCells, HasEveryCellOnceAndNoneForWhatIsIsolated)
@@ -87,7 +89,7 @@ TEST(CellEvidence, WhatWasSeenLongAgoIsNewsAgain)
 
 TEST(CellEvidence, TellsTheShareOfAllItHasSeen)
 {
-  const DenseScan scan = wallAhead(4);
+  const DenseScan scan = wallAhead(10);
   CellEvidence structure;
   EXPECT_EQ(structure.unexplainedShare(), 0);
   structure.addScan(observedCells(scan, {0, 0, 0}), allExplained(scan, 1), 0);
@@ -97,15 +99,37 @@ TEST(CellEvidence, TellsTheShareOfAllItHasSeen)
   structure.addScan(observedCells(scan, {50, 0, 0}), allExplained(scan, 0), 6);
   EXPECT_NEAR(structure.unexplainedShare(), 0.5, 1e-6) << "seen before";
   structure.addScan(observedCells(scan, {50, 0, 0}), allExplained(scan, 0), 30);
-  EXPECT_NEAR(structure.unexplained(), 8, 1e-6) << "what was long ago is news again, ...";
-  EXPECT_NEAR(structure.unexplainedShare(), 8.0 / 12.0, 1e-6)
+  EXPECT_NEAR(structure.unexplained(), 20, 1e-6) << "what was long ago is news again, ...";
+  EXPECT_NEAR(structure.unexplainedShare(), 20.0 / 30.0, 1e-6)
       << "and what was seen then still counts";
+}
+
+TEST(CellEvidence, UnknownAreaIsOffNoWall)
+{
+  const DenseScan scan = wallAhead(10);
+  CellEvidence structure;
+  structure.addScan(observedCells(scan, {0, 0, 0}), allExplained(scan, 1), 0);
+  structure.addScan(observedCells(scan, {50, 0, 0}), allExplained(scan, 0), 5);
+  const double before = structure.offWallShare();
+  structure.addScan(observedCells(scan, {100, 0, 0}),
+                    std::vector<ExplainedReturn>(scan.size(), {0, true, false}), 6);
+  EXPECT_NEAR(structure.offWallShare(), before, 1e-9);
+  EXPECT_NEAR(structure.known(), 20, 1e-6);
+  EXPECT_NEAR(structure.seen(), 30, 1e-6);
+}
+
+TEST(CellEvidence, FewCellsAreNoShare)
+{
+  const DenseScan scan = wallAhead(1);
+  CellEvidence structure;
+  structure.addScan(observedCells(scan, {0, 0, 0}), allExplained(scan, 0), 0);
+  EXPECT_NEAR(structure.offWallShare(), 1.0 / 5.0, 1e-6);
 }
 
 TEST(CellEvidence, TheShareStaysOneWhenCountedAnew)
 {
   // A cell that was seen before is not counted again when it is explained better or worse.
-  const DenseScan scan = wallAhead(4);
+  const DenseScan scan = wallAhead(10);
   for (const float first : {0.0F, 1.0F})
   {
     CellEvidence structure;

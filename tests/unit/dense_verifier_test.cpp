@@ -213,12 +213,12 @@ TEST(DenseVerifier, ReturnsAreExplainedAsSharplyAsTheScoreSays)
   const DenseScan scan = makeDenseScan(room.scene(truth, 9), 180);
   const auto mean_at = [&](const TPose2D& pose)
   {
-    const std::vector<float> explained = verifier.explainedReturns(scan, pose);
+    const std::vector<ExplainedReturn> explained = verifier.explainedReturns(scan, pose);
     EXPECT_EQ(explained.size(), scan.size());
     double sum = 0;
     for (std::size_t i = 0; i < explained.size(); ++i)
     {
-      const auto share = static_cast<double>(explained[i]);
+      const auto share = static_cast<double>(explained[i].share);
       const double of_end =
           explainedAt(room.field(), pose.composePoint(TPoint2D(scan.x[i], scan.y[i])));
       const double passing_walls = std::max(0.0, of_end - 0.5);

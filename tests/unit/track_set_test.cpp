@@ -24,7 +24,8 @@ Track newcomer(double weight, double score, double unexplained_cells)
   track.hypothesis.weight = weight;
   track.score = score;
   const auto share = static_cast<float>(1.0 - unexplained_cells / static_cast<double>(kCells));
-  track.explained.addScan(observedCells(scan, {0, 0, 0}), std::vector<float>(scan.size(), share),
+  track.explained.addScan(observedCells(scan, {0, 0, 0}),
+                          std::vector<ExplainedReturn>(scan.size(), {share, false, share < 0.5F}),
                           0);
   return track;
 }

@@ -84,7 +84,7 @@ TEST(TrackStanding, LastingTellsNothingWhereMuchOfTheGroundIsUnexplained)
   const auto survived = [](float explained_share)
   {
     const DenseScan scan = testing::wallAhead(10);
-    const std::vector<float> explained(scan.size(), explained_share);
+    const std::vector<ExplainedReturn> explained(scan.size(), {explained_share, false, false});
     Track track = tracked_log_odds();
     track.tracked_distance = 20;
     track.explained.addScan(observedCells(scan, {0, 0, 0}), explained, 0);
@@ -101,8 +101,9 @@ double forThings(int cells, float explained_share, const ClaimContext& now, doub
   const DenseScan scan = testing::wallAhead(cells);
   Track track = tracked_log_odds();
   track.tracked_distance = way;
-  track.explained.addScan(observedCells(scan, {0, 0, 0}),
-                          std::vector<float>(scan.size(), explained_share), 0);
+  track.explained.addScan(
+      observedCells(scan, {0, 0, 0}),
+      std::vector<ExplainedReturn>(scan.size(), {explained_share, false, false}), 0);
   return track.claimLogOdds(now) - track.claimLogOdds(kCluttered);
 }
 

@@ -20,6 +20,17 @@ struct TrackedHypothesis
   std::uint32_t age = 0;  ///< steps since it was proposed
 };
 
+/// What speaks for a hypothesis being in this map at all. \cite algorithm section 8, "Confirm"
+struct InMapEvidence
+{
+  double relocations = 0;  ///< kappa, log-odds from relocations, eq. (8.7)
+  double way = 0;  ///< gamma, log-odds from what came into view on the way, eq. (8.21)
+  double unexplained = 0;  ///< share of the mapped area seen that is off all walls, in [0, 1]
+  double cells = 0;  ///< mapped area seen [cells of 0.5 m]
+  double followed = 0;  ///< [m] driven since it was proposed
+  double score = 0;  ///< of the last scan, in about [-1, 1]
+};
+
 /// Where the robot may be after a step: weighted Gaussian poses, heaviest first, and the weight of
 /// "somewhere else". All weights sum to one.
 struct Belief

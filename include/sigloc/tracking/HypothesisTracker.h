@@ -40,6 +40,8 @@ class HypothesisTracker
   const Belief& step(const std::optional<MotionIncrement>& motion, const ObservedScene& scene);
 
   const Belief& belief() const;
+  /// What speaks for the first hypothesis being in the map; all 0 without one.
+  InMapEvidence evidence() const;
   /// True when the last step ran a relocation.
   bool relocated() const;
 

@@ -11,6 +11,7 @@
 #include "eval/data/evaluation_data.h"
 #include "eval/methods/RelocationMethod.h"
 #include "sigloc/io/RawlogReader.h"
+#include "sigloc/tracking/HypothesisTracker.h"
 
 namespace sigloc
 {
@@ -26,6 +27,8 @@ struct TrackingClaim
   Verdict verdict = Verdict::too_little_seen;
   std::uint32_t hypotheses = 0;  ///< alive
   std::array<double, kWeights> weights{};  ///< of the heaviest hypotheses, heaviest first
+  std::array<mrpt::math::TPose2D, kWeights> poses{};  ///< of the same hypotheses
+  InMapEvidence evidence;  ///< of the heaviest one
   double elsewhere = 1;  ///< weight of "somewhere else"
   std::array<double, 9> covariance{};  ///< of `pose`, row by row
 };

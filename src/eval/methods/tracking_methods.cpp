@@ -24,6 +24,7 @@ TrackingClaim claimOf(const Belief& belief)
   for (std::size_t i = 0; i < std::min(belief.hypotheses.size(), TrackingClaim::kWeights); ++i)
   {
     claim.weights[i] = belief.hypotheses[i].weight;
+    claim.poses[i] = belief.hypotheses[i].pose.mean;
   }
   claim.has_pose = !belief.hypotheses.empty();
   if (!claim.has_pose) return claim;
@@ -51,7 +52,9 @@ class SignatureTracking : public SteppedTracking
 
   TrackingClaim step(const RawlogStep& step) override
   {
-    return claimOf(tracker_.step(step.motion, observe(step)));
+    TrackingClaim claim = claimOf(tracker_.step(step.motion, observe(step)));
+    claim.evidence = tracker_.evidence();
+    return claim;
   }
 
  private:

@@ -55,6 +55,7 @@ struct WakeupStep
   TrackingClaim claim;
   PoseError error;  ///< NaN without truth
   double nees = std::numeric_limits<double>::quiet_NaN();  ///< see squaredNormalisedError
+  bool tracked = false;  ///< one of the heaviest hypotheses is right
   bool mapped = true;  ///< the truth lies within 1 m of a mapped pose, or the map has no poses
   Claim judged = Claim::none;
   double time_ms = 0;

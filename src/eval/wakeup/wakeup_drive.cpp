@@ -25,6 +25,10 @@ void judge(const WakeupDriveStep& step, bool foreign, const AccuracyGates& gates
   if (!step.truth || !claim.has_pose) return;
   record.error = errorBetween(claim.pose, *step.truth);
   if (claim.confident) record.judged = judgeClaim(record.error, gates);
+  for (std::size_t k = 0; k < std::min<std::size_t>(claim.hypotheses, claim.poses.size()); ++k)
+  {
+    record.tracked |= judgeClaim(errorBetween(claim.poses[k], *step.truth), gates) == Claim::right;
+  }
   if (claim.belief) record.nees = squaredNormalisedError(claim, *step.truth);
 }
 

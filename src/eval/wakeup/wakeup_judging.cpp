@@ -65,6 +65,12 @@ auto ofBelief(Read read)
   { return step.claim.belief ? std::optional(std::invoke(read, step.claim)) : std::nullopt; };
 }
 
+/// Reads a part of what speaks for the heaviest hypothesis.
+auto ofEvidence(double InMapEvidence::*part)
+{
+  return ofBelief([part](const TrackingClaim& claim) { return claim.evidence.*part; });
+}
+
 /// The cells of an event, empty where it never came.
 auto ofEvent(std::optional<WakeupEvent> Wakeup::*event)
 {
@@ -101,6 +107,14 @@ const Columns<WakeupStep>& stepColumns()
       C("second_weight", ofBelief([](const T& claim) { return claim.weights[1]; }),
         "of the next one", 5),
       C("elsewhere", ofBelief(&T::elsewhere), "weight of all other poses", 5),
+      C("kappa", ofEvidence(&InMapEvidence::relocations), "log-odds from relocations, (8.7)"),
+      C("gamma", ofEvidence(&InMapEvidence::way), "log-odds from the way driven, (8.21)"),
+      C("unexplained", ofEvidence(&InMapEvidence::unexplained),
+        "share of the mapped area that the heaviest hypothesis leaves unexplained", 4),
+      C("cells", ofEvidence(&InMapEvidence::cells), "mapped area that it has seen, of 0.5 m", 1),
+      C("followed_m", ofEvidence(&InMapEvidence::followed), "driven since it was proposed"),
+      C("score", ofEvidence(&InMapEvidence::score), "of it at the last scan", 4),
+      C("tracked", &S::tracked, "one of the four heaviest hypotheses is right"),
       C(
           "nees", [](const S& step) { return step.claim.belief ? step.nees : kNone; },
           "squared normalised error, 3 degrees of freedom"),

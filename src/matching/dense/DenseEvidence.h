@@ -29,6 +29,14 @@ struct DenseEvidence
   double score = 0;  ///< poses are ranked by it, in about [-1, 1], \cite algorithm eq. (6.8)
 };
 
+/// How the map explains one return.
+struct ExplainedReturn
+{
+  float share = 0;  ///< explained share, in [0, 1]
+  bool unknown = false;  ///< ends in unknown area, so that the map says nothing about it
+  bool off_walls = false;  ///< passes a solid wall, or ends in mapped area and on no wall
+};
+
 /// A pose that is left at the end of the cascade.
 struct RankedPose
 {

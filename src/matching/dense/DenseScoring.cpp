@@ -105,8 +105,11 @@ double DenseVerifier::fineLikelihood(const DenseScan& scan, const TPose2D& pose)
   return static_cast<double>(sumsOfEnds(field_, scan, Placement(pose), scan.size()).fine);
 }
 
-std::vector<float> DenseVerifier::explainedReturns(const DenseScan& scan, const TPose2D& pose) const
+std::vector<ExplainedReturn> DenseVerifier::explainedReturns(const DenseScan& scan,
+                                                             const TPose2D& pose) const
 {
+  constexpr double kOffWall = 0.25;  // [m] from any wall, from which a return is on none
+  constexpr auto kOffAnyWall = static_cast<std::uint8_t>(kOffWall / DenseField::kDistanceUnit);
   constexpr float kSharpShare = 0.35F;
   constexpr auto kFree = static_cast<float>(DenseEvidence::kFreePenalty);
   constexpr auto kThrough = static_cast<float>(DenseEvidence::kThroughPenalty);
@@ -116,7 +119,7 @@ std::vector<float> DenseVerifier::explainedReturns(const DenseScan& scan, const 
   const LikelihoodTable& fine = fineTable();
   const LikelihoodTable& coarse = coarseTable();
   const std::uint64_t through = wall_crossings_->throughBits(scan, pose, kRayBeams);
-  std::vector<float> explained(scan.size());
+  std::vector<ExplainedReturn> explained(scan.size());
   CellView::Block block;
   for (std::size_t first = 0; first < scan.size(); first += CellView::Block::kSize)
   {
@@ -129,8 +132,13 @@ std::vector<float> DenseVerifier::explainedReturns(const DenseScan& scan, const 
       const float blunt = 0.5F * (fine[distance] + coarse[distance]);
       const float sharp = sharpLikelihood(sharp_table, block, i, cells.resolution());
       float share = blunt + kSharpShare * (sharp - blunt) - (in_free ? kFree : 0.0F);
-      if (first + i < kRayBeams && (through >> (first + i) & 1U) != 0) share -= kThrough;
-      explained[first + i] = std::max(0.0F, share);
+      const bool passes_wall = first + i < kRayBeams && (through >> (first + i) & 1U) != 0;
+      if (passes_wall) share -= kThrough;
+      const bool on_no_wall = distance > kOffAnyWall;
+      ExplainedReturn& at = explained[first + i];
+      at.share = std::max(0.0F, share);
+      at.unknown = !passes_wall && on_no_wall && block.state(i) == CellState::unknown;
+      at.off_walls = passes_wall || (on_no_wall && !at.unknown);
     }
   }
   return explained;

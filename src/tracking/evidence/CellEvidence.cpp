@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tracking/evidence/CellEvidence.h"
 
+#include <algorithm>
 #include <iterator>
 
 namespace sigloc
@@ -9,6 +10,7 @@ namespace sigloc
 namespace
 {
 constexpr float kFullReturns = 3;  // returns from which on a cell counts in full, eq. (8.26)
+constexpr double kFewCells = 5;  // fewer cells of mapped area count as that many
 constexpr double kMemory = 10.0;  // [m] of travel after which a cell is forgotten
 }  // namespace
 
@@ -22,8 +24,28 @@ double CellEvidence::Cell::unexplained() const
   return returns > 0 ? seen() * (1.0 - static_cast<double>(explained / returns)) : 0.0;
 }
 
-double CellEvidence::addScan(const ObservedCells& view, const std::vector<float>& explained,
-                             double travelled)
+double CellEvidence::Cell::unknown() const
+{
+  return returns > 0 ? seen() * static_cast<double>(in_unknown / returns) : 0.0;
+}
+
+double CellEvidence::Cell::offWalls() const
+{
+  return returns > 0 ? seen() * static_cast<double>(off_walls / returns) : 0.0;
+}
+
+double CellEvidence::unexplainedShare() const
+{
+  return seen() > 0 ? std::clamp(unexplained_ / seen(), 0.0, 1.0) : 0.0;
+}
+
+double CellEvidence::offWallShare() const
+{
+  return std::clamp(off_walls_ / std::max(kFewCells, known_), 0.0, 1.0);
+}
+
+double CellEvidence::addScan(const ObservedCells& view,
+                             const std::vector<ExplainedReturn>& explained, double travelled)
 {
   forget(travelled);
   std::vector<Cell> observed(view.cells.size());
@@ -31,8 +53,10 @@ double CellEvidence::addScan(const ObservedCells& view, const std::vector<float>
   {
     if (view.cell_of[i] == ObservedCells::kNowhere) continue;
     Cell& cell = observed[view.cell_of[i]];
-    cell.explained += explained[i];
+    cell.explained += explained[i].share;
     cell.returns += 1;
+    cell.in_unknown += explained[i].unknown ? 1.0F : 0.0F;
+    cell.off_walls += explained[i].off_walls ? 1.0F : 0.0F;
   }
   const double unexplained_before = unexplained_;
   for (std::size_t k = 0; k < observed.size(); ++k)
@@ -42,9 +66,14 @@ double CellEvidence::addScan(const ObservedCells& view, const std::vector<float>
     const Cell before = cell;
     cell.explained += observed[k].explained;
     cell.returns += observed[k].returns;
+    cell.in_unknown += observed[k].in_unknown;
+    cell.off_walls += observed[k].off_walls;
     cell.last_seen = travelled;
     unexplained_ += cell.unexplained() - before.unexplained();
-    seen_ += cell.seen() - before.seen();
+    const double unknown = cell.unknown() - before.unknown();
+    known_ += cell.seen() - before.seen() - unknown;
+    unknown_ += unknown;
+    off_walls_ += cell.offWalls() - before.offWalls();
   }
   return unexplained_ - unexplained_before;
 }

@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "matching/dense/DenseEvidence.h"
 #include "tracking/evidence/ObservedCells.h"
 
 namespace sigloc
@@ -18,44 +19,56 @@ namespace sigloc
 class CellEvidence
 {
  public:
-  /// Adds a scan, taken after `travelled` [m] in all. `explained` has the share in [0, 1] of each
-  /// return that the hypothesis explains. Returns by how many cells the unexplained sum has grown,
+  /// Adds a scan, taken after `travelled` [m] in all. `explained` tells how the map explains each
+  /// return at the hypothesis. Returns by how many cells the unexplained sum has grown,
   /// which is negative where the scan explains cells better than before. A cell that was last seen
   /// more than 10 m of travel ago counts anew. `travelled` counts from any start, also below 0, and
   /// never falls.
-  double addScan(const ObservedCells& view, const std::vector<float>& explained, double travelled);
+  double addScan(const ObservedCells& view, const std::vector<ExplainedReturn>& explained,
+                 double travelled);
 
   /// How many cells all scans so far have left unexplained. A cell that counted anew counts again.
   double unexplained() const { return unexplained_; }
 
   /// How many cells all scans so far have shown. A cell that counted anew counts again. Eq. (8.29)
-  double seen() const { return seen_; }
+  double seen() const { return known_ + unknown_; }
 
-  /// Sets both sums back to 0, but keeps the cells.
-  void countAnew() { seen_ = unexplained_ = 0; }
+  /// How many of them are mapped area.
+  double known() const { return known_; }
+
+  /// Sets all sums back to 0, but keeps the cells.
+  void countAnew() { unexplained_ = known_ = unknown_ = off_walls_ = 0; }
 
   /// Unexplained share of the cells seen, in [0, 1]; 0 before the first. \cite algorithm eq. (8.25)
-  double unexplainedShare() const
-  {
-    return seen_ > 0 ? std::clamp(unexplained_ / seen_, 0.0, 1.0) : 0.0;
-  }
+  double unexplainedShare() const;
+
+  /// Share of the cells of mapped area whose returns end off all walls or beyond one, in [0, 1]; 0
+  /// before the first. Fewer than five cells count as five. It depends less on how sharp a map is
+  /// than the unexplained share does.
+  double offWallShare() const;
 
  private:
   struct Cell
   {
     float explained = 0;  // sum of the explained shares of the returns
     float returns = 0;
+    float in_unknown = 0;  // returns in unknown area
+    float off_walls = 0;  // returns that end off all walls or beyond one
     double last_seen = 0;  // travelled [m]
 
     /// How far the cell counts, in [0, 1]; few returns count less.
     double seen() const;
     double unexplained() const;
+    double unknown() const;
+    double offWalls() const;
   };
   void forget(double travelled);
 
   std::unordered_map<std::uint64_t, Cell> cells_;
   double unexplained_ = 0;  // [cells], sum over all scans
-  double seen_ = 0;  // [cells], sum over all scans
+  double known_ = 0;  // [cells] of mapped area, sum over all scans
+  double unknown_ = 0;  // [cells] of unknown area, sum over all scans
+  double off_walls_ = 0;  // [cells] off all walls or beyond one, sum over all scans
   double tidied_ = 0;  // travelled [m] when cells were last forgotten
 };
 }  // namespace sigloc

@@ -55,7 +55,7 @@ class ScanHistory
     double log_likelihood;  // of its score, eq. (7.1)
     double unexplained;  // growth of the unexplained cells by this scan
     double detour;  // penalty p of eq. (8.24) for the deviation from the odometry
-    std::vector<float> explained;  // share in [0, 1] of each return
+    std::vector<ExplainedReturn> explained;  // each return
   };
   class Replay;
   /// How a new track compares with the heaviest older one on the way.

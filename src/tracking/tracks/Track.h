@@ -113,6 +113,13 @@ struct Track
   /// Log-odds from the number of things that the track leaves unexplained, eq. (8.29).
   double explainedCellsLogOdds(const ClaimContext& now) const;
 
+  /// What speaks for the track being in this map, in numbers.
+  InMapEvidence summary() const
+  {
+    return {confirmed,         tracked_log_odds, explained.offWallShare(),
+            explained.known(), tracked_distance, score};
+  }
+
   /// True when the log-odds are so high that the track is not given up because of look-alikes.
   bool retained() const { return std::max(confirmed, inMapLogOdds()) >= kRetained; }
 
