@@ -205,29 +205,33 @@ CommandResult runBounded(const TemporaryFolder& folder, const std::string& progr
   return runShell(folder, "ulimit -t 20; ulimit -v 1000000; " + commandLine(program, arguments));
 }
 
-void expectRefusal(const TemporaryFolder& folder, const HostileObject& hostile,
-                   const CommandResult& result, const std::set<std::string>& before)
+/// Expects that a program refuses each of the objects in one line, and leaves nothing behind.
+template <class ArgumentsOf>
+void expectRefusals(const TemporaryFolder& folder, const std::vector<HostileObject>& objects,
+                    const std::string& program, ArgumentsOf&& arguments_of)
 {
-  const std::string name = hostile.name;
-  EXPECT_EQ(result.exit_code, 1) << name << ": " << result.errors;
-  EXPECT_EQ(countLines(result.errors), 1) << name << ": " << result.errors;
-  EXPECT_NE(result.errors.find(name + ": " + hostile.reason), std::string::npos) << result.errors;
-  EXPECT_EQ(listing(folder), before) << name;
+  for (const HostileObject& hostile : objects)
+  {
+    const std::string name = hostile.name;
+    std::string bytes = hostile.sound();
+    hostile.spoil(bytes);
+    writeText(folder / name, bytes);
+    const auto before = listing(folder);
+    const CommandResult result = runBounded(folder, program, arguments_of(name));
+    EXPECT_EQ(result.exit_code, 1) << name << ": " << result.errors;
+    EXPECT_EQ(countLines(result.errors), 1) << name << ": " << result.errors;
+    EXPECT_NE(result.errors.find(name + ": " + hostile.reason), std::string::npos) << result.errors;
+    EXPECT_EQ(listing(folder), before) << name;
+  }
 }
 
 TEST(HostileObject, MapsAreRefusedInOneLine)
 {
   const TemporaryFolder folder;
-  for (const HostileObject& hostile : hostileMaps())
-  {
-    std::string bytes = hostile.sound();
-    hostile.spoil(bytes);
-    writeText(folder / hostile.name, bytes);
-    const auto before = listing(folder);
-    expectRefusal(folder, hostile,
-                  runBounded(folder, "sigloc-map", {"build", "-i", hostile.name, "-o", "m.sigmap"}),
-                  before);
-  }
+  expectRefusals(folder, hostileMaps(), "sigloc-map",
+                 [](const std::string& name) {
+                   return Arguments{"build", "-i", name, "-o", "m.sigmap"};
+                 });
 }
 
 TEST(HostileObject, LogsAreRefusedInOneLine)
@@ -235,17 +239,9 @@ TEST(HostileObject, LogsAreRefusedInOneLine)
   const TemporaryFolder folder;
   writeText(folder / "room.simplemap", simplemapBytes());
   run(folder, "sigloc-map", {"build", "-i", "room.simplemap", "-o", "room.sigmap"});
-  for (const HostileObject& hostile : hostileLogs())
-  {
-    std::string bytes = hostile.sound();
-    hostile.spoil(bytes);
-    writeText(folder / hostile.name, bytes);
-    const auto before = listing(folder);
-    expectRefusal(folder, hostile,
-                  runBounded(folder, "sigloc-localize",
-                             {"--map", "room.sigmap", "--log", hostile.name, "--out", "o"}),
-                  before);
-  }
+  expectRefusals(folder, hostileLogs(), "sigloc-localize",
+                 [](const std::string& name)
+                 { return Arguments{"--map", "room.sigmap", "--log", name, "--out", "o"}; });
 }
 
 TEST(HostileObject, TheSameBytesUnspoiltAreRead)
