@@ -16,6 +16,7 @@
 
 #include "io/archive/checked_archive.h"
 #include "io/archive/gzip_input.h"
+#include "io/archive/UnreadObservation.h"
 #include "io/motion_conversion.h"
 #include "io/scan_conversion.h"
 #include "io/sensor_mount.h"
@@ -87,13 +88,6 @@ CPose2D interpolated(const OdometryReading& a, const OdometryReading& b, double 
   const double share = std::clamp((time - a.time) / span, 0.0, 1.0);
   const CPose2D whole = b.pose - a.pose;
   return a.pose + CPose2D(share * whole.x(), share * whole.y(), share * whole.phi());
-}
-
-bool isLogEntry(const std::string& class_name)
-{
-  const auto* const id = mrpt::rtti::findRegisteredClass(class_name);
-  return id != nullptr && (id == CLASS_ID(CActionCollection) || id == CLASS_ID(CSensoryFrame) ||
-                           id->derivedFrom(CLASS_ID(CObservation)));
 }
 }  // namespace
 
@@ -245,6 +239,7 @@ void RawlogReader::State::takeOdometry(const CObservationOdometry& reading)
 
 std::optional<RawlogStep> RawlogReader::State::takeObservation(const CObservation::Ptr& observation)
 {
+  if (std::dynamic_pointer_cast<detail::UnreadObservation>(observation)) return std::nullopt;
   const double time = timeOf(*observation);
   const bool range = isRange(*observation);
   std::optional<RawlogStep> step;
@@ -330,7 +325,7 @@ RawlogReader::RawlogReader(const std::filesystem::path& path)
   {
     fail(state_->input.damaged() ? "truncated or damaged" : "not a rawlog");
   }
-  if (!isLogEntry(name)) fail("not a rawlog: it starts with a '" + name + "'");
+  if (!detail::isLogClass(name)) fail("not a rawlog: it starts with a '" + name + "'");
   const auto first = state_->readObject();
   if (!first) fail("truncated or damaged: not one entry could be read");
   state_->skipFrameBeforeActions(first);

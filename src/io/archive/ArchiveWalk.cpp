@@ -11,6 +11,7 @@ namespace
 {
 constexpr std::size_t kMostItems = 4000000;  // of a list: beams, particles, observations
 constexpr std::uint8_t kEndFlag = 0x88;  // after an object
+constexpr std::size_t kMostKept = 128000000;  // bytes of an object that is read afterwards
 constexpr std::size_t kAtOnce = 1U << 18U;  // bytes of a file that is consumed
 }  // namespace
 
@@ -18,7 +19,7 @@ const ArchiveWalk::Layout* ArchiveWalk::layoutOf(std::string_view name)
 {
   using P = ArchivePart;
   using W = ArchiveWalk;
-  static constexpr std::array<Layout, 25> kLayouts = {{
+  static constexpr std::array<Layout, 26> kLayouts = {{
       {"CActionCollection", P::entry, 0, &W::actionCollection},
       {"CSensoryFrame", P::entry, 2, &W::sensoryFrame},
       {"CSensorialFrame", P::entry, 2, &W::sensoryFrame},  // its name before 2008
@@ -37,6 +38,7 @@ const ArchiveWalk::Layout* ArchiveWalk::layoutOf(std::string_view name)
       {"CMatrixD", P::matrix, 1, &W::doubleMatrix},
       {"CPosePDFGaussian", P::distribution_2d, 2, &W::gaussian2D},
       {"CPose3DPDFGaussian", P::distribution_3d, 1, &W::gaussian3D},
+      {"CPosePDFGaussianInf", P::distribution_2d, 0, &W::informed2D},
       {"CPosePDFSOG", P::distribution_2d, 2, &W::sumOfGaussians2D},
       {"CPosePDFParticles", P::distribution_2d, 1, &W::particles2D},
       {"CPose3DPDFParticles", P::distribution_3d, 1, &W::particles3D},
@@ -56,6 +58,7 @@ void ArchiveWalk::need(std::size_t bytes)
 {
   constexpr std::size_t kAtFirst = 4096;
   if (at_ + bytes <= ahead_.size()) return;
+  if (use_ == Input::kept && at_ + bytes > kMostKept) throw Unsound("an object of over 128 MB");
   drop();
   ahead_ = input_.peek(std::max(at_ + bytes, 2 * ahead_.size() + kAtFirst));
   if (at_ + bytes > ahead_.size()) throw Unsound();
@@ -107,7 +110,11 @@ void ArchiveWalk::object(unsigned parts)
   const Layout* const layout = layoutOf(name);
   if (layout == nullptr) throw Unknown{};
   if ((parts & only(layout->part)) == 0) throw Unsound();
-  if (version < 0 || version > layout->newest) throw Unknown{};  // MRPT refuses these itself
+  if (version < 0 || version > layout->newest)
+  {
+    throw Unsound("holds a '" + name + "' of version " + std::to_string(version) +
+                  ", which is not known");
+  }
   (this->*layout->walk)(version);
   if (!old && value<std::uint8_t>() != kEndFlag) throw Unsound();
 }

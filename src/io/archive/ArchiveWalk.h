@@ -34,6 +34,8 @@ constexpr unsigned only(ArchivePart part)
   return static_cast<unsigned>(part);
 }
 
+constexpr unsigned kLogEntry = only(ArchivePart::entry) | only(ArchivePart::observation);
+
 /// Walks over MRPT's objects in a file without making them. MRPT's readers believe every count and
 /// every class name; the walk compares each count with the bytes that are there. It knows the
 /// classes that sigloc uses, in all versions that MRPT 2.5 reads.
@@ -108,6 +110,7 @@ class ArchiveWalk
   void cells(int version, std::size_t bytes);
   void gaussian2D(int version);
   void gaussian3D(int version);
+  void informed2D(int) { doubles(9); }
   void sumOfGaussians2D(int version);
   void particles2D(int version);
   void particles3D(int version);

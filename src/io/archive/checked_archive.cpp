@@ -41,12 +41,11 @@ std::optional<std::string> flawOfMapFile(const std::filesystem::path& path)
 }
 }  // namespace
 
-Soundness soundnessOfNext(GzipInput& input)
+Soundness soundnessOfNext(GzipInput& input, unsigned parts)
 {
   try
   {
-    ArchiveWalk(input, ArchiveWalk::Input::kept)
-        .object(only(ArchivePart::entry) | only(ArchivePart::observation));
+    ArchiveWalk(input, ArchiveWalk::Input::kept).object(parts);
   }
   catch (const ArchiveWalk::Unsound&)
   {
@@ -57,12 +56,6 @@ Soundness soundnessOfNext(GzipInput& input)
     return Soundness::unknown;
   }
   return Soundness::sound;
-}
-
-mrpt::serialization::CSerializable::Ptr readLogEntry(GzipInput& input)
-{
-  if (soundnessOfNext(input) == Soundness::unsound) return nullptr;
-  return mrpt::serialization::archiveFrom(input).ReadObject();
 }
 
 void readObjectFile(const std::filesystem::path& path, mrpt::serialization::CSerializable& object)

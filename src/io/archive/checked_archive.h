@@ -5,6 +5,7 @@
 #include <mrpt/serialization/CSerializable.h>
 
 #include <filesystem>
+#include <string>
 
 #include "io/archive/gzip_input.h"
 
@@ -17,10 +18,15 @@ enum class Soundness
   unknown,  ///< of a class, or with one inside, whose layout is not known here
 };
 
-/// Judges the next object of a log without consuming it, by an ArchiveWalk.
-Soundness soundnessOfNext(GzipInput& input);
+/// Judges the next object of a log without consuming it, by an ArchiveWalk. `parts` are those that
+/// it may play.
+Soundness soundnessOfNext(GzipInput& input, unsigned parts);
 
-/// Returns the next object of a log, or null where there is none or it is unsound. Exceptions of
+/// True for the name of a class that a log is made of, whether it is registered or not.
+bool isLogClass(const std::string& name);
+
+/// Returns the next object of a log, or null where there is none or it is unsound. An observation
+/// whose layout is not known becomes an UnreadObservation: MRPT never reads it. Exceptions of
 /// MRPT's readers pass.
 mrpt::serialization::CSerializable::Ptr readLogEntry(GzipInput& input);
 

@@ -20,7 +20,6 @@ namespace sigloc::detail
 namespace
 {
 constexpr unsigned kBufferBytes = 256U * 1024U;
-constexpr std::size_t kLongestClassName = 120;
 
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& reason)
 {
@@ -57,6 +56,29 @@ std::string extensionOf(const std::filesystem::path& path)
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return extension;
+}
+
+std::optional<ObjectHeader> objectHeaderIn(std::string_view bytes)
+{
+  // Length of the name (with the top bit set in one byte; in the oldest files in four bytes,
+  // little-endian), name, version.
+  constexpr std::size_t kOldLengthBytes = 4;
+  constexpr std::string_view kZeros("\0\0\0", 3);
+  if (bytes.size() < kOldLengthBytes) return std::nullopt;
+  const auto byte = static_cast<unsigned char>(bytes[0]);
+  ObjectHeader header;
+  header.old = byte < 0x80U;
+  if (header.old && bytes.substr(1, kZeros.size()) != kZeros) return std::nullopt;
+  const std::size_t length = byte & 0x7FU;
+  const std::size_t start = header.old ? kOldLengthBytes : 1;
+  if (length == 0 || length > kLongestClassName || bytes.size() < start + length)
+  {
+    return std::nullopt;
+  }
+  header.name = bytes.substr(start, length);
+  header.size = start + length;
+  const bool spelled = std::all_of(header.name.begin(), header.name.end(), isClassNameCharacter);
+  return spelled ? std::optional(header) : std::nullopt;
 }
 
 std::string didYouMeanFile(const std::filesystem::path& path)
@@ -198,19 +220,8 @@ double GzipInput::progress() const
 
 std::string GzipInput::nextClassName()
 {
-  // Header: length of the name (with the top bit set in one byte; in the oldest files in four
-  // bytes, little-endian), name, version.
-  constexpr std::size_t kOldLengthBytes = 4;
-  const std::string_view ahead = peek(kLongestClassName + kOldLengthBytes);
-  if (ahead.size() < kOldLengthBytes) return {};
-  const auto byte = static_cast<unsigned char>(ahead[0]);
-  const bool old = byte < 0x80U;
-  if (old && ahead.compare(1, 3, std::string(3, '\0')) != 0) return {};
-  const std::size_t length = byte & 0x7FU;
-  const std::size_t start = old ? kOldLengthBytes : 1;
-  if (length == 0 || length > kLongestClassName || ahead.size() < start + length) return {};
-  std::string name(ahead.substr(start, length));
-  return std::all_of(name.begin(), name.end(), isClassNameCharacter) ? name : std::string{};
+  const auto header = objectHeaderIn(peek(kLongestObjectHeader));
+  return header ? std::string(header->name) : std::string{};
 }
 
 void GzipInput::drop(std::size_t count)

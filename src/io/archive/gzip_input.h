@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -14,6 +15,20 @@ struct gzFile_s;
 
 namespace sigloc::detail
 {
+constexpr std::size_t kLongestClassName = 120;
+constexpr std::size_t kLongestObjectHeader = kLongestClassName + 4;
+
+/// What an MRPT object begins with: the name of its class. Its version follows.
+struct ObjectHeader
+{
+  std::string_view name;
+  std::size_t size = 0;  ///< bytes up to the version
+  bool old = false;  ///< of the oldest files: a version of four bytes, no flag at the object's end
+};
+
+/// Returns the header that the bytes begin with, or nullopt when they begin otherwise.
+std::optional<ObjectHeader> objectHeaderIn(std::string_view bytes);
+
 /// Reads a file, gz-compressed or plain, front to back. Unlike MRPT's own reader it distinguishes
 /// the end of the file from damaged or truncated data.
 class GzipInput final : public mrpt::io::CStream
