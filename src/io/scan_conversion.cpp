@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "io/sensor_mount.h"
 
@@ -12,7 +13,6 @@ namespace sigloc
 namespace
 {
 constexpr double kMaxTilt = 10.0 * M_PI / 180.0;  // [rad]
-constexpr double kDefaultRangeSigma = 0.01;  // [m], where the log gives none
 constexpr double kMaxRangeSigma = 1.0;  // [m], a greater one counts as not given
 
 double rangeSigmaOf(const mrpt::obs::CObservation2DRangeScan& scan)
@@ -20,19 +20,38 @@ double rangeSigmaOf(const mrpt::obs::CObservation2DRangeScan& scan)
   const auto sigma = static_cast<double>(scan.stdError);
   return sigma > 0 && sigma <= kMaxRangeSigma ? sigma : kDefaultRangeSigma;
 }
+
+/// A sensor's pose on the robot, seen from above.
+struct PlanarMount
+{
+  mrpt::math::TPose2D robot_from_sensor;
+  bool upside_down = false;
+};
+
+/// Returns nullopt for a pose that no sensor has, or tilted so that the planar model does not hold.
+std::optional<PlanarMount> planarMountOf(const mrpt::poses::CPose3D& robot_from_sensor)
+{
+  if (!detail::isSensorMount(robot_from_sensor)) return std::nullopt;
+  // The third column of the rotation is the scan plane's normal: up, down (upside-down mounting) or
+  // tilted.
+  const auto rotation = robot_from_sensor.getRotationMatrix();
+  const double up = rotation(2, 2);
+  if (std::abs(up) < std::cos(kMaxTilt)) return std::nullopt;
+  const double heading = std::atan2(rotation(1, 0), rotation(0, 0));
+  return PlanarMount{{robot_from_sensor.x(), robot_from_sensor.y(), heading}, up < 0};
+}
+
+void require(bool sound, const char* reason)
+{
+  if (!sound) throw std::invalid_argument(reason);
+}
 }  // namespace
 
 std::optional<LaserScan> toLaserScan(const mrpt::obs::CObservation2DRangeScan& scan)
 {
   const std::size_t n = scan.getScanSize();
-  if (n < 2 || !detail::isSensorMount(scan.sensorPose)) return std::nullopt;
-
-  // The third column of the rotation is the scan plane's normal: up, down (upside-down mounting) or
-  // tilted, in which case the planar model does not hold.
-  const auto rotation = scan.sensorPose.getRotationMatrix();
-  const double up = rotation(2, 2);
-  if (std::abs(up) < std::cos(kMaxTilt)) return std::nullopt;
-  const bool upside_down = up < 0;
+  const auto mount = planarMountOf(scan.sensorPose);
+  if (n < 2 || !mount) return std::nullopt;
 
   LaserScan out;
   out.angle_step = static_cast<double>(scan.aperture) / static_cast<double>(n - 1);
@@ -40,8 +59,7 @@ std::optional<LaserScan> toLaserScan(const mrpt::obs::CObservation2DRangeScan& s
   out.first_angle = -0.5 * static_cast<double>(scan.aperture);
   out.max_range = std::min(static_cast<double>(scan.maxRange), kFarthestReturn);
   out.range_sigma = rangeSigmaOf(scan);
-  out.robot_from_sensor = {scan.sensorPose.x(), scan.sensorPose.y(),
-                           std::atan2(rotation(1, 0), rotation(0, 0))};
+  out.robot_from_sensor = mount->robot_from_sensor;
   out.ranges.resize(n);
   out.valid.resize(n);
   for (std::size_t i = 0; i < n; ++i)
@@ -53,9 +71,54 @@ std::optional<LaserScan> toLaserScan(const mrpt::obs::CObservation2DRangeScan& s
     out.valid[i] = usable ? 1 : 0;
   }
   // An upside-down sensor mirrors left and right; a clockwise one starts at its left end.
-  const bool reversed = upside_down == scan.rightToLeft;
+  const bool reversed = mount->upside_down == scan.rightToLeft;
   if (reversed)
   {
+    std::reverse(out.ranges.begin(), out.ranges.end());
+    std::reverse(out.valid.begin(), out.valid.end());
+  }
+  return out;
+}
+
+LaserScan toLaserScan(const RangeReadings& readings)
+{
+  constexpr double kWholeTurn = 2 * M_PI;
+  const std::size_t n = readings.ranges.size();
+  require(n >= 2, "a scan has at least two beams");
+  require(std::isfinite(readings.first_angle) && std::abs(readings.first_angle) <= kWholeTurn,
+          "the angle of the first beam is not within a turn");
+  // A float's rounding may carry the last beam a little beyond the whole turn.
+  const double view = std::abs(readings.angle_step) * static_cast<double>(n - 1);
+  require(view > 0 && view <= 1.01 * kWholeTurn,
+          "the beams do not cover more than 0 and at most one turn");
+  require(readings.min_range >= 0 && readings.max_range > readings.min_range,
+          "the limits of the range are not 0 <= least < greatest");
+  require(readings.range_sigma > 0 && readings.range_sigma <= kMaxRangeSigma,
+          "the standard deviation of a range is not within (0, 1] m");
+  const auto mount = planarMountOf(readings.robot_from_sensor);
+  require(
+      mount.has_value(),
+      "the sensor's pose on the robot is no number, beyond 100 m, or tilted by over 10 degrees");
+
+  LaserScan out;
+  out.max_range = std::min(readings.max_range, kFarthestReturn);
+  out.range_sigma = readings.range_sigma;
+  out.robot_from_sensor = mount->robot_from_sensor;
+  for (const float reading : readings.ranges)
+  {
+    const auto range = static_cast<double>(reading);
+    const bool usable = range > 0 && range >= readings.min_range && range < out.max_range;
+    out.ranges.push_back(usable ? reading : 0.0F);
+    out.valid.push_back(usable ? 1 : 0);
+  }
+  // Seen from above, the beams of an upside-down sensor turn the other way.
+  const double turn = mount->upside_down ? -1 : 1;
+  out.first_angle = turn * readings.first_angle;
+  out.angle_step = turn * readings.angle_step;
+  if (out.angle_step < 0)
+  {
+    out.first_angle += static_cast<double>(n - 1) * out.angle_step;
+    out.angle_step = -out.angle_step;
     std::reverse(out.ranges.begin(), out.ranges.end());
     std::reverse(out.valid.begin(), out.valid.end());
   }

@@ -6,6 +6,7 @@
 #include <mrpt/obs/CObservationBearingRange.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -14,6 +15,8 @@
 
 namespace sigloc
 {
+constexpr double kDefaultRangeSigma = 0.01;  ///< [m], of a scan that tells none
+
 /// Returns the scan in the core's form, counter-clockwise: clockwise and upside-down scans are
 /// reversed. NaN, infinite, non-positive and max-range beams are invalid, and those beyond
 /// kFarthestReturn too. A noise of zero, or of more than a metre, counts as not given. Returns
@@ -21,6 +24,23 @@ namespace sigloc
 /// Returns nullopt, too, where the aperture or the sensor pose is not finite, or the sensor is more
 /// than 100 m from the robot.
 std::optional<LaserScan> toLaserScan(const mrpt::obs::CObservation2DRangeScan& scan);
+
+/// A scan as programs hand it over: the message of ROS, or an array.
+struct RangeReadings
+{
+  std::vector<float> ranges;  ///< [m]; a beam without a return is NaN, infinite or out of range
+  double first_angle = 0;  ///< [rad] of the first beam in the sensor's frame
+  double angle_step = 0;  ///< [rad] from beam to beam; negative: clockwise
+  double min_range = 0;  ///< [m]
+  double max_range = std::numeric_limits<double>::infinity();  ///< [m]
+  double range_sigma = kDefaultRangeSigma;  ///< [m]
+  mrpt::poses::CPose3D robot_from_sensor;
+};
+
+/// Returns such a scan in the core's form. Throws std::invalid_argument naming what is wrong. There
+/// are fewer than two beams. Angles, limits or noise are not usable numbers. The sensor is more
+/// than 100 m from the robot, or tilted by more than 10 degrees.
+LaserScan toLaserScan(const RangeReadings& readings);
 
 /// Returns all usable 2D scans of a sensory frame.
 std::vector<LaserScan> laserScansOf(const mrpt::obs::CSensoryFrame& frame);

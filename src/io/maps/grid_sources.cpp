@@ -11,7 +11,7 @@
 #include "io/archive/checked_archive.h"
 #include "io/archive/gzip_input.h"
 #include "io/maps/map_source_readers.h"
-#include "map/map_values.h"
+#include "io/maps/occupancy_grid.h"
 #include "sigloc/io/map_files.h"
 
 namespace sigloc
@@ -26,11 +26,6 @@ namespace
 constexpr float kFreeFrom = 0.6F;
 constexpr float kWallBelow = 0.45F;
 constexpr float kSolidWallBelow = 0.3F;
-
-[[noreturn]] void fail(const std::filesystem::path& path, const std::string& reason)
-{
-  throw std::runtime_error(path.string() + ": " + reason);
-}
 
 CellState stateOf(float free_probability)
 {
@@ -77,16 +72,10 @@ CellState stateOfOccupancy(double occupied)
 
 void requireWallAndFree(const OccupancyRaster& raster, const std::filesystem::path& path)
 {
-  if (const auto reason = unusableCells(raster.frame.resolution)) fail(path, *reason);
-  bool has_wall = false;
-  bool has_free = false;
-  for (const CellState cell : raster.cells)
+  if (const auto reason = unusableGrid(raster))
   {
-    has_wall = has_wall || isWall(cell);
-    has_free = has_free || cell == CellState::free;
+    throw std::runtime_error(path.string() + ": " + *reason);
   }
-  if (!has_wall) fail(path, "the grid has no wall");
-  if (!has_free) fail(path, "the grid has no free cell");
 }
 
 OccupancyRaster readGridmap(const std::filesystem::path& path)

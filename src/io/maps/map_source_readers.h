@@ -15,8 +15,6 @@ namespace sigloc::detail
 std::vector<PosedScans> readSimplemap(const std::filesystem::path& path);
 OccupancyRaster readGridmap(const std::filesystem::path& path);
 
-/// Returns the state of a cell that is occupied with this probability.
-CellState stateOfOccupancy(double occupied);
 /// Throws for a raster without a wall or a free cell, or with cells of an unusable size.
 void requireWallAndFree(const OccupancyRaster& raster, const std::filesystem::path& path);
 

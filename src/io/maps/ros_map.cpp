@@ -1,15 +1,14 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <mrpt/math/wrap2pi.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "io/maps/gray_image.h"
 #include "io/maps/map_source_readers.h"
+#include "io/maps/occupancy_grid.h"
 #include "io/maps/ros_map_yaml.h"
-#include "map/map_values.h"
 
 namespace sigloc::detail
 {
@@ -54,47 +53,6 @@ CellState stateOfPixel(int shade, int alpha, bool has_alpha, const RosMapHeader&
   const auto percent = occupancyOf(averaged ? (3.0 * shade + alpha) / 4 : shade, alpha, header);
   return percent ? stateOfOccupancy(*percent / kHundred) : CellState::unknown;
 }
-
-/// Returns a raster whose lower left corner is at the origin and whose rows are turned by `yaw`, as
-/// one along the axes. A cell has the state of the turned cell in which its middle is.
-OccupancyRaster turned(const OccupancyRaster& image, double yaw)
-{
-  const RasterFrame& from = image.frame;
-  const mrpt::math::TPose2D map_from_image(from.origin.x, from.origin.y, yaw);
-  const double width = from.width * from.resolution;
-  const double height = from.height * from.resolution;
-  mrpt::math::TPoint2D low = from.origin;
-  mrpt::math::TPoint2D high = from.origin;
-  for (const mrpt::math::TPoint2D corner :
-       {mrpt::math::TPoint2D(width, 0), {0, height}, {width, height}})
-  {
-    const mrpt::math::TPoint2D at = map_from_image.composePoint(corner);
-    low = {std::min(low.x, at.x), std::min(low.y, at.y)};
-    high = {std::max(high.x, at.x), std::max(high.y, at.y)};
-  }
-  OccupancyRaster raster;
-  raster.frame.origin = low;
-  raster.frame.resolution = from.resolution;
-  raster.frame.width = static_cast<std::uint32_t>(std::ceil((high.x - low.x) / from.resolution));
-  raster.frame.height = static_cast<std::uint32_t>(std::ceil((high.y - low.y) / from.resolution));
-  raster.cells.reserve(std::size_t{raster.frame.width} * raster.frame.height);
-  for (std::uint32_t y = 0; y < raster.frame.height; ++y)
-  {
-    for (std::uint32_t x = 0; x < raster.frame.width; ++x)
-    {
-      const mrpt::math::TPoint2D middle(low.x + (x + 0.5) * from.resolution,
-                                        low.y + (y + 0.5) * from.resolution);
-      const mrpt::math::TPoint2D at = map_from_image.inverseComposePoint(middle);
-      const double column = std::floor(at.x / from.resolution);
-      const double row = std::floor(at.y / from.resolution);
-      const bool inside = column >= 0 && row >= 0 && column < from.width && row < from.height;
-      raster.cells.push_back(inside ? image.cells[static_cast<std::size_t>(row) * from.width +
-                                                  static_cast<std::size_t>(column)]
-                                    : CellState::unknown);
-    }
-  }
-  return raster;
-}
 }  // namespace
 
 std::filesystem::path imageOfRosMap(const std::filesystem::path& path)
@@ -115,7 +73,6 @@ std::string warningOfRosMap(const std::filesystem::path& path)
 
 OccupancyRaster readRosMap(const std::filesystem::path& path)
 {
-  constexpr double kSameTurn = 1e-6;  // [rad]
   const RosMapHeader header = readRosMapHeader(path);
   const GrayImage image = readGrayImage(header.image);
   OccupancyRaster raster;
@@ -129,8 +86,7 @@ OccupancyRaster readRosMap(const std::filesystem::path& path)
       raster.cells.push_back(stateOfPixel(image.shades[i], alpha, !image.alphas.empty(), header));
     }
   }
-  const double yaw = mrpt::math::wrapToPi(header.origin.phi);
-  if (std::abs(yaw) > kSameTurn) raster = turned(raster, yaw);
+  raster = turned(std::move(raster), header.origin.phi);
   requireWallAndFree(raster, path);
   return raster;
 }
