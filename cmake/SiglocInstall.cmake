@@ -2,6 +2,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 include(CMakePackageConfigHelpers)
 
+# Where Debian's Python looks for modules: below /usr in a folder for every version, elsewhere, as
+# below /usr/local, in one of its own version.
+if(CMAKE_INSTALL_PREFIX STREQUAL "/usr")
+  set(python_folder python3)
+else()
+  set(python_folder "python${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}")
+endif()
+set(SIGLOC_PYTHON_DIR "lib/${python_folder}/dist-packages" CACHE STRING
+    "Folder of the prefix for the module for Python")
+
 # sigloc_install(): install rules for every library and app added so far, the headers, share/sigloc
 # and the package that find_package(sigloc) reads.
 function(sigloc_install)

@@ -14,6 +14,7 @@ endif()
 
 option(SIGLOC_BUILD_TESTS "Build the tests" ON)
 option(SIGLOC_CORE_ONLY "Build the core library and its tests only: no plug-in, no apps" OFF)
+option(SIGLOC_PYTHON "Build the module for Python" ON)
 option(SIGLOC_WERROR "Treat warnings as errors" ON)
 set(SIGLOC_SANITIZE "" CACHE STRING "Sanitizers, as -fsanitize takes them (address,undefined)")
 option(SIGLOC_COVERAGE "Instrument for coverage" OFF)

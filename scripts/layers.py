@@ -36,6 +36,7 @@ EVAL = BRIDGE + [
 ROOMS = {room: line[: line.index(room) + 1] for line in (EVAL, BRIDGE, CORE) for room in line}
 ROOMS["render"] = BRIDGE + ["render"]
 ROOMS["hwdrivers"] = BRIDGE + ["hwdrivers"]
+ROOMS["bindings"] = BRIDGE + ["bindings"]  # of python/
 
 # Headers of types alone that rooms below their own may include, and which rooms.
 VOCABULARY = {
@@ -84,11 +85,11 @@ PRINTS = re.compile(r"\bstd::(cout|cerr|clog)\b|(?<![a-zA-Z_])(f?printf|puts)\("
 EQUATION = re.compile(r"\((\d+\.\d+)\)")
 CITES_EQUATION = re.compile(r"\b[Ee]q\.")
 OWN_PATH = re.compile(
-    r"(?<![\w/.<-])(?:src|include|apps|docs|examples|scripts|tests|cmake)/[\w/.-]*\w(?![\w*<{$]|/[*<{$])"
+    r"(?<![\w/.<-])(?:src|include|apps|docs|examples|python|scripts|tests|cmake)/[\w/.-]*\w(?![\w*<{$]|/[*<{$])"
 )
 LINK = re.compile(r"\]\(([\w./-]+)[)#]")
 SPDX = ["SPDX-FileCopyrightText: 2026 the sigloc authors", "SPDX-License-Identifier: BSD-3-Clause"]
-SPDX_SUFFIXES = {".h", ".cpp", ".py", ".sh", ".cmake", ".cmake.in", ".gp", ".ini"}
+SPDX_SUFFIXES = {".h", ".cpp", ".py", ".pyi", ".sh", ".cmake", ".cmake.in", ".gp", ".ini"}
 
 
 def room_of_public(header):
@@ -108,6 +109,8 @@ def place(path):
     if parts[0] == "include" and len(parts) == 4:
         return "room", room_of_public("/".join(parts[1:]))
     if parts[0] == "src" and len(parts) > 2:
+        return "room", "/".join(parts[1:-1])
+    if parts[0] == "python" and len(parts) > 2:
         return "room", "/".join(parts[1:-1])
     if parts[0] == "examples":
         return "examples", path.stem

@@ -67,6 +67,18 @@ void writeRosMap(const TemporaryFolder& folder)
   writeText(folder / "my_map.yaml", yaml.str());
 }
 
+/// Writes the page's code blocks of one kind, which begin with their names: "# my.ini".
+void writeFilesOfPage(const TemporaryFolder& folder, const std::string& kind,
+                      const std::string& extension)
+{
+  for (const std::string& block : blocksOf(kind))
+  {
+    const std::string name = block.substr(2, block.find('\n') - 2);
+    ASSERT_EQ(fs::path(name).extension(), extension) << "a file begins with its name: " << block;
+    writeText(folder / name, block);
+  }
+}
+
 TEST(Readme, itsCommandsDoWhatItSays)
 {
   const TemporaryFolder folder;
@@ -75,16 +87,13 @@ TEST(Readme, itsCommandsDoWhatItSays)
   fs::copy_file(kSources / "rawlogs/office.rawlog", folder / "my_drive.rawlog");
   fs::create_directory(folder / "build");
   fs::create_directory_symlink(fs::path(SIGLOC_BIN_FOLDER).parent_path(), folder / "build/release");
-  for (const std::string& ini : blocksOf("ini"))
-  {
-    const std::string name = ini.substr(2, ini.find('\n') - 2);  // "# my.ini"
-    ASSERT_EQ(fs::path(name).extension(), ".ini") << "an ini begins with its name: " << ini;
-    writeText(folder / name, ini);
-  }
-  std::string commands = "set -e\n";
+  writeFilesOfPage(folder, "ini", ".ini");
+  writeFilesOfPage(folder, "python", ".py");
+  // The module is for the system's Python, and another may come first in the path of this machine.
+  std::string commands = "set -e\nexport PATH=/usr/bin:$PATH\n";
   for (const std::string& block : blocksOf("sh")) commands += block;
-  for (const char* const command :
-       {"sigloc-map build", "sigloc-map draw", "--map", "my.ini", "rawlog-edit", "LD_PRELOAD"})
+  for (const char* const command : {"sigloc-map build", "sigloc-map draw", "--map", "my.ini",
+                                    "rawlog-edit", "LD_PRELOAD", "python3"})
   {
     EXPECT_NE(commands.find(command), std::string::npos) << "README.md shows no " << command;
   }
@@ -100,6 +109,7 @@ TEST(Readme, itsCommandsDoWhatItSays)
     EXPECT_TRUE(fs::exists(folder / "answer" / name)) << name;
   }
   EXPECT_NE(result.output.find("Overall number of objects"), std::string::npos) << "rawlog-edit";
+  EXPECT_NE(result.output.find("\nlocalized [ 4."), std::string::npos) << result.output;
 }
 
 // What installs and builds is run by CI itself; here only that it is there.
