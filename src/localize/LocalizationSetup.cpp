@@ -99,14 +99,26 @@ std::uint32_t readCount(const CConfigFileMemory& ini, const char* key, std::uint
   return static_cast<std::uint32_t>(value);
 }
 
+/// A side [m] of the box in which the robot is. Farther out there is no map.
+double readSide(const CConfigFileMemory& ini, const char* key)
+{
+  constexpr double kFarthest = 1e6;
+  const double side = readNumber(ini, key, 0);
+  if (std::abs(side) > kFarthest)
+  {
+    failInExperiment(fmt::format("'{}' is farther out than {:g} m", key, kFarthest));
+  }
+  return side;
+}
+
 /// The box in which pf-localization draws its particles, in either init_PDF_mode. A box narrower
 /// than the distance at which poses count as different is widened to that.
 std::optional<PoseRegion> readPrior(const CConfigFileMemory& ini)
 {
   constexpr double kLeastHalfWidth = 0.5;  // [m]
   constexpr double kLeastHalfTurn = 10 * M_PI / 180;
-  PoseRegion region{readNumber(ini, "init_PDF_min_x", 0), readNumber(ini, "init_PDF_max_x", 0),
-                    readNumber(ini, "init_PDF_min_y", 0), readNumber(ini, "init_PDF_max_y", 0)};
+  PoseRegion region{readSide(ini, "init_PDF_min_x"), readSide(ini, "init_PDF_max_x"),
+                    readSide(ini, "init_PDF_min_y"), readSide(ini, "init_PDF_max_y")};
   if (region.x_min > region.x_max || region.y_min > region.y_max)
   {
     failInExperiment("the box init_PDF_* ends before it begins");

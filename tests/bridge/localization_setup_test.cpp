@@ -117,6 +117,62 @@ TEST(LocalizationSetup, namesTheIniAndTheReason)
   EXPECT_NE(reason("[sigloc.matcher]\nmode=9\n").find("mode"), std::string::npos);
 }
 
+/// Lines of an ini that nobody writes in good faith, or by a slip, and what the refusal says of
+/// them.
+struct HostileIni
+{
+  std::string lines;
+  std::string reason;
+};
+
+std::vector<HostileIni> hostileInis()
+{
+  const std::string far(400, '9');
+  return {
+      {"rawlog_offset = 0x10\n", "rawlog_offset"},
+      {"rawlog_offset = 4294967296\n", "rawlog_offset"},
+      {"rawlog_offset = " + far + "\n", "rawlog_offset"},
+      {"experimentRepetitions = -1\n", "experimentRepetitions"},
+      {"experimentRepetitions = 1000001\n", "experimentRepetitions"},
+      {"STATS_CONF_INTERVAL = nan\n", "STATS_CONF_INTERVAL"},
+      {"STATS_CONF_INTERVAL = 0,2\n", "STATS_CONF_INTERVAL"},
+      {"initial_odo_x = inf\n", "initial_odo_x"},
+      {"initial_odo_phi = 1e400\n", "initial_odo_phi"},
+      {"init_PDF_min_x = nan\ninit_PDF_max_x = 2\n", "init_PDF_min_x"},
+      {"init_PDF_min_x = -1e300\ninit_PDF_max_x = 1e300\n", "init_PDF_min_x"},
+      {"tracker = particles\nparticles_count = -5\n", "particles_count"},
+      {"tracker = particles\nparticles_count = 1e9\n", "particles_count"},
+      {"tracker = particles\nparticles_count = 100 nan\n", "particles_count"},
+      {"SAVE_STATS_ONLY = perhaps\n", "SAVE_STATS_ONLY"},
+      {"[sigloc.matcher]\nmode = 5.5\n", "mode"},
+      {"[sigloc.matcher]\nmax_candidates = 0\n", "max_candidates"},
+      {"[sigloc.matcher]\nmax_candidates = 4294967297\n", "max_candidates"},
+      {"[sigloc.matcher]\nseed = -1\n", "seed"},
+      {"[sigloc.features]\nmin_range = nan\n", "min_range"},
+      {"[sigloc.features]\nbreak_factor = inf\n", "break_factor"},
+      {"[sigloc.map]\nraster_resolution = 0\n", "raster_resolution"},
+      {"[sigloc.map]\nraster_resolution = 1e-300\n", "raster_resolution"},
+      {"[sigloc.particles]\nparticles = 4000000000\n", "particles"},
+      {"[sigloc.localize]\nmap_from_truth_x = 1e300\n", "map_from_truth_x"},
+      {"[sigloc.localize]\npictures = 7\n", "pictures"},
+      {"[sigloc.matcher]\nmod = 5\n", "mod"},
+      {"[sigloc.match]\nmode = 5\n", "sigloc.match"},
+  };
+}
+
+TEST(LocalizationSetup, refusesWhatNobodyWritesInGoodFaith)
+{
+  for (const HostileIni& ini : hostileInis())
+  {
+    const TemporaryFolder folder;
+    const std::string reason = messageOf<std::runtime_error>([&] { read(folder, ini.lines); });
+    EXPECT_EQ(reason.rfind((folder / "run.ini").string() + ": ", 0), 0U)
+        << ini.lines << "is answered by '" << reason << "'";
+    EXPECT_NE(reason.find(ini.reason), std::string::npos) << ini.lines << reason;
+    EXPECT_EQ(reason.find('\n'), std::string::npos) << reason;
+  }
+}
+
 TEST(LocalizationSetup, warnsOfKeysThatNothingReads)
 {
   const TemporaryFolder folder;

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 #include <limits>
 #include <random>
 #include <stdexcept>
@@ -170,8 +169,6 @@ TEST(MapBuilder, ALookCostsWhatItSees)
   // Every scan moves the walls that it sees a little. It never costs much more than when they were
   // new.
   EXPECT_LT(work.back(), 1.25 * static_cast<double>(work.front()));
-  std::cout << "cells of the first round " << work.front() << ", of the last " << work.back()
-            << ", of a round of the whole map " << 21 * map_cells << "\n";
 }
 
 TEST(MapBuilder, TakesNothingInFromALookThatItRefuses)
