@@ -18,6 +18,25 @@ def wilson(count, cases):
     return max(0.0, middle - half), min(1.0, middle + half)
 
 
+def upper_bound(count, cases, confidence=0.95):
+    """The exact one-sided bound of a share (Clopper and Pearson): fewer cases would be as rare."""
+    if count >= cases:
+        return 1.0
+
+    def seldom(probability):
+        """Whether at most `count` of the cases are that improbable."""
+        logs = (math.lgamma(cases + 1) - math.lgamma(k + 1) - math.lgamma(cases - k + 1)
+                + k * math.log(probability) + (cases - k) * math.log1p(-probability)
+                for k in range(count + 1))  # fmt: skip
+        return sum(map(math.exp, logs)) < 1 - confidence
+
+    low, high = 0.0, 1.0
+    for _ in range(60):
+        middle = (low + high) / 2
+        low, high = (low, middle) if seldom(middle) else (middle, high)
+    return high
+
+
 def share(count, cases):
     """A share with its interval, for shares that are usually near 1."""
     if not cases:

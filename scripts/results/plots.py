@@ -3,7 +3,7 @@
 """Draws the page's plots with gnuplot; each returns the bytes of a PNG."""
 import subprocess
 
-from results import drives, growth, simulated
+from results import drives, growth, integrity, simulated
 from results.numbers import wilson
 from results.runs import BadInput
 
@@ -111,10 +111,40 @@ def growing_maps(bench):
                 'set ylabel "median ms"\nplot ' + ", ".join(parts) + "\n")  # fmt: skip
 
 
+def misleading(bench):
+    """Risk over coverage of single answers, and the share that is right over the weight published."""
+    answers = sorted(integrity.first_answers(bench), reverse=True)
+    data = "set multiplot layout 1,2\n"
+    if answers:
+        wrong, rows = 0, []
+        for k, (_, is_right) in enumerate(answers):
+            wrong += not is_right
+            rows.append((100 * (k + 1) / len(answers), 100 * wrong / (k + 1)))
+        data += block("risk", rows) + 'set xlabel "coverage [%]"\nset ylabel "not right [%]"\n'
+        data += "set xrange [0:100]\nset yrange [0:]\nplot $risk with lines linewidth 2 notitle\n"
+    at_home, imitated, _ = integrity.at_home_and_away(bench)
+    parts = []
+    for name, steps in (("recorded", at_home), ("simulated", imitated)):
+        rows = []
+        for low, high in integrity.weight_bins():
+            right = integrity.in_bin(steps, low, high)
+            if right:
+                rows.append(((low + high) / 2, sum(right) / len(right)))
+        if rows:
+            data += block(name, rows)
+            parts.append(f'${name} with linespoints linewidth 2 pointtype 7 title "{name}"')
+    if not answers or not parts:
+        return None
+    data += 'set xlabel "weight of the first pose"\nset ylabel "share right"\nset key bottom\n'
+    data += "set xrange [0:1]\nset yrange [0:1]\nplot x with lines dashtype 2 notitle, "
+    return draw(data + ", ".join(parts) + "\nunset multiplot\n")
+
+
 def all_plots(bench):
     """The plots of what was run, by file name."""
     drawn = {
         "wake-ups.png": wake_ups(bench),
+        "integrity.png": misleading(bench),
         "simulated.png": simulated_drives(bench),
         "sweeps.png": sweeps(bench),
         "growth.png": growing_maps(bench),

@@ -14,7 +14,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "scripts"))
 
-from results import numbers, simulated  # noqa: E402
+from results import integrity, numbers, runs, simulated  # noqa: E402
 
 COMMAND = "scripts/bench --data DIR"
 KINDS = ("office", "corridor", "hall")
@@ -64,20 +64,41 @@ class Bench:
         if rows is not None:
             head = "method,start,group,right_at_end,settled_after_m,wrong_steps"
             (self.folder / name / "runs.csv").write_text("\n".join([head] + rows) + "\n")
+            self.add_steps(name, [row.split(",") for row in rows])
         with open(self.folder / "runs.csv", "a") as file:
             file.write(f"{name},60\n")
+
+    def add_steps(self, name, rows):
+        """Two steps of each drive: one 10 m off with a weight of 0.6, one right with 0.995."""
+        lines = ["method,start,step,travelled_m,seconds,error_m,error_deg,weight,mapped"]
+        for method, start, *_ in rows:
+            lines += [f"{method},{start},0,0,0,10,0,0.6,1", f"{method},{start},1,20,72,0.1,1,0.995,1"]
+        (self.folder / name / "results.csv").write_text("\n".join(lines) + "\n")
+
+    def add_scans(self, name):
+        """The rows of four queries, whose best answers have these probabilities."""
+        answers = ["method,query,rank_of_right"]
+        candidates = ["method,query,rank,probability"]
+        for query, (rank, probability) in enumerate(((1, 0.999), (1, 0.96), (2, 0.8), (0, 0.3))):
+            answers.append(f"signature,{query},{rank}")
+            candidates += [f"signature,{query},1,{probability}", f"signature,{query},2,0.01"]
+        (self.folder / name / "results.csv").write_text("\n".join(answers) + "\n")
+        (self.folder / name / "candidates.csv").write_text("\n".join(candidates) + "\n")
 
     def fill(self):
         for name in ("campus", "intel", "fhw-reversed", "infinite-corridor-reversed"):
             self.add(f"scan-{name}", {"signature": scan(87, 99, 0.5, 48), "exhaustive": scan(77, 99, 500),
                                       "lattice": scan(80, 99, 5)})  # fmt: skip
+            self.add_scans(f"scan-{name}")
         self.add("scans-freiburg-101-in-intel", {"signature": scan(0, 300, 0.5)})
         self.add("scans-fhw-in-acapulco", {"signature": scan(0, 100, 0.5, 0, 1)})
         rows = ["signature,0,,1,1.5,0", "signature,1,,1,4,0"]
         self.add("track-campus", {"signature": drive(19, 20)}, rows)
         self.add("track-dlr", {"signature": drive(3, 20, 2)}, [])
-        self.add("sim-mapped", {"signature": simulated_drives(98, 100)})
-        self.add("sim-moved", {"signature": simulated_drives(90, 100, KINDS[:2])})
+        rows = [f"signature,{i},{KINDS[i % 3]},1,2,{int(i == 3)}" for i in range(30)]
+        self.add("sim-mapped", {"signature": simulated_drives(98, 100)}, rows)
+        rows = [f"signature,{i},{KINDS[i % 2]},1,2,0" for i in range(20)]
+        self.add("sim-moved", {"signature": simulated_drives(90, 100, KINDS[:2])}, rows)
         # 6 worlds of 2 drives; worlds 3 to 5 get the map of another kind.
         rows = [f"signature,{i},{KINDS[i // 2 % 3]},0,,{int(i in (0, 6))}" for i in range(12)]
         self.add("sim-foreign-mixed", {"signature": drive(0, 12, 2)}, rows)
@@ -134,10 +155,30 @@ class ResultsTest(unittest.TestCase):
 
     def test_page_keeps_to_its_style(self):
         lines = self.page().splitlines()
-        self.assertLessEqual(len(lines), 200)
+        self.assertLessEqual(len(lines), 240)
         text = " ".join(line for line in lines if line and line[0] not in "|#!")
         for sentence in re.split(r"[.?] |\* \*\*", text):
             self.assertLessEqual(len(sentence.split()), 30, sentence)
+
+    def test_misleading_information_is_bounded_by_kind_of_world(self):
+        page = self.page()
+        self.assertIn("| recorded drives, own map | 2 | 0 | 0.00 | 77.64 | 0.04 | 0.04 |", page)
+        self.assertIn("| simulated office, whole map | 20 | 1 | 5.00 | 21.61 | 0.40 | 0.40 |", page)
+        self.assertIn("| simulated hall, whole map | 10 | 0 | 0.00 | 25.89 |", page)
+        self.assertIn("| simulated hall, another one's map | 4 | 2 | 50.00 |", page)
+        self.assertTrue((self.docs / "images" / "integrity.png").read_bytes().startswith(b"\x89PNG"))
+
+    def test_risk_falls_with_coverage(self):
+        page = self.page()
+        self.assertIn("| 0.00 | 1.000 (0.81-1.00) | 8 of 16 | 50.00 |", page)
+        self.assertIn("| 0.70 | 0.750 (0.51-0.90) | 4 of 12 | 33.33 |", page)
+        self.assertIn("| 0.99 | 0.250 (0.10-0.49) | 0 of 4 | 0.00 | 52.71 |", page)
+
+    def test_published_weights_are_compared_with_what_was_right(self):
+        page = self.page()
+        self.assertIn("| 0.50-0.70 | 2 | 0.000 | 50 | 0.000 |", page)
+        self.assertIn("| 0.99-1.00 | 2 | 1.000 | 50 | 1.000 |", page)
+        self.assertIn("| 0.70-0.90 | 0 | - | 0 | - | 0 |", page)
 
     def test_foreign_maps_of_the_same_kind_are_counted_apart(self):
         page = self.page()
@@ -215,6 +256,23 @@ class NumbersTest(unittest.TestCase):
         self.assertAlmostEqual(half, 12.706 * 0.0794, places=3)
         self.assertEqual(numbers.exponent([(1, 1), (2, 4)]), "2.00")
         self.assertEqual(numbers.exponent([(1, 1)]), "-")
+
+    def test_exact_upper_bounds(self):
+        self.assertAlmostEqual(numbers.upper_bound(0, 59), 1 - 0.05 ** (1 / 59), places=9)
+        most = numbers.upper_bound(1, 20)
+        self.assertAlmostEqual((1 - most) ** 20 + 20 * most * (1 - most) ** 19, 0.05, places=9)
+        self.assertAlmostEqual(numbers.upper_bound(5, 1000), 0.010481, places=5)
+        self.assertEqual(numbers.upper_bound(3, 3), 1.0)
+
+    def test_steps_without_truth_are_never_right(self):
+        with tempfile.TemporaryDirectory() as folder:
+            bench = Bench(pathlib.Path(folder))
+            bench.add("drives-a-in-b", {"signature": drive(0, 1)}, [])
+            (bench.folder / "drives-a-in-b" / "results.csv").write_text(
+                "method,start,weight,error_m,error_deg,mapped\n"
+                "signature,0,0.7,,,0\nmcl,0,0.9,,,0\n")
+            away = integrity.weighed_steps(runs.Bench(folder), ["drives-a-in-b"])
+            self.assertEqual(away, [(0.7, None)])
 
     def test_wilson(self):
         low, high = numbers.wilson(0, 100)
