@@ -18,6 +18,7 @@ option(SIGLOC_PYTHON "Build the module for Python" ON)
 option(SIGLOC_WERROR "Treat warnings as errors" ON)
 set(SIGLOC_SANITIZE "" CACHE STRING "Sanitizers, as -fsanitize takes them (address,undefined)")
 option(SIGLOC_COVERAGE "Instrument for coverage" OFF)
+option(SIGLOC_FUZZ "Build the fuzz targets with libFuzzer, which takes clang" OFF)
 
 add_library(sigloc_flags INTERFACE)
 # No code reads errno after a call of <cmath>.
@@ -30,6 +31,9 @@ if(SIGLOC_SANITIZE)
   target_compile_options(sigloc_flags INTERFACE -fsanitize=${SIGLOC_SANITIZE}
                          -fno-omit-frame-pointer -fno-sanitize-recover=all)
   target_link_options(sigloc_flags INTERFACE -fsanitize=${SIGLOC_SANITIZE})
+endif()
+if(SIGLOC_FUZZ)
+  target_compile_options(sigloc_flags INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 if(SIGLOC_COVERAGE)
   target_compile_options(sigloc_flags INTERFACE --coverage)

@@ -63,7 +63,7 @@ MRPT_MODULES = {room: MRPT_CORE if room in CORE else MRPT_BRIDGE for room in ROO
 MRPT_MODULES["hwdrivers"] = MRPT_BRIDGE | {"hwdrivers"}
 
 # Tests of the core stay as light as the core.
-CORE_TESTS = {"unit"}
+CORE_TESTS = {"unit", "threads"}
 
 # Headers that only some folders may include: pattern, folders, reason.
 RESTRICTED = [

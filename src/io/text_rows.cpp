@@ -16,7 +16,7 @@ namespace
 {
 constexpr std::string_view kSeparators = " \t,;\r";
 constexpr std::string_view kUtf8Mark = "\xEF\xBB\xBF";
-constexpr std::size_t kChunkBytes = 1U << 20U;
+constexpr std::size_t kChunkBytes = 1U << 16U;
 }  // namespace
 
 std::vector<std::string> readLines(const std::filesystem::path& path)

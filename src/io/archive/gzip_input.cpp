@@ -20,6 +20,7 @@ namespace sigloc::detail
 namespace
 {
 constexpr unsigned kBufferBytes = 256U * 1024U;
+constexpr unsigned kLeastBuffer = 4096;
 
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& reason)
 {
@@ -134,7 +135,9 @@ GzipInput::GzipInput(const std::filesystem::path& path) : path_(path)
   unpacked_size_ = unpackedSize(path, file_size_);
   file_ = gzopen(path.c_str(), "rb");
   if (file_ == nullptr) fail(path, "cannot be opened");
-  gzbuffer(file_, kBufferBytes);
+  // zlib takes three times this. Small files are many, and read sooner so.
+  gzbuffer(file_, static_cast<unsigned>(
+                      std::clamp<std::uint64_t>(file_size_, kLeastBuffer, kBufferBytes)));
 }
 
 GzipInput::~GzipInput()
