@@ -30,7 +30,7 @@ HAS_MAIN = re.compile(r"^int main\(", re.MULTILINE)
 
 # What ships. Tests are held by warnings as errors and the sanitizers; linting them too would take
 # longer than building them.
-LINTED = ["src/*.cpp", "apps/*.cpp", "examples/*.cpp", "python/*.cpp"]
+LINTED = ["src/*.cpp", "apps/*.cpp", "examples/*.cpp", "python/*.cpp", "ros/*.cpp"]
 
 
 def own_commands(build, files):
