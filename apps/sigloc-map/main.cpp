@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// sigloc-map: builds, describes and draws the maps that sigloc localizes in.
+// sigloc-map: builds, describes, draws and checks the maps that sigloc localizes in.
 #include <fmt/core.h>
 #include <array>
 #include <CLI/CLI.hpp>
@@ -9,6 +9,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "check_command.h"
 #include "picture_file.h"
 #include "pictures.h"
 #include "progress_line.h"
@@ -163,7 +164,8 @@ void draw(const std::filesystem::path& path, const std::filesystem::path& output
 
 int main(int argc, char** argv)
 {
-  CLI::App app("Builds, describes and draws maps for localization by signatures.", "sigloc-map");
+  CLI::App app("Builds, describes, draws and checks maps for localization by signatures.",
+               "sigloc-map");
   app.require_subcommand(1);
   std::filesystem::path input;
   std::filesystem::path output;
@@ -184,11 +186,17 @@ int main(int argc, char** argv)
   draw_command->add_option("file", input, "map to read")->required();
   draw_command->add_option("-o,--output", output, "PNG to write")->required();
 
+  sigloc::CheckArguments check;
+  CLI::App* check_command =
+      app.add_subcommand("check", "Tells where in a map a robot is found, from simulated scans");
+  check.declare(*check_command);
+
   const auto work = [&]
   {
     if (build_command->parsed()) build(input, output, config);
     if (info_command->parsed()) info(input, as_json);
     if (draw_command->parsed()) draw(input, output);
+    if (check_command->parsed()) sigloc::runCheck(check, kProgram);
     return 0;
   };
   return sigloc::runApp(app, argc, argv, work);

@@ -19,7 +19,7 @@
 #include "sigloc/map/DenseField.h"
 #include "sigloc/map/FeatureMap.h"
 #include "sigloc/map/map_building.h"
-#include "sigloc/map/point_likelihood.h"
+#include "sigloc/map/sensor_model.h"
 #include "sigloc/matching/RelocationResult.h"
 #include "sigloc/matching/SignatureMatcher.h"
 #include "sigloc/plugin/map_drawing.h"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/map/point_likelihood.h"
+#include "sigloc/map/sensor_model.h"
 
 #include "map/NearestFeature.h"
 

@@ -92,8 +92,8 @@ TEST(Readme, itsCommandsDoWhatItSays)
   // The module is for the system's Python, and another may come first in the path of this machine.
   std::string commands = "set -e\nexport PATH=/usr/bin:$PATH\n";
   for (const std::string& block : blocksOf("sh")) commands += block;
-  for (const char* const command : {"sigloc-map build", "sigloc-map draw", "--map", "my.ini",
-                                    "rawlog-edit", "LD_PRELOAD", "python3"})
+  for (const char* const command : {"sigloc-map build", "sigloc-map draw", "sigloc-map check",
+                                    "--map", "my.ini", "rawlog-edit", "LD_PRELOAD", "python3"})
   {
     EXPECT_NE(commands.find(command), std::string::npos) << "README.md shows no " << command;
   }
@@ -101,6 +101,7 @@ TEST(Readme, itsCommandsDoWhatItSays)
   const CommandResult result = runShell(folder, "sh commands.sh");
   ASSERT_EQ(result.exit_code, 0) << result.errors;
   EXPECT_EQ(readBytes(folder / "my_map.png").substr(1, 3), "PNG");
+  EXPECT_EQ(readBytes(folder / "check/check.png").substr(1, 3), "PNG");
   const auto summary = nlohmann::json::parse(readBytes(folder / "answer/summary.json"));
   EXPECT_EQ(summary["final_verdict"], "localized");
   for (const char* const name :

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/map/point_likelihood.h"
 #include "map/NearestFeature.h"
+#include "sigloc/map/sensor_model.h"
 
 #include <gtest/gtest.h>
 

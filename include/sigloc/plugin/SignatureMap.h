@@ -11,7 +11,7 @@
 
 #include "sigloc/map/FeatureMap.h"
 #include "sigloc/map/map_building.h"
-#include "sigloc/map/point_likelihood.h"
+#include "sigloc/map/sensor_model.h"
 
 namespace sigloc
 {
