@@ -10,6 +10,7 @@ namespace sigloc::python
 
 void bindMaps(pybind11::module_& module);
 void bindObservations(pybind11::module_& module);
+void bindLogWriting(pybind11::module_& module);
 void bindResults(pybind11::module_& module);
 void bindLocalizers(pybind11::module_& module);
 }  // namespace sigloc::python

@@ -9,6 +9,7 @@ PYBIND11_MODULE(_sigloc, module)
   module.attr("__version__") = SIGLOC_VERSION;
   sigloc::python::bindMaps(module);
   sigloc::python::bindObservations(module);
+  sigloc::python::bindLogWriting(module);
   sigloc::python::bindResults(module);
   sigloc::python::bindLocalizers(module);
 }

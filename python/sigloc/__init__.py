@@ -25,6 +25,7 @@ from ._sigloc import (
     Tracker,
     Verdict,
     __version__,
+    write_log,
 )
 
 __all__ = [
@@ -40,4 +41,5 @@ __all__ = [
     "Tracker",
     "Verdict",
     "__version__",
+    "write_log",
 ]

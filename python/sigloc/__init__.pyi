@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Types; what arguments and values mean is in the docstrings, help(sigloc) shows them.
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any, Optional, Union
 
 import numpy
@@ -27,6 +27,7 @@ __all__ = [
     "Tracker",
     "Verdict",
     "__version__",
+    "write_log",
 ]
 
 __version__: str
@@ -105,6 +106,10 @@ class Log:
     def __next__(self) -> Step: ...
     @property
     def truncated(self) -> bool: ...
+
+def write_log(
+    path: _Path, entries: Iterable[tuple[float, Union[Scan, _Numbers], str]]
+) -> tuple[int, int]: ...
 
 class Verdict:
     LOCALIZED: Verdict

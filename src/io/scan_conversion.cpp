@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/scan_conversion.h"
 
+#include <mrpt/poses/CPose2D.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -13,6 +15,7 @@ namespace sigloc
 namespace
 {
 constexpr double kMaxTilt = 10.0 * M_PI / 180.0;  // [rad]
+constexpr double kSameAngle = 1e-6;  // [rad]
 constexpr double kMaxRangeSigma = 1.0;  // [m], a greater one counts as not given
 
 double rangeSigmaOf(const mrpt::obs::CObservation2DRangeScan& scan)
@@ -121,6 +124,33 @@ LaserScan toLaserScan(const RangeReadings& readings)
     out.angle_step = -out.angle_step;
     std::reverse(out.ranges.begin(), out.ranges.end());
     std::reverse(out.valid.begin(), out.valid.end());
+  }
+  return out;
+}
+
+mrpt::obs::CObservation2DRangeScan::Ptr toRangeScan(const LaserScan& scan, double time)
+{
+  auto out = mrpt::obs::CObservation2DRangeScan::Create();
+  out->timestamp = mrpt::Clock::fromDouble(time);
+  out->sensorLabel = "LASER";
+  const double view = scan.angle_step * static_cast<double>(scan.ranges.size() - 1);
+  out->aperture = static_cast<float>(view);
+  out->rightToLeft = true;
+  out->maxRange = static_cast<float>(scan.max_range);
+  out->stdError = static_cast<float>(scan.range_sigma);
+  // MRPT's scans are symmetric about the sensor's x axis.
+  mrpt::math::TPose2D mount = scan.robot_from_sensor;
+  const double middle = scan.first_angle + 0.5 * view;
+  if (std::abs(middle) > kSameAngle) mount.phi += middle;
+  out->sensorPose = mrpt::poses::CPose3D(mrpt::poses::CPose2D(mount));
+  out->resizeScan(scan.ranges.size());
+  for (std::size_t i = 0; i < scan.ranges.size(); ++i)
+  {
+    const bool valid = scan.valid[i] != 0;
+    // Scanners report the largest range where they get no return. Programs that use such beams as
+    // free space then do the right thing.
+    out->setScanRange(i, valid ? scan.ranges[i] : out->maxRange);
+    out->setScanRangeValidity(i, valid);
   }
   return out;
 }

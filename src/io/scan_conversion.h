@@ -42,6 +42,9 @@ struct RangeReadings
 /// than 100 m from the robot, or tilted by more than 10 degrees.
 LaserScan toLaserScan(const RangeReadings& readings);
 
+/// Returns a scan as MRPT stores it, at `time` [s since 1970], labelled "LASER".
+mrpt::obs::CObservation2DRangeScan::Ptr toRangeScan(const LaserScan& scan, double time);
+
 /// Returns all usable 2D scans of a sensory frame.
 std::vector<LaserScan> laserScansOf(const mrpt::obs::CSensoryFrame& frame);
 

@@ -140,28 +140,6 @@ void drawSurfaces(const PlacedWorld& placed, mrpt::maps::COccupancyGridMap2D& gr
 }
 }  // namespace
 
-mrpt::obs::CObservation2DRangeScan::Ptr toRangeScan(const LaserScan& scan, double time)
-{
-  auto out = mrpt::obs::CObservation2DRangeScan::Create();
-  out->timestamp = mrpt::Clock::fromDouble(time);
-  out->sensorLabel = "LASER";
-  out->aperture = static_cast<float>(scan.angle_step * static_cast<double>(scan.ranges.size() - 1));
-  out->rightToLeft = true;
-  out->maxRange = static_cast<float>(scan.max_range);
-  out->stdError = static_cast<float>(scan.range_sigma);
-  out->sensorPose = mrpt::poses::CPose3D(mrpt::poses::CPose2D(scan.robot_from_sensor));
-  out->resizeScan(scan.ranges.size());
-  for (std::size_t i = 0; i < scan.ranges.size(); ++i)
-  {
-    const bool valid = scan.valid[i] != 0;
-    // Scanners report the largest range where they get no return. Programs that use such beams as
-    // free space then do the right thing.
-    out->setScanRange(i, valid ? scan.ranges[i] : out->maxRange);
-    out->setScanRangeValidity(i, valid);
-  }
-  return out;
-}
-
 void writeSimpleMap(const std::vector<PosedScans>& scans, const fs::path& path)
 {
   constexpr double kPoseSigma = 0.001;  // [m], [rad]

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <mrpt/obs/CObservation2DRangeScan.h>
-
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -11,6 +9,7 @@
 
 #include "eval/worlds/FreeSpace.h"
 #include "eval/worlds/robot_simulation.h"
+#include "io/scan_conversion.h"
 
 namespace sigloc
 {
@@ -23,9 +22,6 @@ enum class RawlogKind : std::uint8_t
 
 // All writers below make ordinary files of MRPT's own classes. Equal arguments give equal bytes.
 // Each throws as writeFile() does and leaves no half-written file.
-
-/// Returns a scan as MRPT stores it, at `time` [s since 1970], labelled "LASER".
-mrpt::obs::CObservation2DRangeScan::Ptr toRangeScan(const LaserScan& scan, double time);
 
 /// Writes a `.simplemap`: one key frame an entry, with a pose known to a millimetre.
 void writeSimpleMap(const std::vector<PosedScans>& scans, const std::filesystem::path& path);
