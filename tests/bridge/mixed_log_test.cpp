@@ -5,7 +5,8 @@
 #include "support/mixed_log.h"
 
 #include <gtest/gtest.h>
-#include <mrpt/obs/CObservationComment.h>
+#include <mrpt/maps/CSimpleMap.h>
+#include <mrpt/poses/CPose3DPDFGaussian.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -121,6 +122,39 @@ TEST(MixedLog, GivesTheStepsOfItsScansAlone)
   {
     const auto same = [&](const RawlogStep& other) { return other.time == step.time; };
     EXPECT_TRUE(std::any_of(mixed.begin(), mixed.end(), same)) << step.time;
+  }
+}
+
+TEST(MixedLog, ASimplemapsObservationsAreKeptAsTheirBytes)
+{
+  const TemporaryFolder folder;
+  auto map = mrpt::maps::CSimpleMap::Create();
+  for (const double x : {0.0, 1.0, 2.0})
+  {
+    auto frame = mrpt::obs::CSensoryFrame::Create();
+    frame->insert(roomScan({x, 0, 0}));
+    for (const auto& observation : everyObservation()) frame->insert(observation);
+    map->insert(mrpt::poses::CPose3DPDFGaussian::Create(mrpt::poses::CPose3D(x, 0, 0, 0, 0, 0)),
+                frame);
+  }
+  writeObjects(folder / "map", {map});
+  mrpt::maps::CSimpleMap found;
+  detail::readObjectFile(folder / "map", found);
+  ASSERT_EQ(found.size(), 3U);
+  writeObjects(folder / "again", {std::make_shared<mrpt::maps::CSimpleMap>(found)});
+  EXPECT_EQ(plainBytes(folder / "map"), plainBytes(folder / "again"));
+
+  // The file cut off, and one key frame more than there is.
+  std::string bytes = plainBytes(folder / "map");
+  writeText(folder / "cut", bytes.substr(0, bytes.size() - 200));
+  const std::string name = "CSimpleMap";
+  bytes[bytes.find(name) + name.size() + 1] = 4;
+  writeText(folder / "count", bytes);
+  for (const std::string bad : {"cut", "count"})
+  {
+    const std::string reason =
+        messageOf<std::runtime_error>([&] { detail::readObjectFile(folder / bad, found); });
+    EXPECT_EQ(reason, (folder / bad).string() + ": truncated or damaged");
   }
 }
 

@@ -4,7 +4,6 @@
 
 #include <mrpt/serialization/CArchive.h>
 
-#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -19,9 +18,9 @@ namespace
   throw std::runtime_error(path.string() + ": " + reason);
 }
 
-/// Tells why MRPT must not read a file of one simplemap or grid map. None where it may. None too
-/// where the file holds a class whose layout is not known here.
-std::optional<std::string> flawOfMapFile(const std::filesystem::path& path)
+/// Judges a file of one simplemap or grid map. Throws ArchiveWalk::Unsound with the reason, if
+/// there is one.
+Soundness soundnessOfMapFile(const std::filesystem::path& path)
 {
   try
   {
@@ -29,15 +28,24 @@ std::optional<std::string> flawOfMapFile(const std::filesystem::path& path)
     ArchiveWalk(input, ArchiveWalk::Input::consumed)
         .object(only(ArchivePart::simplemap) | only(ArchivePart::grid_map));
   }
-  catch (const ArchiveWalk::Unsound& unsound)
-  {
-    return unsound.what();
-  }
   catch (const ArchiveWalk::Unknown&)
   {
-    // Left to MRPT.
+    return Soundness::unknown;
   }
-  return std::nullopt;
+  return Soundness::sound;
+}
+
+/// Fills an object from a file of one. Returns false where MRPT must not read it.
+bool take(GzipInput& input, Soundness soundness, mrpt::serialization::CSerializable& object)
+{
+  if (soundness == Soundness::unknown)
+  {
+    auto* const simplemap = dynamic_cast<mrpt::maps::CSimpleMap*>(&object);
+    return simplemap != nullptr && takeMixedSimplemap(input, *simplemap);
+  }
+  auto archive = mrpt::serialization::archiveFrom(input);
+  archive.ReadObject(&object);
+  return true;
 }
 }  // namespace
 
@@ -71,18 +79,26 @@ void readObjectFile(const std::filesystem::path& path, mrpt::serialization::CSer
   {
     fail(path, "holds a '" + name + "', not a '" + expected->className + "'");
   }
-  if (const auto flaw = flawOfMapFile(path)) fail(path, *flaw);
+  Soundness soundness = Soundness::sound;
   try
   {
-    auto archive = mrpt::serialization::archiveFrom(input);
-    archive.ReadObject(&object);
+    soundness = soundnessOfMapFile(path);
+  }
+  catch (const ArchiveWalk::Unsound& unsound)
+  {
+    fail(path, unsound.what());
+  }
+  bool whole = false;
+  try
+  {
+    whole = take(input, soundness, object);
     // The checksum of a compressed file comes after its last byte.
     input.atEnd();
   }
   catch (const std::exception&)
   {
-    fail(path, "truncated or damaged");
+    whole = false;
   }
-  if (input.damaged()) fail(path, "truncated or damaged");
+  if (!whole || input.damaged()) fail(path, "truncated or damaged");
 }
 }  // namespace sigloc::detail

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <mrpt/maps/CSimpleMap.h>
 #include <mrpt/serialization/CSerializable.h>
 
 #include <filesystem>
@@ -29,6 +30,10 @@ bool isLogClass(const std::string& name);
 /// whose layout is not known becomes an UnreadObservation: MRPT never reads it. Exceptions of
 /// MRPT's readers pass.
 mrpt::serialization::CSerializable::Ptr readLogEntry(GzipInput& input);
+
+/// Fills a simplemap that holds observations whose layout is not known; they become
+/// UnreadObservations. Returns false where it is unsound. Exceptions of MRPT's readers pass.
+bool takeMixedSimplemap(GzipInput& input, mrpt::maps::CSimpleMap& map);
 
 /// Fills `object` from a file that holds one object of its class.
 /// Throws std::runtime_error "path: reason" for a file that is missing, empty, truncated, damaged

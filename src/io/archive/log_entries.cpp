@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <mrpt/maps/CSimpleMap.h>
 #include <mrpt/obs/CSensoryFrame.h>
+#include <mrpt/poses/CPose3DPDF.h>
 #include <mrpt/serialization/CArchive.h>
 
 #include <algorithm>
@@ -51,14 +53,21 @@ enum class Place
 {
   among_others,  // of a frame, or by itself
   last_of_frame,
+  last_of_key_frame,  // of a simplemap
 };
 
-/// True where an observation of a log may end: another entry follows, or nothing.
-bool mayEndBefore(std::string_view rest)
+/// True where an observation may end. In a log another entry follows, or nothing. In a simplemap
+/// the pose of the next key frame follows, or the end of the map.
+bool mayEndBefore(std::string_view rest, Place place)
 {
-  if (rest.empty()) return true;
+  constexpr std::string_view kPose = "CPose";
+  const bool in_map = place == Place::last_of_key_frame;
+  if (rest.empty()) return !in_map;
+  if (in_map && rest.size() == 1) return rest.front() == kEnd;
   const auto header = objectHeaderIn(rest.substr(0, kLongestObjectHeader));
-  return header && isLogClass(std::string(header->name));
+  if (!header) return false;
+  return in_map ? withoutNamespace(header->name).substr(0, kPose.size()) == kPose
+                : isLogClass(std::string(header->name));
 }
 
 /// Returns the bytes of the observation that comes next with its end flag, or nullopt where no end
@@ -67,7 +76,7 @@ std::optional<std::size_t> lengthOfNext(GzipInput& input, const ObjectHeader& he
 {
   const bool old = header.old;
   const std::string end_of_frame = old ? "" : std::string(1, kEnd);
-  const std::string end = end_of_frame + (place == Place::last_of_frame ? end_of_frame : "");
+  const std::string end = end_of_frame + (place == Place::among_others ? "" : end_of_frame);
   std::size_t at = header.size + (old ? sizeof(std::int32_t) : 1);
   for (std::size_t known = std::size_t{1} << 16U; known <= kMostUnread; known *= 2)
   {
@@ -80,7 +89,7 @@ std::optional<std::size_t> lengthOfNext(GzipInput& input, const ObjectHeader& he
       if (!old) at = std::min(ahead.find(kEnd, at), until);
       if (at + end.size() > until) break;
       if (ahead.compare(at, end.size(), end) != 0) continue;
-      if (mayEndBefore(ahead.substr(at + end.size()))) return at + (old ? 0 : 1);
+      if (mayEndBefore(ahead.substr(at + end.size()), place)) return at + (old ? 0 : 1);
     }
     if (whole) return std::nullopt;
   }
@@ -131,7 +140,7 @@ T take(GzipInput& input)
 }
 
 /// Reads a frame that has an observation of an unknown layout in it; null for an unsound one.
-CSerializable::Ptr takeFrame(GzipInput& input, const ObjectHeader& header)
+mrpt::obs::CSensoryFrame::Ptr takeFrame(GzipInput& input, const ObjectHeader& header, Place last)
 {
   const bool old = header.old;
   const std::uint64_t start = input.getPosition();
@@ -142,8 +151,7 @@ CSerializable::Ptr takeFrame(GzipInput& input, const ObjectHeader& header)
   auto frame = mrpt::obs::CSensoryFrame::Create();
   for (auto left = take<std::uint32_t>(input); left > 0; --left)
   {
-    auto observation =
-        takeObservation(input, left == 1 ? Place::last_of_frame : Place::among_others);
+    auto observation = takeObservation(input, left == 1 ? last : Place::among_others);
     if (!observation || input.getPosition() - start > kMostOfFrame) return nullptr;
     frame->insert(observation);
   }
@@ -169,7 +177,30 @@ CSerializable::Ptr readLogEntry(GzipInput& input)
       break;
   }
   const auto header = objectHeaderIn(input.peek(kLongestObjectHeader));
-  if (header && isFrame(header->name)) return takeFrame(input, *header);
+  if (header && isFrame(header->name)) return takeFrame(input, *header, Place::last_of_frame);
   return takeUnread(input, Place::among_others);
+}
+
+bool takeMixedSimplemap(GzipInput& input, mrpt::maps::CSimpleMap& map)
+{
+  constexpr int kVersion = 1;  // older ones never had other observations
+  const auto header = objectHeaderIn(input.peek(kLongestObjectHeader));
+  if (!header || header->old) return false;
+  input.drop(header->size);
+  if (take<std::int8_t>(input) != kVersion) return false;
+  map.clear();
+  for (auto left = take<std::uint32_t>(input); left > 0; --left)
+  {
+    if (soundnessOfNext(input, only(ArchivePart::distribution_3d)) != Soundness::sound)
+      return false;
+    const auto pose = std::dynamic_pointer_cast<mrpt::poses::CPose3DPDF>(
+        mrpt::serialization::archiveFrom(input).ReadObject());
+    const auto frame_header = objectHeaderIn(input.peek(kLongestObjectHeader));
+    if (!pose || !frame_header || !isFrame(frame_header->name)) return false;
+    const auto frame = takeFrame(input, *frame_header, Place::last_of_key_frame);
+    if (!frame) return false;
+    map.insert(pose, frame);
+  }
+  return take<char>(input) == kEnd;
 }
 }  // namespace sigloc::detail
