@@ -16,6 +16,16 @@ class BadContent : public std::runtime_error
   using std::runtime_error::runtime_error;
 };
 
+/// Reads a truth value as MRPT writes it. MRPT's own reader puts any byte into a bool, whose use is
+/// undefined then. Throws BadContent for one but 0 and 1.
+inline bool readFlag(mrpt::serialization::CArchive& in)
+{
+  std::uint8_t flag = 0;
+  in >> flag;
+  if (flag > 1) throw BadContent("a truth value of " + std::to_string(flag));
+  return flag == 1;
+}
+
 /// Reads a string as MRPT writes it. MRPT's own reader allocates what the length says before it
 /// reads. Throws BadContent for a string longer than `most`.
 inline std::string readText(mrpt::serialization::CArchive& in, std::uint32_t most)

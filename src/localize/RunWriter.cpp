@@ -95,8 +95,6 @@ Columns<StepRecord> stepColumns()
       C("relocated", &S::relocated),
       C("x,y,phi_deg,sd_x,sd_y,sd_phi_deg", firstPose),
       C("error_m,error_deg,any_right,confidently_wrong", judgement),
-      C("extraction_ms", &S::extraction_ms, "", 6),
-      C("tracking_ms", &S::tracking_ms, "", 6),
       C("reason", [](const S& step) { return nlohmann::ordered_json(step.belief.reason).dump(); })};
 }
 
@@ -129,14 +127,9 @@ Columns<Figures> summaryColumns()
           C("localized_m", &F::localized_metres),
           C("times_lost", &F::times_lost),
           C("confidently_wrong_steps", &F::confidently_wrong_steps),
-          C("relocation_ms_median", [](const F& f) { return f.relocation.median; }),
-          C("relocation_ms_p95", [](const F& f) { return f.relocation.p95; }),
-          C("step_ms_median", [](const F& f) { return f.tracking.median; }),
-          C("step_ms_p95", [](const F& f) { return f.tracking.p95; }),
           C("relocations", [](const F& f) { return f.relocation.steps; }),
           C("map_features", [](const F& f) { return f.run.map().features().size(); }),
           C("map_reused", &F::map_reused),
-          C("map_seconds", &F::map_seconds),
           C("seed", [](const F& f) { return f.run.setup().matcher.seed; }),
           C("truncated", &F::truncated),
           C("converged", &F::converged)};

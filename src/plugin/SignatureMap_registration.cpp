@@ -137,8 +137,7 @@ void SignatureMap::serializeFrom(CArchive& in, std::uint8_t version)
   read.likelihood_options.points = detail::readOptions<PointLikelihoodOptions>(in);
   read.prepared_map_ = std::make_shared<FeatureMap>(readFeatureMap(in));
   // Version 0 stored the finished map alone.
-  bool has_builder = false;
-  if (version >= 1) in >> has_builder;
+  const bool has_builder = version >= 1 && detail::readFlag(in);
   if (has_builder) read.learnt_->builder = detail::readMapBuilder(in, read.baseMap());
   *this = read;
 }

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Two runs into one output folder: the second ends at once, the first one's results are whole.
+// Two runs into one output folder: the second ends at once, the first one's results are whole. Two
+// runs of the same input: the same bytes.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -9,6 +10,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <thread>
@@ -119,9 +121,9 @@ TEST(TwoRuns, IntoOneFolderTheSecondIsRefusedAndTheFirstIsWhole)
   for (int pair = 0; pair < pairs; ++pair)
   {
     const TemporaryFolder folder;
-    const int steps = writeIni(folder, "a.ini", 0);
-    writeIni(folder, "b.ini", 100);
-    const auto wanted = static_cast<std::size_t>(1 + pair * 400 / pairs);
+    const int steps = writeIni(folder, "a.ini", 100);
+    writeIni(folder, "b.ini", 150);
+    const auto wanted = static_cast<std::size_t>(1 + pair * 200 / pairs);
     Background first(folder, {"a.ini", "--quiet", "--out", "out"});
     while (first.running() && filesBelow(folder.path()) < 2 + wanted)
     {
@@ -136,6 +138,42 @@ TEST(TwoRuns, IntoOneFolderTheSecondIsRefusedAndTheFirstIsWhole)
     EXPECT_NE(second.errors.find(": another run writes here"), std::string::npos) << second.errors;
     EXPECT_EQ(first.wait(), 0);
     expectWhole(folder, steps);
+  }
+}
+
+std::map<std::string, std::string> contentsOf(const std::filesystem::path& folder)
+{
+  std::map<std::string, std::string> contents;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+  {
+    const std::string name = entry.path().lexically_relative(folder).string();
+    if (entry.is_regular_file()) contents[name] = readBytes(entry.path());
+  }
+  return contents;
+}
+
+TEST(TwoRuns, WriteTheSameBytesButForTheirTimes)
+{
+  const std::set<std::string> times = {"exec_times.txt", "_SUMMARY.txt"};
+  for (const std::string tracker : {"gaussians", "particles"})
+  {
+    const TemporaryFolder folder;
+    writeIni(folder, "a.ini", 185);
+    writeText(folder / "a.ini", readBytes(folder / "a.ini") + "tracker = " + tracker + "\n");
+    for (const std::string out : {"map_into_cache", "one", "two"})
+    {
+      ASSERT_EQ(run(folder, "sigloc-localize", {"a.ini", "--quiet", "--out", out}).exit_code, 0);
+    }
+    const auto one = contentsOf(folder / "one");
+    const auto two = contentsOf(folder / "two");
+    EXPECT_GT(one.size(), 40U);
+    EXPECT_EQ(one.size(), two.size());
+    for (const auto& [name, bytes] : one)
+    {
+      const bool same = two.count(name) > 0 && two.at(name) == bytes;
+      EXPECT_TRUE(same || times.count(name) > 0) << tracker << ": " << name;
+    }
+    EXPECT_EQ(countLines(one.at("exec_times.txt")), 202 - 185);
   }
 }
 

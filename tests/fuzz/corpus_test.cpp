@@ -4,6 +4,7 @@
 // Every input in tests/corpus through its target: samples of good files, and whatever was once a
 // finding.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <fstream>
@@ -47,6 +48,9 @@ TEST_P(Corpus, IsReadOrRefusedInGoodOrder)
       ADD_FAILURE() << name << ": " << finding.what();
     }
   }
+  rusage usage = {};
+  getrusage(RUSAGE_SELF, &usage);
+  EXPECT_LT(usage.ru_maxrss, 1500000) << "[kB]";
   EXPECT_GT(inputs, 0U);
   EXPECT_GT(accepted, 0U) << "or the target tests nothing but the first bytes";
 }

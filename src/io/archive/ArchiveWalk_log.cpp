@@ -77,7 +77,7 @@ void ArchiveWalk::movement3D(int version)
 void ArchiveWalk::rangeScan(int version)
 {
   floats(1);
-  skip(1);
+  if (value<std::uint8_t>() > 1) throw Unsound();  // a bool, which MRPT reads as any byte
   floats(1);
   object(only(ArchivePart::pose_3d));
   if (version < 6) object(only(ArchivePart::matrix));

@@ -3,6 +3,7 @@
 
 // Maps: key frames and grids.
 #include <fmt/core.h>
+#include <mrpt/maps/COccupancyGridMap2D.h>
 
 #include <cmath>
 
@@ -13,12 +14,15 @@ namespace sigloc::detail
 {
 namespace
 {
-/// True where MRPT, which goes by the bounds, comes to the number of cells that was written.
+/// True where MRPT, which goes by the bounds, comes to the number of cells that was written. Where
+/// it does not, it takes cells for what comes after them, and that for a count.
 bool agree(std::uint32_t cells, float from, float to, float resolution)
 {
   const double spanned = (static_cast<double>(to) - from) / resolution;
   constexpr double kRounding = 1.5;  // of both bounds, and of single floats
-  return std::abs(spanned - cells) <= kRounding;  // false for NaN
+  if (!(std::abs(spanned - cells) <= kRounding)) return false;  // NaN too
+  const mrpt::maps::COccupancyGridMap2D row(from, to, 0, resolution, resolution);
+  return row.getSizeX() == cells;
 }
 }  // namespace
 

@@ -30,10 +30,13 @@ Feature readFields(CArchive& in)
   std::uint8_t type = 0;
   std::uint8_t side = 0;
   auto& covariance = feature.position_covariance;
-  in >> type >> side >> feature.start_seen >> feature.end_seen >> feature.position.x >>
-      feature.position.y >> feature.direction >> feature.size >> covariance(0, 0) >>
-      covariance(0, 1) >> covariance(1, 0) >> covariance(1, 1) >> feature.direction_variance >>
-      feature.size_variance >> feature.label >> feature.sightings >> feature.parent;
+  in >> type >> side;
+  feature.start_seen = readFlag(in);
+  feature.end_seen = readFlag(in);
+  in >> feature.position.x >> feature.position.y >> feature.direction >> feature.size >>
+      covariance(0, 0) >> covariance(0, 1) >> covariance(1, 0) >> covariance(1, 1) >>
+      feature.direction_variance >> feature.size_variance >> feature.label >> feature.sightings >>
+      feature.parent;
   feature.type = static_cast<FeatureType>(type);
   feature.side = static_cast<WallSide>(side);
   return feature;

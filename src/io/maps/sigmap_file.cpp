@@ -139,8 +139,7 @@ FeatureMap readFeatureMap(CArchive& in)
   if (version > kOldestBodyVersion) in >> error.common_turn_sigma;
   if (const auto flaw = flawOf(error)) throw detail::BadContent(*flaw);
   std::vector<Feature> features = detail::readFeatures(in);
-  bool has_field = false;
-  in >> has_field;
+  const bool has_field = detail::readFlag(in);
   std::optional<DenseField> field;
   if (has_field) field = readField(in);
   if (const auto flaw = flawOf(features)) throw detail::BadContent(*flaw);
