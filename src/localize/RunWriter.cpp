@@ -14,6 +14,7 @@
 #include "config/columns.h"
 #include "localize/pf_localization_files.h"
 #include "localize/run_folder.h"
+#include "localize/run_page.h"
 #include "sigloc/io/file_output.h"
 #include "sigloc/plugin/pose_pdf.h"
 
@@ -299,6 +300,7 @@ void RunWriter::finish(const LocalizationRun& run)
   writeFile(work_ / "steps.csv", csvFile(stepColumns(), run.steps()));
   writeAnnotatedRawlog(run, work_ / "annotated.rawlog");
   writePfLocalizationFiles(run, work_);
+  if (!run.setup().stats_only) writeFile(work_ / detail::kRunPageFile, detail::runPage(run));
   writeFile(work_ / detail::kRunSummaryFile,
             toJson(summaryColumns(), Figures{run.summary(), run}).dump(2) + "\n");
   syncFolder(work_);

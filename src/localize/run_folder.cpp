@@ -17,6 +17,7 @@
 #include <string>
 
 #include "localize/pf_localization_files.h"
+#include "localize/run_page.h"
 #include "sigloc/io/file_output.h"
 
 namespace sigloc::detail
@@ -34,8 +35,8 @@ bool isRunFile(const std::string& name)
 {
   static const std::set<std::string> kNames = []
   {
-    std::set<std::string> names = {"path.tum", "path_unsure.tum", "steps.csv", "annotated.rawlog",
-                                   kRunSummaryFile};
+    std::set<std::string> names = {"path.tum",         "path_unsure.tum", "steps.csv",
+                                   "annotated.rawlog", kRunSummaryFile,   kRunPageFile};
     names.insert(pfLocalizationFiles().begin(), pfLocalizationFiles().end());
     return names;
   }();

@@ -104,8 +104,8 @@ TEST(Readme, itsCommandsDoWhatItSays)
   EXPECT_EQ(readBytes(folder / "check/check.png").substr(1, 3), "PNG");
   const auto summary = nlohmann::json::parse(readBytes(folder / "answer/summary.json"));
   EXPECT_EQ(summary["final_verdict"], "localized");
-  for (const char* const name :
-       {"path.tum", "path_unsure.tum", "annotated.rawlog", "steps.csv", "pictures", "3D", "belief"})
+  for (const char* const name : {"report.html", "path.tum", "path_unsure.tum", "annotated.rawlog",
+                                 "steps.csv", "pictures", "3D", "belief"})
   {
     EXPECT_TRUE(fs::exists(folder / "answer" / name)) << name;
   }

@@ -38,6 +38,7 @@ void checkRunFolder(const std::filesystem::path& folder,
 /// * `annotated.rawlog`: the log with the pose and the belief of each step, see
 ///   writeAnnotatedRawlog()
 /// * `summary.json`: the figures of RunSummary
+/// * `report.html`: every step on a page for a browser; not with LocalizationSetup::stats_only
 /// * what pf-localization's log folder holds, see writePfLocalizationFiles()
 class RunWriter
 {

@@ -1,0 +1,324 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "localize/run_page.h"
+
+namespace sigloc::detail
+{
+const char* const kRunPageHead = R"page(<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>sigloc: a run, step by step</title>
+<style>
+body { font: 15px/1.4 sans-serif; margin: 0; color: #222; background: #f4f4f2; }
+header { padding: 8px 14px; background: #fff; border-bottom: 1px solid #ccc; }
+main { display: grid; grid-template-columns: minmax(0, 1fr) 360px; gap: 12px; padding: 12px; }
+canvas { display: block; width: 100%; background: #fff; border: 1px solid #bbb; }
+#map { height: 68vh; cursor: grab; touch-action: none; }
+#strip { height: 34px; cursor: pointer; margin-top: 8px; }
+#times { height: 90px; cursor: pointer; margin-top: 8px; }
+#verdict { font-size: 22px; font-weight: bold; padding: 6px 10px; color: #fff; }
+#controls { display: flex; gap: 6px; align-items: center; margin: 8px 0; }
+#slider { flex: 1; }
+table { border-collapse: collapse; width: 100%; background: #fff; }
+td, th { border: 1px solid #ccc; padding: 3px 7px; text-align: right; }
+#reason { background: #fff; border: 1px solid #ccc; padding: 6px 10px; min-height: 2.8em; }
+.key { display: inline-block; width: 12px; height: 12px; margin: 0 4px 0 12px; }
+.small { color: #555; font-size: 13px; }
+</style>
+</head>
+<body>
+<header><b id="title"></b> <span id="legend" class="small"></span></header>
+<main>
+<section>
+<canvas id="map"></canvas>
+<canvas id="strip" title="verdict of every step; click to go there"></canvas>
+<canvas id="times" title="time of every step [ms]; click to go there"></canvas>
+<div id="controls">
+<button id="previous" title="left arrow">&#9664;</button>
+<button id="play">play</button>
+<button id="next" title="right arrow">&#9654;</button>
+<input id="slider" type="range" min="1" value="1">
+<span id="number"></span>
+<label><input id="follow" type="checkbox"> follow</label>
+<button id="whole">whole map</button>
+</div>
+</section>
+<aside>
+<div id="verdict"></div>
+<p id="reason"></p>
+<table id="facts"></table>
+<h4>Hypotheses</h4>
+<table id="hypotheses"></table>
+<p class="small">Wheel: zoom. Drag: move. Arrows: steps. Ellipses hold 95 %. Blue: what the robot saw,
+drawn at the first hypothesis. The first strip has the verdicts, the second the times; dark bars are
+relocations.</p>
+</aside>
+</main>
+<script id="data" type="application/json">)page";
+
+const char* const kRunPageTail = R"page(</script>
+<script>
+"use strict";
+const data = JSON.parse(document.getElementById("data").textContent);
+const steps = data.steps;
+const colors = ["#1a8f4c", "#d99000", "#c22f2f", "#777777"];
+const get = id => document.getElementById(id);
+let current = 0, timer = null;
+const view = {x: 0, y: 0, scale: 1};
+
+function element(tag, text) {
+  const made = document.createElement(tag);
+  made.textContent = text;
+  return made;
+}
+function fillTable(table, rows) {
+  table.replaceChildren(...rows.map((row, k) => {
+    const tr = document.createElement("tr");
+    tr.append(...row.map(cell => element(k === 0 && table.id === "hypotheses" ? "th" : "td", cell)));
+    return tr;
+  }));
+}
+function rasterImage(raster) {
+  const image = document.createElement("canvas");
+  image.width = raster.width;
+  image.height = raster.height;
+  const context = image.getContext("2d");
+  const pixels = context.createImageData(raster.width, raster.height);
+  const shades = [222, 255, 90];
+  let at = 0;
+  raster.runs.forEach((count, k) => {
+    for (const end = at + count; at < end; ++at) {
+      const row = raster.height - 1 - Math.floor(at / raster.width);
+      const to = 4 * (row * raster.width + at % raster.width);
+      pixels.data.fill(shades[k % 3], to, to + 3);
+      pixels.data[to + 3] = 255;
+    }
+  });
+  context.putImageData(pixels, 0, 0);
+  return image;
+}
+const raster = data.map.raster;
+const image = raster ? rasterImage(raster) : null;
+
+function fit(canvas) {
+  const ratio = window.devicePixelRatio || 1;
+  canvas.width = Math.round(canvas.clientWidth * ratio);
+  canvas.height = Math.round(canvas.clientHeight * ratio);
+  return canvas.getContext("2d");
+}
+function wholeMap() {
+  const [x0, x1, y0, y1] = data.map.box;
+  const canvas = get("map");
+  view.x = (x0 + x1) / 2;
+  view.y = (y0 + y1) / 2;
+  view.scale = 0.95 * Math.min(canvas.clientWidth / Math.max(1, x1 - x0),
+                               canvas.clientHeight / Math.max(1, y1 - y0));
+}
+function drawMarks(context, marks) {
+  const size = 3 / view.scale;
+  for (const m of marks) {
+    context.beginPath();
+    if (m.length === 4) { context.moveTo(m[0], m[1]); context.lineTo(m[2], m[3]); context.stroke(); }
+    else { context.arc(m[0], m[1], size, 0, 7); context.fill(); }
+  }
+}
+function drawArrow(context, pose, length, color, width) {
+  context.save();
+  context.translate(pose[0], pose[1]);
+  context.rotate(pose[2]);
+  context.strokeStyle = color;
+  context.lineWidth = width / view.scale;
+  context.beginPath();
+  context.moveTo(-0.4 * length, 0); context.lineTo(0.6 * length, 0);
+  context.moveTo(0.25 * length, 0.25 * length); context.lineTo(0.6 * length, 0);
+  context.lineTo(0.25 * length, -0.25 * length);
+  context.stroke();
+  context.restore();
+}
+function drawEllipse(context, h, color) {
+  const [cxx, cyy, cxy] = [h[4], h[5], h[6]];
+  const middle = (cxx + cyy) / 2, off = Math.hypot((cxx - cyy) / 2, cxy);
+  context.strokeStyle = color;
+  context.lineWidth = 1.2 / view.scale;
+  context.beginPath();
+  context.ellipse(h[0], h[1], 2.448 * Math.sqrt(Math.max(0, middle + off)),
+                  2.448 * Math.sqrt(Math.max(0, middle - off)),
+                  0.5 * Math.atan2(2 * cxy, cxx - cyy), 0, 2 * Math.PI);
+  context.stroke();
+}
+function drawPath(context) {
+  context.lineWidth = 2 / view.scale;
+  context.strokeStyle = "#3cbe6e";
+  context.beginPath();
+  let before = false;
+  for (let k = 0; k <= current; ++k) {
+    const sure = steps[k].v === 0 && steps[k].h.length > 0;
+    if (sure) context[before ? "lineTo" : "moveTo"](steps[k].h[0][0], steps[k].h[0][1]);
+    before = sure;
+  }
+  context.stroke();
+}
+function drawMap() {
+  const canvas = get("map");
+  const context = fit(canvas);
+  const ratio = canvas.width / canvas.clientWidth;
+  context.setTransform(ratio * view.scale, 0, 0, -ratio * view.scale,
+                       canvas.width / 2 - ratio * view.scale * view.x,
+                       canvas.height / 2 + ratio * view.scale * view.y);
+  if (image) {
+    context.save();
+    context.imageSmoothingEnabled = false;
+    context.translate(raster.x, raster.y + raster.height * raster.pixel);
+    context.scale(raster.pixel, -raster.pixel);
+    context.drawImage(image, 0, 0);
+    context.restore();
+  }
+  context.fillStyle = context.strokeStyle = "#1f4ea0";
+  context.lineWidth = 2 / view.scale;
+  drawMarks(context, data.map.marks);
+  drawPath(context);
+  const step = steps[current];
+  const length = Math.max(0.6, 26 / view.scale);
+  if (step.h.length > 0 && step.f) {
+    context.save();
+    context.translate(step.h[0][0], step.h[0][1]);
+    context.rotate(step.h[0][2]);
+    context.strokeStyle = context.fillStyle = "#2a6fdb";
+    context.lineWidth = 2 / view.scale;
+    drawMarks(context, step.f);
+    context.restore();
+  }
+  for (let k = step.h.length - 1; k >= 0; --k) {
+    const h = step.h[k];
+    const color = k > 0 ? `rgba(200, 0, 150, ${0.25 + 0.75 * h[3]})` : colors[step.v];
+    drawEllipse(context, h, color);
+    drawArrow(context, h, length, color, k > 0 ? 2 : 4);
+  }
+  if (step.t) drawArrow(context, step.t, length, "#000", 1.5);
+  drawOverlay(context, canvas, ratio, step);
+}
+function drawOverlay(context, canvas, ratio, step) {
+  context.setTransform(ratio, 0, 0, ratio, 0, 0);
+  const most = 160 / view.scale;
+  const power = Math.pow(10, Math.floor(Math.log10(most)));
+  const bar = [5, 2, 1].find(f => f * power <= most) * power;
+  context.fillStyle = "#444";
+  context.fillRect(14, canvas.clientHeight - 16, bar * view.scale, 4);
+  context.font = "13px sans-serif";
+  context.fillText(`${bar} m`, 14, canvas.clientHeight - 22);
+  if (step.v === 0) return;
+  context.strokeStyle = context.fillStyle = colors[2];
+  context.lineWidth = 6;
+  context.strokeRect(3, 3, canvas.clientWidth - 6, canvas.clientHeight - 6);
+  context.font = "bold 26px sans-serif";
+  context.fillText("NOT LOCALIZED", 18, 38);
+}
+function drawStrip(canvas, height, color) {
+  const context = fit(canvas);
+  const width = canvas.width / steps.length;
+  steps.forEach((step, k) => {
+    context.fillStyle = color(step);
+    const high = height(step) * canvas.height;
+    context.fillRect(k * width, canvas.height - high, Math.max(1, width), high);
+  });
+  context.fillStyle = "#000";
+  context.fillRect((current + 0.5) * width - 1, 0, 2, canvas.height);
+}
+const total = step => step.ms[0] + step.ms[1];
+const slowest = Math.max(0.01, ...steps.map(total));
+function drawStrips() {
+  drawStrip(get("strip"), () => 1, step => colors[step.v]);
+  drawStrip(get("times"), step => total(step) / slowest, step => step.l ? "#27406b" : "#9db4d8");
+  const context = get("times").getContext("2d");
+  context.fillStyle = "#444";
+  context.font = `${13 * (window.devicePixelRatio || 1)}px sans-serif`;
+  context.fillText(`${slowest.toFixed(1)} ms`, 6, 16 * (window.devicePixelRatio || 1));
+}
+function pose(p) {
+  return [p[0].toFixed(2), p[1].toFixed(2), (p[2] * 180 / Math.PI).toFixed(1)];
+}
+function show(k) {
+  current = Math.min(Math.max(0, k), steps.length - 1);
+  const step = steps[current];
+  const first = step.h.length > 0 ? step.h[0] : null;
+  get("slider").value = current + 1;
+  get("number").textContent = `${current + 1} / ${steps.length}`;
+  const sure = first ? `(${first[3].toFixed(3)})` : "(no pose)";
+  get("verdict").textContent = `${data.verdicts[step.v]} ${sure}`;
+  get("verdict").style.background = colors[step.v];
+  get("reason").textContent = data.reasons[step.r];
+  const facts = [["step", step.n], ["driven", step.m === null ? "unknown" : `${step.m} m`],
+                 ["elsewhere", step.e.toFixed(4)],
+                 ["features", `${step.ms[0].toFixed(2)} ms`],
+                 [step.l ? "relocation" : "tracking", `${step.ms[1].toFixed(2)} ms`],
+                 ["off the truth", step.d ? `${step.d[0]} m, ${step.d[1]} deg` : "unknown"]];
+  fillTable(get("facts"), facts);
+  fillTable(get("hypotheses"), [["probability", "x [m]", "y [m]", "deg"],
+            ...step.h.map(h => [h[3].toFixed(4), ...pose(h)])]);
+  if (get("follow").checked && first) { view.x = first[0]; view.y = first[1]; }
+  drawMap();
+  drawStrips();
+}
+function play() {
+  if (timer) { clearInterval(timer); timer = null; }
+  else timer = setInterval(() => {
+    if (current + 1 < steps.length) show(current + 1); else play();
+  }, 100);
+  get("play").textContent = timer ? "pause" : "play";
+}
+function zoom(event) {
+  event.preventDefault();
+  const box = get("map").getBoundingClientRect();
+  const right = event.clientX - box.left - box.width / 2;
+  const up = box.height / 2 - (event.clientY - box.top);
+  const factor = event.deltaY < 0 ? 1.25 : 0.8;
+  view.x += right / view.scale * (1 - 1 / factor);
+  view.y += up / view.scale * (1 - 1 / factor);
+  view.scale *= factor;
+  drawMap();
+}
+function drag(event) {
+  if (event.buttons !== 1) return;
+  view.x -= event.movementX / view.scale;
+  view.y += event.movementY / view.scale;
+  drawMap();
+}
+for (const id of ["strip", "times"])
+  get(id).addEventListener("click", event => {
+    const box = get(id).getBoundingClientRect();
+    show(Math.floor((event.clientX - box.left) / box.width * steps.length));
+  });
+get("slider").max = steps.length;
+get("slider").addEventListener("input", () => show(get("slider").value - 1));
+get("previous").addEventListener("click", () => show(current - 1));
+get("next").addEventListener("click", () => show(current + 1));
+get("play").addEventListener("click", play);
+get("whole").addEventListener("click", () => { get("follow").checked = false; wholeMap(); drawMap(); });
+get("follow").addEventListener("change", () => {
+  if (get("follow").checked) view.scale = Math.max(view.scale, 24);
+  show(current);
+});
+get("map").addEventListener("wheel", zoom, {passive: false});
+get("map").addEventListener("pointermove", drag);
+document.addEventListener("keydown", event => {
+  if (event.target === get("slider")) return;
+  if (event.key === "ArrowRight") show(current + 1);
+  if (event.key === "ArrowLeft") show(current - 1);
+});
+window.addEventListener("resize", () => show(current));
+get("title").textContent = `${data.log_name} in ${data.map_name}`;
+data.verdicts.forEach((name, k) => {
+  const key = element("span", "");
+  key.className = "key";
+  key.style.background = colors[k];
+  get("legend").append(key, name);
+});
+wholeMap();
+show(0);
+</script>
+</body>
+</html>
+)page";
+}  // namespace sigloc::detail
