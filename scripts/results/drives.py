@@ -11,6 +11,7 @@ LANDMARKS = "Single answers from landmarks"
 # Run, name of the row, metres driven.
 DRIVES = (
     ("track-campus", "campus", 20),
+    ("track-uwb", "uwb", 20),
     ("track-intel", "intel", 15),
     ("track-fhw", "fhw", 20),
     ("track-acapulco", "acapulco", 20),

@@ -10,6 +10,7 @@ COVERAGE = "Risk against coverage, one scan"
 RELIABILITY = "What the published probability is worth"
 
 METHOD = "signature"
+APART = "recorded drives, own map, no two overlapping"
 FULLY_MAPPED = ("sim-mapped", "sim-moved", "sim-clutter")
 RIGHT_METRES, RIGHT_DEGREES = 0.5, 10
 THRESHOLDS = (0.0, 0.5, 0.7, 0.9, 0.95, 0.99)
@@ -25,22 +26,37 @@ def runs_at_home(bench):
     return [run for run in laser_drives() if bench.method(run, METHOD)]
 
 
+def starts_apart(steps):
+    """As many starts of one log as there are whose drives share no step of it."""
+    drives_of = {}
+    for row in steps:
+        first, _ = drives_of.get(row["start"], (int(row["step"]), None))
+        drives_of[row["start"]] = (first, int(row["step"]))
+    chosen, end = set(), -1
+    for start, (first, last) in sorted(drives_of.items(), key=lambda item: item[1][1]):
+        if first > end:
+            chosen.add(start)
+            end = last
+    return chosen
+
+
 class Exposure:
     """Wake-ups of some runs: how many misled, and how far and long they drove."""
 
     def __init__(self):
         self.wake_ups = self.misled = self.metres = self.seconds = 0
 
-    def add(self, bench, run, group=None):
-        """Adds the drives of a run, or those of one kind of world in it."""
+    def add(self, bench, run, group=None, apart=False):
+        """Adds the drives of a run: all, those of one kind of world, or such as do not overlap."""
+        steps = [row for row in bench.rows(run, "results.csv") if row["method"] == METHOD]
+        allowed = starts_apart(steps) if apart else {row["start"] for row in steps}
         chosen = {}
         for row in bench.rows(run):
-            if row["method"] == METHOD and group in (None, row["group"]):
+            if row["method"] == METHOD and group in (None, row["group"]) and row["start"] in allowed:
                 chosen[row["start"]] = int(row["wrong_steps"]) > 0
         self.wake_ups += len(chosen)
         self.misled += sum(chosen.values())
-        last = {row["start"]: row for row in bench.rows(run, "results.csv")
-                if row["method"] == METHOD and row["start"] in chosen}  # fmt: skip
+        last = {row["start"]: row for row in steps if row["start"] in chosen}
         self.metres += sum(float(row["travelled_m"]) for row in last.values())
         self.seconds += sum(float(row["seconds"]) for row in last.values())
 
@@ -54,6 +70,7 @@ class Exposure:
 def exposures(bench):
     """Each row's name with its runs and the kind of world, None for all."""
     rows = [("recorded drives, own map", [(run, None) for run in runs_at_home(bench)]),
+            (APART, [(run, None) for run in runs_at_home(bench) if "kidnapped" not in run]),
             ("recorded drives, another building's map",
              [(run, None) for run in bench.named("drives-")])]  # fmt: skip
     for kind in simulated.KINDS:
@@ -73,7 +90,7 @@ def misleading(bench):
     for name, parts in exposures(bench):
         exposure = Exposure()
         for run, group in parts:
-            exposure.add(bench, run, group)
+            exposure.add(bench, run, group, apart=name == APART)
         if exposure.wake_ups:
             table.add(name, *exposure.cells())
     text = (

@@ -135,7 +135,7 @@ def misleading(bench):
             parts.append(f'${name} with linespoints linewidth 2 pointtype 7 title "{name}"')
     if not answers or not parts:
         return None
-    data += 'set xlabel "weight of the first pose"\nset ylabel "share right"\nset key bottom\n'
+    data += 'set xlabel "weight of the first pose"\nset ylabel "share right"\nset key inside right bottom\n'
     data += "set xrange [0:1]\nset yrange [0:1]\nplot x with lines dashtype 2 notitle, "
     return draw(data + ", ".join(parts) + "\nunset multiplot\n")
 

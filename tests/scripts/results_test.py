@@ -71,8 +71,9 @@ class Bench:
     def add_steps(self, name, rows):
         """Two steps of each drive: one 10 m off with a weight of 0.6, one right with 0.995."""
         lines = ["method,start,step,travelled_m,seconds,error_m,error_deg,weight,mapped"]
-        for method, start, *_ in rows:
-            lines += [f"{method},{start},0,0,0,10,0,0.6,1", f"{method},{start},1,20,72,0.1,1,0.995,1"]
+        for i, (method, start, *_) in enumerate(rows):
+            lines += [f"{method},{start},{i},0,0,10,0,0.6,1",
+                      f"{method},{start},{i + 1},20,72,0.1,1,0.995,1"]  # fmt: skip
         (self.folder / name / "results.csv").write_text("\n".join(lines) + "\n")
 
     def add_scans(self, name):
@@ -163,6 +164,7 @@ class ResultsTest(unittest.TestCase):
     def test_misleading_information_is_bounded_by_kind_of_world(self):
         page = self.page()
         self.assertIn("| recorded drives, own map | 2 | 0 | 0.00 | 77.64 | 0.04 | 0.04 |", page)
+        self.assertIn("| recorded drives, own map, no two overlapping | 1 | 0 | 0.00 | 95.00 |", page)
         self.assertIn("| simulated office, whole map | 20 | 1 | 5.00 | 21.61 | 0.40 | 0.40 |", page)
         self.assertIn("| simulated hall, whole map | 10 | 0 | 0.00 | 25.89 |", page)
         self.assertIn("| simulated hall, another one's map | 4 | 2 | 50.00 |", page)
@@ -263,6 +265,12 @@ class NumbersTest(unittest.TestCase):
         self.assertAlmostEqual((1 - most) ** 20 + 20 * most * (1 - most) ** 19, 0.05, places=9)
         self.assertAlmostEqual(numbers.upper_bound(5, 1000), 0.010481, places=5)
         self.assertEqual(numbers.upper_bound(3, 3), 1.0)
+
+    def test_drives_that_do_not_overlap_are_as_many_as_there_are(self):
+        drives = {"a": (0, 9), "b": (5, 12), "c": (10, 14), "d": (2, 30), "e": (15, 15)}
+        steps = [{"start": name, "step": str(step)} for name, (first, last) in drives.items()
+                 for step in range(first, last + 1)]  # fmt: skip
+        self.assertEqual(integrity.starts_apart(steps), {"a", "c", "e"})
 
     def test_steps_without_truth_are_never_right(self):
         with tempfile.TemporaryDirectory() as folder:
