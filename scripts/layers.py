@@ -53,7 +53,7 @@ MAX_FILES = 22  # in a folder of src/
 MAX_PUBLIC_HEADERS = 30
 
 # Apps that users run: they never depend on the evaluation library.
-PRODUCT_APPS = {"sigloc-map", "sigloc-localize"}
+PRODUCT_APPS = {"sigloc-map", "sigloc-localize", "sigloc-align"}
 
 MRPT_CORE = {"core", "math", "config"}
 MRPT_BRIDGE = MRPT_CORE | {

@@ -49,6 +49,18 @@ std::string StepPictures::keyMoment(const StepRecord& step)
   return "";
 }
 
+/// "lost" and "found_again", the first few times.
+std::string StepPictures::changeOfVerdict(const StepRecord& step)
+{
+  constexpr std::size_t kMostChanges = 8;
+  const bool localized = step.belief.verdict == Verdict::localized;
+  const bool changed = localized != was_localized_ && moments_seen_.count("localized") > 0;
+  was_localized_ = localized;
+  if (!changed || changes_ == kMostChanges) return "";
+  ++changes_;
+  return localized ? "found_again" : "lost";
+}
+
 void StepPictures::take(const LocalizationRun& run, const RunWriter& writer)
 {
   const StepRecord& step = run.steps().back();
@@ -56,7 +68,10 @@ void StepPictures::take(const LocalizationRun& run, const RunWriter& writer)
   {
     path_.push_back(step.belief.hypotheses.front().pose.mean);
   }
-  const std::string moment = run.atEnd() ? "end" : keyMoment(step);
+  const std::string change = changeOfVerdict(step);
+  std::string moment = keyMoment(step);
+  if (moment.empty()) moment = change;
+  if (run.atEnd()) moment = "end";
   const std::uint32_t every = run.setup().scene_frequency;
   if (!moment.empty() || (every != 0 && (step.number - 1) % every == 0)) draw(run, writer, moment);
 }
@@ -75,6 +90,9 @@ void StepPictures::draw(const LocalizationRun& run, const RunWriter& writer,
   const auto folder = writer.workFolder() / "pictures";
   std::filesystem::create_directories(folder);
   const auto file = folder / (stepName(step) + (moment.empty() ? "" : "_" + moment) + ".png");
-  savePicture(pictures_->stepPicture(drawing, titleOf(step)), file);
+  const mrpt::img::CImage picture = pictures_->stepPicture(drawing, titleOf(step));
+  savePicture(picture, file);
+  if (!moment.empty()) sheet_.add(picture);
+  if (run.atEnd()) savePicture(sheet_.sheet(), folder / "contact_sheet.png");
 }
 }  // namespace sigloc

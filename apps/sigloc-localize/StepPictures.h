@@ -9,13 +9,15 @@
 #include <string>
 #include <vector>
 
+#include "contact_sheet.h"
 #include "pictures.h"
 #include "sigloc/localize/RunWriter.h"
 
 namespace sigloc
 {
 /// Draws the key steps of a run: the first relocation, the first ambiguous and the first localized
-/// step, and the last one. Draws every n-th step as well where the ini says so.
+/// step, those where that is lost and found again, and the last one. All of these are on a contact
+/// sheet, too. Draws every n-th step as well where the ini says so.
 class StepPictures
 {
  public:
@@ -27,10 +29,14 @@ class StepPictures
 
  private:
   std::string keyMoment(const StepRecord& step);
+  std::string changeOfVerdict(const StepRecord& step);
   void draw(const LocalizationRun& run, const RunWriter& writer, const std::string& moment);
 
   std::optional<PictureMaker> pictures_;
+  ContactSheet sheet_;
   std::set<std::string> moments_seen_;
+  bool was_localized_ = false;
+  std::size_t changes_ = 0;  // drawn
   std::vector<mrpt::math::TPose2D> path_;
 };
 }  // namespace sigloc

@@ -296,6 +296,11 @@ TEST(Localize, runsStockConfigurationsUnchanged)
   EXPECT_GT(pixelsLike(picture, mrpt::img::TColor(225, 30, 30)), 100) << "returns";
   EXPECT_GT(pixelsLike(picture, mrpt::img::TColor(0, 150, 60)), 50) << "chosen pose";
   EXPECT_GT(pixelsLike(picture, mrpt::img::TColor(255, 255, 255)), 10000) << "free space";
+  // The first relocation and the end at least: two columns of pictures 900 pixels wide.
+  mrpt::img::CImage sheet;
+  ASSERT_TRUE(sheet.loadFromFile((pictures / "contact_sheet.png").string()));
+  EXPECT_EQ(sheet.getWidth(), 2U * 900 + 30);
+  EXPECT_GT(pixelsLike(sheet, mrpt::img::TColor(255, 255, 255)), 10000) << "free space";
 }
 
 /// Expects that no object is wider than stock viewers can tell to be in view; returns their number.

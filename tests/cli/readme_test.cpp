@@ -102,6 +102,7 @@ TEST(Readme, itsCommandsDoWhatItSays)
   ASSERT_EQ(result.exit_code, 0) << result.errors;
   EXPECT_EQ(readBytes(folder / "my_map.png").substr(1, 3), "PNG");
   EXPECT_EQ(readBytes(folder / "check/check.png").substr(1, 3), "PNG");
+  EXPECT_EQ(readBytes(folder / "align.png").substr(1, 3), "PNG");
   const auto summary = nlohmann::json::parse(readBytes(folder / "answer/summary.json"));
   EXPECT_EQ(summary["final_verdict"], "localized");
   for (const char* const name : {"report.html", "path.tum", "path_unsure.tum", "annotated.rawlog",

@@ -187,6 +187,7 @@ TEST_F(UnsurePoses, everyPictureHasTheRedFrame)
   std::size_t count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder_ / "out/pictures"))
   {
+    if (entry.path().filename() == "contact_sheet.png") continue;  // of pictures with frames
     mrpt::img::CImage picture;
     ASSERT_TRUE(picture.loadFromFile(entry.path().string()));
     const auto* const corner =

@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// sigloc-align: the pose of one map in another.
+#include <gtest/gtest.h>
+#include <mrpt/io/CFileGZInputStream.h>
+#include <mrpt/maps/CSimpleMap.h>
+#include <mrpt/poses/CPose3DPDFGaussian.h>
+#include <mrpt/poses/CPosePDFSOG.h>
+#include <mrpt/serialization/CArchive.h>
+
+#include <cmath>
+
+#include "command_line.h"
+#include "picture_pixels.h"
+#include "sigloc/geometry/GaussianPose.h"
+
+namespace sigloc
+{
+namespace
+{
+using namespace sigloc::test;
+using mrpt::math::TPose2D;
+
+const std::filesystem::path kOffice = kSources / "maps/office.simplemap";
+const TPose2D kTurned(12, -7, 73 * M_PI / 180);  // of the second map in the first
+
+/// Writes every `of`-th key frame of a map from `first` on, turned and shifted by the inverse of a
+/// pose.
+void writePart(const std::filesystem::path& source, const TPose2D& a_from_b, std::size_t of,
+               std::size_t first, const std::filesystem::path& path)
+{
+  mrpt::maps::CSimpleMap whole;
+  ASSERT_TRUE(whole.loadFromFile(source.string()));
+  const mrpt::poses::CPose3D a_from_b_3d(a_from_b.x, a_from_b.y, 0, a_from_b.phi, 0, 0);
+  mrpt::maps::CSimpleMap part;
+  for (std::size_t i = first; i < whole.size(); i += of)
+  {
+    mrpt::poses::CPose3DPDF::Ptr pose;
+    mrpt::obs::CSensoryFrame::Ptr frame;
+    whole.get(i, pose, frame);
+    mrpt::poses::CPose3DPDFGaussian turned;
+    turned.copyFrom(*pose);
+    turned.mean = turned.mean - a_from_b_3d;
+    part.insert(turned, *frame);
+  }
+  ASSERT_TRUE(part.saveToFile(path.string()));
+}
+
+mrpt::poses::CPosePDFSOG posesIn(const std::filesystem::path& path)
+{
+  mrpt::io::CFileGZInputStream file(path.string());
+  mrpt::poses::CPosePDFSOG poses;
+  mrpt::serialization::archiveFrom(file) >> poses;
+  return poses;
+}
+
+void expectFirstPose(const mrpt::poses::CPosePDFSOG& poses, const TPose2D& truth)
+{
+  ASSERT_GE(poses.size(), 1U);
+  const PoseError error = errorBetween(poses.get(0).mean.asTPose(), truth);
+  EXPECT_LT(error.distance, 0.1);
+  EXPECT_LT(error.angle, 0.5 * M_PI / 180);
+}
+
+TEST(MapAlignment, aTurnedMapIsFoundInItsOriginal)
+{
+  const TemporaryFolder folder;
+  writePart(kLabMap, kTurned, 1, 0, folder / "turned.simplemap");
+  const CommandResult result = run(
+      folder, "sigloc-align",
+      {kLabMap.string(), "turned.simplemap", "--poses", "out.CPosePDFSOG", "--picture", "out.png"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(result.errors, "");
+  expectFirstPose(posesIn(folder / "out.CPosePDFSOG"), kTurned);
+  mrpt::img::CImage picture;
+  ASSERT_TRUE(picture.loadFromFile((folder / "out.png").string()));
+  EXPECT_GT(pixelsLike(picture, mrpt::img::TColor(215, 30, 30)), 3000) << "walls of the second map";
+  // Equal walls lie on each other: hardly one of the first map is left to see.
+  EXPECT_LT(pixelsLike(picture, mrpt::img::TColor(150, 150, 150)), 8000);
+}
+
+TEST(MapAlignment, aMapOfOtherScansOfThePlaceIsFound)
+{
+  const TemporaryFolder folder;
+  writePart(kLabMap, {}, 2, 0, folder / "even.simplemap");
+  writePart(kLabMap, kTurned, 2, 1, folder / "odd.simplemap");
+  ASSERT_EQ(
+      run(folder, "sigloc-align", {"even.simplemap", "odd.simplemap", "--poses", "out.CPosePDFSOG"})
+          .exit_code,
+      0);
+  expectFirstPose(posesIn(folder / "out.CPosePDFSOG"), kTurned);
+}
+
+TEST(MapAlignment, everyPosePossibleIsTold)
+{
+  const TemporaryFolder folder;
+  ASSERT_EQ(run(folder, "sigloc-simulate",
+                {"--world", "corridor", "--seed", "5", "--metres", "5", "--out", "corridor"})
+                .exit_code,
+            0);
+  const std::string corridor = (folder / "corridor/map.simplemap").string();
+  ASSERT_EQ(
+      run(folder, "sigloc-align", {corridor, corridor, "--poses", "out.CPosePDFSOG"}).exit_code, 0);
+  const auto poses = posesIn(folder / "out.CPosePDFSOG");
+  EXPECT_GE(poses.size(), 2U) << "the rooms repeat along the corridor";
+}
+
+TEST(MapAlignment, anotherBuildingIsNotFound)
+{
+  const TemporaryFolder folder;
+  const CommandResult result = run(
+      folder, "sigloc-align", {kLabMap.string(), kOffice.string(), "--poses", "out.CPosePDFSOG"});
+  EXPECT_EQ(result.exit_code, 3) << result.output;
+  EXPECT_NE(result.output.find("no pose"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(folder / "out.CPosePDFSOG"));
+}
+
+TEST(MapAlignment, wrongUseIsRefusedInOneLine)
+{
+  const TemporaryFolder folder;
+  std::string marks;
+  for (int i = 0; i < 12; ++i) marks += std::to_string(i) + " " + std::to_string(i * i) + "\n";
+  writeText(folder / "marks.csv", marks);
+  const std::string lab = kLabMap.string();
+  const auto refused = [&](const Arguments& arguments, const std::string& why)
+  {
+    const CommandResult result = run(folder, "sigloc-align", arguments);
+    EXPECT_EQ(result.exit_code, 1) << why;
+    EXPECT_EQ(countLines(result.errors), 1) << result.errors;
+    EXPECT_NE(result.errors.find(why), std::string::npos) << result.errors;
+  };
+  refused({lab}, "B");
+  refused({lab, "marks.csv"}, "marks.csv");
+  refused({lab, lab, "--poses", "out.txt"}, "must end in .CPosePDFSOG");
+  refused({lab, lab, "--pose", "out.CPosePDFSOG"}, "did you mean '--poses'");
+}
+}  // namespace
+}  // namespace sigloc
