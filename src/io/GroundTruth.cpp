@@ -13,6 +13,7 @@
 
 #include "io/archive/checked_archive.h"
 #include "io/archive/gzip_input.h"
+#include "io/key_frames.h"
 #include "io/text_rows.h"
 
 namespace sigloc
@@ -119,7 +120,7 @@ GroundTruth GroundTruth::read(const std::filesystem::path& path, const TPose2D& 
     truth.key_ = Key::time;
     for (std::size_t i = 0; i < simplemap.size(); ++i)
     {
-      const auto [pose, frame] = simplemap.get(i);
+      const auto [pose, frame] = keyFrameOf(simplemap, i);
       const bool timed =
           pose && frame && !frame->empty() && (*frame->begin())->timestamp != INVALID_TIMESTAMP;
       if (!timed) continue;

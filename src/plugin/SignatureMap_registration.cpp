@@ -6,6 +6,7 @@
 #include <mrpt/serialization/CArchive.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "io/options_archive.h"
 #include "plugin/map_builder_archive.h"
@@ -97,7 +98,11 @@ void SignatureMap::TMapDefinition::dumpToTextStream_map_specific(std::ostream& o
   likelihood_options.dumpToTextStream(out);
 }
 
-mrpt::maps::CMetricMap* SignatureMap::internal_CreateFromMapDefinition(
+// A plain pointer, and since MRPT 2.11.3 a shared one.
+using CreatedMap = decltype(SignatureMap::internal_CreateFromMapDefinition(
+    std::declval<const mrpt::maps::TMetricMapInitializer&>()));
+
+CreatedMap SignatureMap::internal_CreateFromMapDefinition(
     const mrpt::maps::TMetricMapInitializer& def)
 {
   const auto& definition = dynamic_cast<const TMapDefinition&>(def);
@@ -106,7 +111,7 @@ mrpt::maps::CMetricMap* SignatureMap::internal_CreateFromMapDefinition(
                  : std::make_unique<SignatureMap>(loadSigmap(definition.sigmap_file));
   map->insertion_options = definition.insertion_options;
   map->likelihood_options = definition.likelihood_options;
-  return map.release();
+  return CreatedMap(map.release());
 }
 
 std::uint8_t SignatureMap::serializeGetVersion() const

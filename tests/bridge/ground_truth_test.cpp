@@ -92,8 +92,9 @@ TEST(GroundTruth, ReadsSevenColumnsAndMovesThemIntoTheMap)
 TEST(GroundTruth, ReadsTheKeyFramesOfASimplemap)
 {
   mrpt::maps::CSimpleMap simplemap;
-  const mrpt::poses::CPose3DPDFGaussian pose(mrpt::poses::CPose3D(1, 2, 0, 0.5, 0, 0));
-  simplemap.insert(pose, *makeFrame(makeScan(1000.25)));
+  const auto pose =
+      mrpt::poses::CPose3DPDFGaussian::Create(mrpt::poses::CPose3D(1, 2, 0, 0.5, 0, 0));
+  simplemap.insert(pose, makeFrame(makeScan(1000.25)));
   const TemporaryFolder folder;
   ASSERT_TRUE(simplemap.saveToFile((folder / "t.SIMPLEMAP").string()));
   const auto at = GroundTruth::read(folder / "t.SIMPLEMAP").at(0, 1000.25);

@@ -61,9 +61,10 @@ TEST(MapSources, ReadsTheSimplemapsOfMrpt)
 TEST(MapSources, TakesPosesAndScansOfASimplemap)
 {
   mrpt::maps::CSimpleMap simplemap;
-  const mrpt::poses::CPose3DPDFGaussian pose(mrpt::poses::CPose3D(1, 2, 0, 0.5, 0, 0));
-  simplemap.insert(pose, *makeFrame(makeScan(1.0)));
-  simplemap.insert(pose, *makeFrame(makeOdometry(1.0, {})));
+  const auto pose =
+      mrpt::poses::CPose3DPDFGaussian::Create(mrpt::poses::CPose3D(1, 2, 0, 0.5, 0, 0));
+  simplemap.insert(pose, makeFrame(makeScan(1.0)));
+  simplemap.insert(pose, makeFrame(makeOdometry(1.0, {})));
   const auto posed = posedScansOf(simplemap);
   ASSERT_EQ(posed.size(), 1U) << "a frame without a scan gives none";
   EXPECT_NEAR(posed[0].map_from_robot.phi, 0.5, 1e-12);
@@ -193,8 +194,9 @@ std::vector<std::string> errorsOfMapsAt(const TemporaryFolder& folder, double x,
   writeText(folder / "m.log", flaser(180, 3, place + " 0.5 " + place + " 0.5 10 host 10"));
   writeText(folder / "m.txt", place + "\n");
   mrpt::maps::CSimpleMap simplemap;
-  simplemap.insert(mrpt::poses::CPose3DPDFGaussian(mrpt::poses::CPose3D(x, y, 0, 0.5, 0, 0)),
-                   *makeFrame(makeScan(1.0)));
+  simplemap.insert(
+      mrpt::poses::CPose3DPDFGaussian::Create(mrpt::poses::CPose3D(x, y, 0, 0.5, 0, 0)),
+      makeFrame(makeScan(1.0)));
   writeObject(folder / "m.simplemap", simplemap);
   mrpt::maps::COccupancyGridMap2D grid(static_cast<float>(x), static_cast<float>(x + 2),
                                        static_cast<float>(y), static_cast<float>(y + 2), 0.1F);

@@ -67,10 +67,10 @@ std::string gridBytes()
 std::string simplemapBytes()
 {
   mrpt::maps::CSimpleMap map;
-  mrpt::obs::CSensoryFrame frame;
-  frame.insert(roomScan({0, 0, 0}));
-  map.insert(mrpt::poses::CPose3DPDFGaussian(), frame);
-  map.insert(mrpt::poses::CPose3DPDFGaussian(), frame);
+  auto frame = mrpt::obs::CSensoryFrame::Create();
+  frame->insert(roomScan({0, 0, 0}));
+  map.insert(mrpt::poses::CPose3DPDFGaussian::Create(), frame);
+  map.insert(mrpt::poses::CPose3DPDFGaussian::Create(), frame);
   return bytesOf(map);
 }
 

@@ -74,10 +74,10 @@ std::string logBytes()
 std::string simplemapBytes()
 {
   auto map = mrpt::maps::CSimpleMap::Create();
-  mrpt::obs::CSensoryFrame frame;
-  frame.insert(shortScan(1));
-  map->insert(mrpt::poses::CPose3DPDFGaussian(), frame);
-  map->insert(mrpt::poses::CPose3DPDFGaussian(), frame);
+  auto frame = mrpt::obs::CSensoryFrame::Create();
+  frame->insert(shortScan(1));
+  map->insert(mrpt::poses::CPose3DPDFGaussian::Create(), frame);
+  map->insert(mrpt::poses::CPose3DPDFGaussian::Create(), frame);
   return bytesOf({map});
 }
 

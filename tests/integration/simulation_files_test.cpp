@@ -20,6 +20,7 @@
 
 #include "bridge/rawlog_files.h"
 #include "eval/worlds/world_generators.h"
+#include "io/key_frames.h"
 #include "io/scan_conversion.h"
 
 namespace sigloc
@@ -129,7 +130,7 @@ TEST_F(SimulationFiles, SimpleMapReadsBackAndFitsTheGridMap)
   std::size_t near_wall = 0;
   for (std::size_t i = 0; i < map.size(); ++i)
   {
-    const auto [pose, frame] = map.get(i);
+    const auto [pose, frame] = keyFrameOf(map, i);
     const TPose2D robot = mrpt::poses::CPose2D(pose->getMeanVal()).asTPose();
     EXPECT_NEAR(robot.x, scans[i].map_from_robot.x, 1e-9);
     EXPECT_NEAR(robot.phi, scans[i].map_from_robot.phi, 1e-9);

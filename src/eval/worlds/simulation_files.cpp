@@ -147,12 +147,12 @@ void writeSimpleMap(const std::vector<PosedScans>& scans, const fs::path& path)
   double time = kSimulationEpoch;
   for (const PosedScans& key_frame : scans)
   {
-    mrpt::poses::CPose3DPDFGaussian pose;
-    pose.mean = mrpt::poses::CPose3D(mrpt::poses::CPose2D(key_frame.map_from_robot));
-    pose.cov.setIdentity();
-    pose.cov *= kPoseSigma * kPoseSigma;
-    mrpt::obs::CSensoryFrame frame;
-    for (const LaserScan& scan : key_frame.scans) frame.insert(toRangeScan(scan, time));
+    auto pose = mrpt::poses::CPose3DPDFGaussian::Create();
+    pose->mean = mrpt::poses::CPose3D(mrpt::poses::CPose2D(key_frame.map_from_robot));
+    pose->cov.setIdentity();
+    pose->cov *= kPoseSigma * kPoseSigma;
+    auto frame = mrpt::obs::CSensoryFrame::Create();
+    for (const LaserScan& scan : key_frame.scans) frame->insert(toRangeScan(scan, time));
     map.insert(pose, frame);
     time += 1.0;
   }

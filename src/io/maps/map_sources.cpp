@@ -18,6 +18,7 @@
 
 #include "io/archive/checked_archive.h"
 #include "io/archive/gzip_input.h"
+#include "io/key_frames.h"
 #include "io/maps/map_reach.h"
 #include "io/maps/map_source_readers.h"
 #include "io/scan_conversion.h"
@@ -183,7 +184,7 @@ std::vector<PosedScans> posedScansOf(const mrpt::maps::CSimpleMap& simplemap)
   std::vector<PosedScans> posed_scans;
   for (std::size_t i = 0; i < simplemap.size(); ++i)
   {
-    const auto [pose, frame] = simplemap.get(i);
+    const auto [pose, frame] = keyFrameOf(simplemap, i);
     if (!pose || !frame) continue;
     const mrpt::poses::CPose2D mean(pose->getMeanVal());
     PosedScans posed;
@@ -205,7 +206,7 @@ std::string warningOfMapSource(const std::filesystem::path& path)
   std::vector<double> heights;
   for (std::size_t i = 0; i < simplemap.size(); ++i)
   {
-    const auto pose = std::get<0>(simplemap.get(i));
+    const auto pose = keyFrameOf(simplemap, i).pose;
     if (!pose) continue;
     const mrpt::poses::CPose3D mean = pose->getMeanVal();
     if (!isFinite(mrpt::poses::CPose2D(mean)))
