@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "hwdrivers/RawlogReplay.h"
 
+#include <unistd.h>
+
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
-#include <stdexcept>
+#include <array>
 #include <utility>
 
 #include "io/archive/checked_archive.h"
@@ -19,6 +21,19 @@ using mrpt::obs::CActionCollection;
 using mrpt::obs::CObservation;
 using mrpt::obs::CObservationOdometry;
 using mrpt::obs::CSensoryFrame;
+
+namespace
+{
+/// Lets the process read a key from its standard input, as if somebody had typed it.
+void pressKey()
+{
+  std::array<int, 2> ends{};
+  if (pipe(ends.data()) != 0) return;
+  // The end that is written to stays open: a reader would find the end of the file otherwise.
+  if (write(ends[1], "\n", 1) == 1) dup2(ends[0], STDIN_FILENO);
+  close(ends[0]);
+}
+}  // namespace
 
 void RawlogReplay::loadConfig_sensorSpecific(const mrpt::config::CConfigFileBase& source,
                                              const std::string& section)
@@ -37,11 +52,9 @@ void RawlogReplay::doProcess()
 {
   if (idle_ == 0 && playNext()) return;
   idle_ += 1 / m_process_rate;
-  if (stop_after_end_ > 0 && idle_ > stop_after_end_)
-  {
-    // The only way in which a sensor can end rawlog-grabber, which logs it as an error.
-    throw std::runtime_error(path_ + ": played to its end: all is well, the log is complete");
-  }
+  if (stop_after_end_ <= 0 || idle_ <= stop_after_end_ || key_pressed_) return;
+  key_pressed_ = true;
+  pressKey();
 }
 
 /// Returns false at the end of the log, or where it is damaged.

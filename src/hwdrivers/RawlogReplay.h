@@ -22,7 +22,9 @@ namespace sigloc
 ///
 /// * `rawlog`: the file
 /// * `stop_after_end_s`: how long [s] after the log's end rawlog-grabber is stopped (10; 0: never).
-///   The delay lets it write all observations, because it writes half of the waiting ones at a time
+///   The delay lets it write all observations, because it writes half of the waiting ones at a
+///   time. rawlog-grabber ends at a key press, and at an exception, which it calls an error. So a
+///   key is pressed: the process's standard input becomes a pipe that holds one
 class RawlogReplay : public mrpt::hwdrivers::CGenericSensor
 {
   DEFINE_GENERIC_SENSOR(RawlogReplay)
@@ -30,7 +32,7 @@ class RawlogReplay : public mrpt::hwdrivers::CGenericSensor
  public:
   /// Throws std::runtime_error with path and reason for a file that can't be opened.
   void initialize() override;
-  /// Throws std::runtime_error some time after the log has ended, which ends rawlog-grabber.
+  /// Presses a key some time after the log has ended, once, which ends rawlog-grabber.
   void doProcess() override;
 
  private:
@@ -45,6 +47,7 @@ class RawlogReplay : public mrpt::hwdrivers::CGenericSensor
   std::unique_ptr<detail::GzipInput> input_;
   mrpt::obs::CActionCollection::Ptr actions_;  // before the next frame
   double idle_ = 0;  // [s] since the end
+  bool key_pressed_ = false;
   mrpt::poses::CPose2D odometry_;
 };
 }  // namespace sigloc

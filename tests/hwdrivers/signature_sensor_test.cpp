@@ -3,8 +3,13 @@
 #include "hwdrivers/SignatureSensor.h"
 
 #include <gtest/gtest.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <mrpt/config/CConfigFile.h>
 #include <mrpt/config/CConfigFileMemory.h>
 #include <mrpt/obs/CObservationOdometry.h>
+#include <array>
 
 #include <cmath>
 
@@ -38,24 +43,63 @@ CGenericSensor::Ptr sensorWith(const mrpt::config::CConfigFileMemory& ini)
 std::vector<mrpt::obs::CObservation::Ptr> playAll(CGenericSensor& sensor)
 {
   std::vector<mrpt::obs::CObservation::Ptr> all;
-  try
+  for (int i = 0; i < 1000; ++i)
   {
-    for (int i = 0; i < 1000; ++i)
+    sensor.doProcess();
+    for (const auto& [time, object] : sensor.getObservations())
     {
-      sensor.doProcess();
-      for (const auto& [time, object] : sensor.getObservations())
-      {
-        all.push_back(std::dynamic_pointer_cast<mrpt::obs::CObservation>(object));
-      }
+      all.push_back(std::dynamic_pointer_cast<mrpt::obs::CObservation>(object));
     }
-  }
-  catch (const std::runtime_error& error)
-  {
-    EXPECT_NE(std::string(error.what()).find("played to its end"), std::string::npos);
   }
   return all;
 }
+
+/// Gives the process an empty pipe as its standard input, and back what it had.
+class EmptyInput
+{
+ public:
+  EmptyInput() : before_(dup(STDIN_FILENO))
+  {
+    std::array<int, 2> ends{};
+    EXPECT_EQ(pipe(ends.data()), 0);
+    dup2(ends[0], STDIN_FILENO);
+    close(ends[0]);
+    writing_ = ends[1];
+  }
+  ~EmptyInput()
+  {
+    if (before_ >= 0) dup2(before_, STDIN_FILENO);
+    close(before_);
+    close(writing_);
+  }
+  EmptyInput(const EmptyInput&) = delete;
+  EmptyInput& operator=(const EmptyInput&) = delete;
+
+  static int waitingKeys()
+  {
+    int count = 0;
+    EXPECT_EQ(ioctl(STDIN_FILENO, FIONREAD, &count), 0);
+    return count;
+  }
+
+ private:
+  int before_;
+  int writing_ = -1;
+};
 }  // namespace
+
+TEST(SignatureSensor, PressesAKeyOnceAfterTheLogHasEnded)
+{
+  const EmptyInput input;
+  const TemporaryFolder folder;
+  const auto path = folder / "in.rawlog";
+  writeObjects(path, {makeScan(1, 3.0F, "FRONT"), makeScan(2, 4.0F, "FRONT")});
+  const auto sensor = sensorWith(config(path.string()));
+  for (int i = 0; i < 6; ++i) sensor->doProcess();
+  EXPECT_EQ(EmptyInput::waitingKeys(), 0) << "0.05 s are five calls after the end";
+  EXPECT_NO_THROW(playAll(*sensor));
+  EXPECT_EQ(EmptyInput::waitingKeys(), 1);
+}
 
 TEST(SignatureSensor, AddsSignaturesToWhatALogHolds)
 {
@@ -105,4 +149,16 @@ TEST(SignatureSensor, RefusesWhatItDoesNotKnow)
   auto itself = config("x");
   itself.write("L", "laser_driver", std::string("SignatureSensor"));
   EXPECT_NE(message(itself).find("no such sensor"), std::string::npos);
+}
+
+TEST(SignatureSensor, TakesTheShippedFilesOfEveryLaser)
+{
+  for (const char* const name : {"rawlog-grabber.ini", "rawlog-sick.ini", "rawlog-rplidar.ini"})
+  {
+    const mrpt::config::CConfigFile ini(std::string(SIGLOC_SHARE_FOLDER) + "/" + name);
+    const auto sensor =
+        CGenericSensor::createSensorPtr(ini.read_string("LASER", "driver", "", true));
+    ASSERT_TRUE(sensor) << name;
+    EXPECT_NO_THROW(sensor->loadConfig(ini, "LASER")) << name;
+  }
 }
