@@ -183,7 +183,8 @@ int main(int argc, char** argv)
   auto* const config =
       app.add_option("CONFIG.ini", arguments.config, "configuration, as pf-localization reads it");
   auto* const rawlog =
-      app.add_option("DATASET.rawlog", arguments.rawlog, "log to use instead of rawlog_file");
+      app.add_option("DATASET.rawlog", arguments.rawlog,
+                     "log to use instead of rawlog_file; a CARMEN log (.log, .clf), too");
   auto* const map = app.add_option(
       "--map", arguments.map,
       "map to localize in, instead of map_file: " + sigloc::mapFormatNames() + ". .gz may follow");

@@ -14,9 +14,8 @@
 #include <string>
 #include <utility>
 
-#include "io/archive/checked_archive.h"
-#include "io/archive/gzip_input.h"
 #include "io/archive/UnreadObservation.h"
+#include "io/LogObjects.h"
 #include "io/motion_conversion.h"
 #include "io/scan_conversion.h"
 #include "io/sensor_mount.h"
@@ -93,7 +92,7 @@ CPose2D interpolated(const OdometryReading& a, const OdometryReading& b, double 
 
 struct RawlogReader::State
 {
-  explicit State(const std::filesystem::path& path) : input(path) {}
+  explicit State(const std::filesystem::path& path) : objects(path) {}
 
   mrpt::serialization::CSerializable::Ptr readObject();
   void skipFrameBeforeActions(const mrpt::serialization::CSerializable::Ptr& first_object);
@@ -109,11 +108,9 @@ struct RawlogReader::State
                                           double seconds);
   double timeOf(const CObservation& observation);
 
-  detail::GzipInput input;
+  detail::LogObjects objects;
   std::deque<mrpt::serialization::CSerializable::Ptr> read_ahead;
   std::size_t objects_taken = 0;
-  bool truncated = false;
-  bool ended = false;
   LeftOutOfLog left_out;
   double latest_time = 0;  // [s], used where an entry has none
 
@@ -139,22 +136,7 @@ mrpt::serialization::CSerializable::Ptr RawlogReader::State::readObject()
     read_ahead.pop_front();
     return object;
   }
-  if (ended) return nullptr;
-  try
-  {
-    const bool more = !input.atEnd();
-    auto object = more ? detail::readLogEntry(input) : nullptr;
-    if (object) return object;
-    truncated = more || input.damaged();
-  }
-  catch (const std::exception&)
-  {
-    // Cut off within an object, damaged, or an object of a class nobody registered: in MRPT's
-    // format nothing after it can be read.
-    truncated = true;
-  }
-  ended = true;
-  return nullptr;
+  return objects.next();
 }
 
 // MRPT counts the pairs of an action and the frame after it. A frame before the first action is no
@@ -317,17 +299,9 @@ std::optional<MotionIncrement> RawlogReader::State::believed(
 RawlogReader::RawlogReader(const std::filesystem::path& path)
     : state_(std::make_unique<State>(path))
 {
-  detail::requireIntact(path);
-  const std::string name = state_->input.nextClassName();
-  const auto fail = [&](const std::string& reason)
-  { throw std::runtime_error(path.string() + ": " + reason); };
-  if (name.empty())
-  {
-    fail(state_->input.damaged() ? "truncated or damaged" : "not a rawlog");
-  }
-  if (!detail::isLogClass(name)) fail("not a rawlog: it starts with a '" + name + "'");
   const auto first = state_->readObject();
-  if (!first) fail("truncated or damaged: not one entry could be read");
+  if (!first)
+    throw std::runtime_error(path.string() + ": truncated or damaged: not one entry could be read");
   state_->skipFrameBeforeActions(first);
 }
 
@@ -348,7 +322,7 @@ std::optional<RawlogStep> RawlogReader::next()
 
 bool RawlogReader::truncated() const
 {
-  return state_->truncated;
+  return state_->objects.truncated();
 }
 
 const LeftOutOfLog& RawlogReader::leftOut() const
@@ -358,7 +332,7 @@ const LeftOutOfLog& RawlogReader::leftOut() const
 
 double RawlogReader::progress() const
 {
-  return state_->ended ? 1.0 : state_->input.progress();
+  return state_->objects.progress();
 }
 
 ObservedScene observe(const RawlogStep& step, const FeatureExtractorOptions& extraction)

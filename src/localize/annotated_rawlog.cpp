@@ -5,11 +5,9 @@
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/serialization/CArchive.h>
 
-#include <exception>
 #include <nlohmann/json.hpp>
 
-#include "io/archive/checked_archive.h"
-#include "io/archive/gzip_input.h"
+#include "io/LogObjects.h"
 #include "sigloc/io/file_output.h"
 #include "sigloc/localize/RunWriter.h"
 #include "sigloc/plugin/pose_pdf.h"
@@ -19,20 +17,6 @@ namespace sigloc
 namespace
 {
 using mrpt::serialization::CArchive;
-
-/// Returns the log's next object, or null at its end or where it cannot be read any further.
-mrpt::serialization::CSerializable::Ptr nextObject(detail::GzipInput& input)
-{
-  try
-  {
-    if (input.atEnd()) return nullptr;
-    return detail::readLogEntry(input);
-  }
-  catch (const std::exception&)
-  {
-    return nullptr;
-  }
-}
 
 nlohmann::ordered_json toJson(const TrackedHypothesis& hypothesis)
 {
@@ -93,12 +77,12 @@ std::vector<mrpt::obs::CObservation::Ptr> observationsOf(const StepRecord& step,
   return all;
 }
 
-void annotate(detail::GzipInput& input, const LocalizationRun& run, CArchive& archive)
+void annotate(detail::LogObjects& log, const LocalizationRun& run, CArchive& archive)
 {
   const std::vector<StepRecord>& steps = run.steps();
   auto step = steps.begin();
   std::size_t entry = 0;
-  while (const auto object = nextObject(input))
+  while (const auto object = log.next())
   {
     std::vector<mrpt::obs::CObservation::Ptr> added;
     if (step != steps.end() && step->entry == entry)
@@ -121,7 +105,7 @@ void annotate(detail::GzipInput& input, const LocalizationRun& run, CArchive& ar
 
 void writeAnnotatedRawlog(const LocalizationRun& run, const std::filesystem::path& output)
 {
-  detail::GzipInput input(run.setup().rawlog_file);
-  writeObjects(output, [&](CArchive& archive) { annotate(input, run, archive); });
+  detail::LogObjects log(run.setup().rawlog_file);
+  writeObjects(output, [&](CArchive& archive) { annotate(log, run, archive); });
 }
 }  // namespace sigloc

@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "io/carmen_log.h"
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
-#include "io/maps/map_source_readers.h"
 #include "io/text_rows.h"
 
 namespace sigloc::detail
@@ -15,6 +16,7 @@ namespace
 constexpr double kDegree = M_PI / 180.0;
 constexpr double kFlaserMaxRange = 80.0;  // [m], a SICK LMS; it writes 81.83 for "no return"
 constexpr std::size_t kMostBeams = 100000;
+constexpr double kLatest = 1e10;  // [s] of a clock
 
 /// The words of one message, taken front to back; a missing or bad one is an error of the line.
 class Message
@@ -54,6 +56,8 @@ class Message
   }
 
   void skip(std::size_t n) { next_ += n; }
+  /// How many words have not been taken.
+  std::size_t left() const { return words_.size() - std::min(next_, words_.size()); }
 
  private:
   std::vector<std::string_view> words_;
@@ -83,9 +87,29 @@ mrpt::math::TPose2D readPose(Message& message)
   return {x, y, std::remainder(phi, 2 * M_PI)};
 }
 
-PosedScans readFlaser(Message& message)
+/// Odometry and time, where a message goes on: `skipped` words are between the two.
+void readOdometry(Message& message, std::size_t skipped, CarmenScan& seen)
 {
-  LaserScan scan;
+  constexpr std::size_t kPose = 3;
+  if (message.left() < kPose + skipped + 1) return;
+  seen.odometry = readPose(message);
+  message.skip(skipped);
+  const double time = message.number();
+  if (time >= 0 && time < kLatest) seen.time = time;
+}
+
+/// Where the laser is on the robot; where it would be far off, the two poses are of two frames.
+mrpt::math::TPose2D mountFrom(const mrpt::math::TPose2D& robot_from_laser)
+{
+  constexpr double kFarthest = 2.0;  // [m]
+  const bool near = std::hypot(robot_from_laser.x, robot_from_laser.y) < kFarthest;
+  return near ? robot_from_laser : mrpt::math::TPose2D();
+}
+
+CarmenScan readFlaser(Message& message)
+{
+  CarmenScan seen;
+  LaserScan& scan = seen.scan;
   const std::size_t n = message.count();
   scan.max_range = kFlaserMaxRange;
   // The LMS's settings: 100 degrees in 0.25 or 0.5 degrees, else 180 degrees, of which an even
@@ -95,15 +119,15 @@ PosedScans readFlaser(Message& message)
   scan.first_angle = -0.5 * span * kDegree;
   scan.angle_step = span * kDegree / std::max(1.0, steps);
   readRanges(message, n, scan);
-  PosedScans posed;
-  posed.map_from_robot = readPose(message);
-  posed.scans.push_back(std::move(scan));
-  return posed;
+  seen.laser = readPose(message);
+  readOdometry(message, 0, seen);
+  return seen;
 }
 
-PosedScans readRobotLaser(Message& message)
+CarmenScan readRobotLaser(Message& message)
 {
-  LaserScan scan;
+  CarmenScan seen;
+  LaserScan& scan = seen.scan;
   message.skip(1);  // laser type
   scan.first_angle = message.number();
   message.skip(1);  // field of view: follows from the resolution
@@ -114,37 +138,37 @@ PosedScans readRobotLaser(Message& message)
   const std::size_t n = message.count();
   readRanges(message, n, scan);
   message.skip(message.count());  // remissions
-  PosedScans posed;
-  posed.map_from_robot = readPose(message);
-  posed.scans.push_back(std::move(scan));
-  return posed;
+  seen.laser = readPose(message);
+  readOdometry(message, 5, seen);  // speeds and safety distances
+  if (seen.odometry) scan.robot_from_sensor = mountFrom(seen.laser - *seen.odometry);
+  return seen;
 }
 
 /// Some logs clip far readings to one value. So many readings at exactly the maximum are no
 /// returns.
-void dropClippedReadings(std::vector<PosedScans>& log)
+void dropClippedReadings(std::vector<CarmenScan>& log)
 {
   constexpr float kSame = 0.005F;  // [m]
   constexpr double kShare = 0.001;
   float farthest = 0;
-  for (const auto& posed : log)
+  for (const CarmenScan& seen : log)
   {
-    for (const float range : posed.scans.front().ranges) farthest = std::max(farthest, range);
+    for (const float range : seen.scan.ranges) farthest = std::max(farthest, range);
   }
   std::size_t all = 0;
   std::size_t at_farthest = 0;
   const float limit = farthest - kSame;
-  for (const auto& posed : log)
+  for (const CarmenScan& seen : log)
   {
-    const auto& ranges = posed.scans.front().ranges;
+    const auto& ranges = seen.scan.ranges;
     all += ranges.size();
     at_farthest += static_cast<std::size_t>(
         std::count_if(ranges.begin(), ranges.end(), [&](float r) { return r >= limit; }));
   }
   if (static_cast<double>(at_farthest) < std::max(10.0, kShare * static_cast<double>(all))) return;
-  for (auto& posed : log)
+  for (CarmenScan& seen : log)
   {
-    LaserScan& scan = posed.scans.front();
+    LaserScan& scan = seen.scan;
     scan.max_range = std::min(scan.max_range, static_cast<double>(farthest));
     for (std::size_t i = 0; i < scan.ranges.size(); ++i)
     {
@@ -154,22 +178,29 @@ void dropClippedReadings(std::vector<PosedScans>& log)
 }
 }  // namespace
 
-std::vector<PosedScans> readCarmenLog(const std::filesystem::path& path)
+std::vector<CarmenScan> readCarmenScans(const std::filesystem::path& path)
 {
   const std::vector<std::string> lines = readLines(path);
-  std::vector<PosedScans> log;
+  std::vector<CarmenScan> log;
   for (std::size_t i = 0; i < lines.size(); ++i)
   {
     Message message(lines[i], path, i);
     const bool flaser = message.name() == "FLASER";
     if (!flaser && message.name() != "ROBOTLASER1") continue;
-    PosedScans posed = flaser ? readFlaser(message) : readRobotLaser(message);
-    const LaserScan& scan = posed.scans.front();
-    if (!(scan.angle_step > 0)) failAtLine(path, i, "angle step is not positive");
-    if (scan.ranges.size() >= 2) log.push_back(std::move(posed));
+    CarmenScan seen = flaser ? readFlaser(message) : readRobotLaser(message);
+    if (!(seen.scan.angle_step > 0)) failAtLine(path, i, "angle step is not positive");
+    if (seen.scan.ranges.size() >= 2) log.push_back(std::move(seen));
   }
   if (log.empty()) throw std::runtime_error(path.string() + ": no FLASER or ROBOTLASER1 message");
   dropClippedReadings(log);
   return log;
+}
+
+bool isCarmenLog(const std::filesystem::path& path)
+{
+  std::filesystem::path name = path.filename();
+  if (name.extension() == ".gz") name = name.stem();
+  const std::string ending = name.extension().string();
+  return ending == ".log" || ending == ".clf" || ending == ".carmen";
 }
 }  // namespace sigloc::detail

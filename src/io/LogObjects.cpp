@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/LogObjects.h"
+
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservationOdometry.h>
+
+#include <stdexcept>
+#include <string>
+
+#include "io/archive/checked_archive.h"
+#include "io/carmen_log.h"
+#include "io/scan_conversion.h"
+
+namespace sigloc::detail
+{
+using mrpt::math::TPose2D;
+
+namespace
+{
+constexpr double kPeriod = 0.1;  // [s] between two scans without times
+
+mrpt::obs::CObservationOdometry::Ptr odometryOf(const TPose2D& pose, double time)
+{
+  auto odometry = mrpt::obs::CObservationOdometry::Create();
+  odometry->sensorLabel = "ODOMETRY";
+  odometry->timestamp = mrpt::Clock::fromDouble(time);
+  odometry->odometry = mrpt::poses::CPose2D(pose);
+  return odometry;
+}
+}  // namespace
+
+LogObjects::LogObjects(const std::filesystem::path& path)
+{
+  if (!isCarmenLog(path))
+  {
+    openRawlog(path);
+    return;
+  }
+  double time = 0;
+  for (CarmenScan& seen : readCarmenScans(path))
+  {
+    time = seen.time.value_or(time + kPeriod);
+    if (seen.odometry) made_.push_back(odometryOf(*seen.odometry, time));
+    made_.push_back(toRangeScan(seen.scan, time));
+  }
+  count_ = made_.size();
+}
+
+void LogObjects::openRawlog(const std::filesystem::path& path)
+{
+  input_ = std::make_unique<GzipInput>(path);
+  requireIntact(path);
+  const std::string name = input_->nextClassName();
+  const auto fail = [&](const std::string& reason)
+  { throw std::runtime_error(path.string() + ": " + reason); };
+  if (name.empty()) fail(input_->damaged() ? "truncated or damaged" : "not a rawlog");
+  if (!isLogClass(name)) fail("not a rawlog: it starts with a '" + name + "'");
+}
+
+mrpt::serialization::CSerializable::Ptr LogObjects::next()
+{
+  if (ended_) return nullptr;
+  if (!input_)
+  {
+    ended_ = made_.empty();
+    if (ended_) return nullptr;
+    auto object = std::move(made_.front());
+    made_.pop_front();
+    return object;
+  }
+  try
+  {
+    const bool more = !input_->atEnd();
+    auto object = more ? readLogEntry(*input_) : nullptr;
+    if (object) return object;
+    truncated_ = more || input_->damaged();
+  }
+  catch (const std::exception&)
+  {
+    // Cut off within an object, damaged, or an object of a class nobody registered: in MRPT's
+    // format nothing after it can be read.
+    truncated_ = true;
+  }
+  ended_ = true;
+  return nullptr;
+}
+
+double LogObjects::progress() const
+{
+  if (ended_) return 1.0;
+  if (input_) return input_->progress();
+  return 1.0 - static_cast<double>(made_.size()) / static_cast<double>(count_);
+}
+}  // namespace sigloc::detail

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mrpt/math/TPose2D.h>
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "sigloc/features/LaserScan.h"
+
+namespace sigloc::detail
+{
+/// One FLASER or ROBOTLASER1 message.
+struct CarmenScan
+{
+  LaserScan scan;  ///< of ROBOTLASER1 with the mount that its two poses tell; else without
+  mrpt::math::TPose2D laser;  ///< the laser's pose, corrected in a corrected log
+  std::optional<mrpt::math::TPose2D>
+      odometry;  ///< the robot's pose; none where the line ends early
+  std::optional<double> time;  ///< [s]; none where the line ends early
+};
+
+/// Reads the laser messages of a CARMEN log, in its order. A FLASER message of n beams covers 180
+/// degrees from -90 in steps of 180/n (n even) or 180/(n-1) degrees (n odd). Throws
+/// std::runtime_error "path: reason".
+std::vector<CarmenScan> readCarmenScans(const std::filesystem::path& path);
+
+/// True for the name of a CARMEN log: `.log`, `.clf` or `.carmen`, with or without `.gz`.
+bool isCarmenLog(const std::filesystem::path& path);
+}  // namespace sigloc::detail

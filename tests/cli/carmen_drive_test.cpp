@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// A CARMEN log as a drive: the answer is that of the same drive as a rawlog.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iomanip>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "command_line.h"
+#include "sigloc/io/RawlogReader.h"
+
+namespace sigloc
+{
+namespace
+{
+using namespace sigloc::test;
+using mrpt::math::TPose2D;
+using nlohmann::json;
+
+const std::filesystem::path kDrive = kSources / "rawlogs/office.rawlog";
+const std::filesystem::path kOffice = kSources / "maps/office.simplemap";
+
+/// A step as a ROBOTLASER1 message; its robot is at `odometry`.
+std::string robotLaser(const RawlogStep& step, const TPose2D& odometry)
+{
+  const LaserScan& scan = step.scans.front();
+  std::ostringstream line;
+  line << std::setprecision(10) << "ROBOTLASER1 0 " << scan.first_angle << " 0 " << scan.angle_step
+       << " " << scan.max_range << " " << scan.range_sigma << " 0 " << scan.ranges.size();
+  for (std::size_t i = 0; i < scan.ranges.size(); ++i)
+    line << " " << (scan.valid[i] != 0 ? scan.ranges[i] : 0.0F);
+  const TPose2D laser = odometry + scan.robot_from_sensor;
+  line << " 0";
+  for (const TPose2D& pose : {laser, odometry})
+    line << " " << pose.x << " " << pose.y << " " << pose.phi;
+  line << " 0 0 0 0 0 " << step.time << " host " << step.time << "\n";
+  return line.str();
+}
+
+/// The office's drive as a CARMEN log.
+std::string carmenDrive()
+{
+  std::string log = "# a comment, and a message that is no scan\nODOM 0 0 0 0 0 0 1 host 1\n";
+  RawlogReader reader(kDrive);
+  TPose2D odometry;
+  while (const auto step = reader.next())
+  {
+    if (step->motion) odometry = odometry + step->motion->mean;
+    log += robotLaser(*step, odometry);
+  }
+  return log;
+}
+
+json localize(const TemporaryFolder& folder, const std::string& log, const std::string& out)
+{
+  const CommandResult result =
+      run(folder, "sigloc-localize",
+          {"--map", kOffice.string(), "--log", log, "--out", out, "--quiet"});
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  return json::parse(readBytes(folder / (out + "/summary.json")));
+}
+
+TEST(CarmenDrive, isLocalizedAsItsRawlogIs)
+{
+  const TemporaryFolder folder;
+  writeText(folder / "drive.clf", carmenDrive());
+  const json expected = localize(folder, kDrive.string(), "rawlog");
+  const json carmen = localize(folder, "drive.clf", "carmen");
+  EXPECT_EQ(carmen["steps"], expected["steps"]);
+  EXPECT_EQ(carmen["final_verdict"], "localized");
+  EXPECT_NEAR(carmen["distance_m"].get<double>(), expected["distance_m"].get<double>(), 0.1);
+  EXPECT_NEAR(carmen["steps_to_localized"].get<double>(),
+              expected["steps_to_localized"].get<double>(), 5);
+  for (int i = 0; i < 3; ++i)
+  {
+    EXPECT_NEAR(carmen["final_pose"][i].get<double>(), expected["final_pose"][i].get<double>(),
+                0.02);
+  }
+}
+
+TEST(CarmenDrive, isWrittenAsARawlogWithThePoses)
+{
+  const TemporaryFolder folder;
+  writeText(folder / "drive.log", carmenDrive());
+  const json summary = localize(folder, "drive.log", "out");
+  RawlogReader annotated(folder / "out/annotated.rawlog");
+  std::size_t steps = 0;
+  std::size_t poses = 0;
+  while (const auto step = annotated.next())
+  {
+    ++steps;
+    for (const auto& seen : *step->frame) poses += seen->sensorLabel == "sigloc" ? 1 : 0;
+  }
+  EXPECT_EQ(steps, summary["steps"].get<std::size_t>());
+  EXPECT_GE(poses, summary["localized_steps"].get<std::size_t>() - 1);
+}
+
+TEST(CarmenDrive, withoutOdometryAndTimesItIsAnsweredToo)
+{
+  const TemporaryFolder folder;
+  std::string line = "FLASER 181";
+  for (int i = 0; i < 181; ++i) line += " 3";
+  writeText(folder / "drive.log", line + " 0 0 0\n" + line + " 0 0 0\n");
+  const json summary = localize(folder, "drive.log", "out");
+  EXPECT_EQ(summary["steps"], 2);
+  EXPECT_TRUE(summary["distance_m"].is_null());
+}
+
+TEST(CarmenDrive, aBadOneIsRefusedInOneLine)
+{
+  const TemporaryFolder folder;
+  writeText(folder / "none.log", "ODOM 1 2 3 0 0 0 1 host 1\n");
+  writeText(folder / "cut.clf", "FLASER 180 1 2 3\n");
+  for (const auto& [log, why] :
+       {std::pair("none.log", "no FLASER"), std::pair("cut.clf", "line 1")})
+  {
+    const CommandResult result =
+        run(folder, "sigloc-localize", {"--map", kOffice.string(), "--log", log, "--out", "out"});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_EQ(countLines(result.errors), 1) << result.errors;
+    EXPECT_NE(result.errors.find(why), std::string::npos) << result.errors;
+    EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+  }
+}
+}  // namespace
+}  // namespace sigloc
