@@ -54,6 +54,32 @@ const ArchiveWalk::Layout* ArchiveWalk::layoutOf(std::string_view name)
   return found == kLayouts.end() ? nullptr : found;
 }
 
+/// Later versions of MRPT wrote three classes with something more, or nothing more.
+bool ArchiveWalk::isKnown(const Layout& layout, int version)
+{
+  const bool grew = layout.name == "CObservation2DRangeScan" ||  // 8, by MRPT 2.15
+                    layout.name == "CSimpleMap" ||  // 2, by MRPT 2.11.5
+                    layout.name == "COccupancyGridMap2D";  // 7, by MRPT 3
+  return version >= 0 && version <= layout.newest + (grew ? 1 : 0);
+}
+
+void ArchiveWalk::skipNewer(std::size_t bytes)
+{
+  if (use_ == Input::kept) edits_.push_back({at_, bytes, '\0'});
+  skip(bytes);
+}
+
+void ArchiveWalk::makeOlder()
+{
+  // From behind, so that what is to come keeps its place.
+  for (auto edit = edits_.rbegin(); edit != edits_.rend(); ++edit)
+  {
+    edit->left_out > 0 ? input_.leaveOut(edit->at, edit->left_out)
+                       : input_.change(edit->at, edit->value);
+  }
+  edits_.clear();
+}
+
 void ArchiveWalk::need(std::size_t bytes)
 {
   constexpr std::size_t kAtFirst = 4096;
@@ -110,10 +136,16 @@ void ArchiveWalk::object(unsigned parts)
   const Layout* const layout = layoutOf(name);
   if (layout == nullptr) throw Unknown{};
   if ((parts & only(layout->part)) == 0) throw Unsound();
-  if (version < 0 || version > layout->newest)
+  if (!isKnown(*layout, version) || (old && version > layout->newest))
   {
     throw Unsound("holds a '" + name + "' of version " + std::to_string(version) +
                   ", which is not known");
+  }
+  if (version > layout->newest)
+  {
+    newer_ = true;
+    const Edit edit{at_ - 1, 0, static_cast<char>(layout->newest)};
+    if (use_ == Input::kept) edits_.push_back(edit);
   }
   (this->*layout->walk)(version);
   if (!old && value<std::uint8_t>() != kEndFlag) throw Unsound();

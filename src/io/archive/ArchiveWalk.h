@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "io/archive/gzip_input.h"
 
@@ -38,7 +39,8 @@ constexpr unsigned kLogEntry = only(ArchivePart::entry) | only(ArchivePart::obse
 
 /// Walks over MRPT's objects in a file without making them. MRPT's readers believe every count and
 /// every class name; the walk compares each count with the bytes that are there. It knows the
-/// classes that sigloc uses, in all versions that MRPT 2.5 reads.
+/// classes that sigloc uses, in all versions that MRPT 2.5 reads, and in later ones that differ by
+/// what can be left out.
 class ArchiveWalk
 {
  public:
@@ -67,6 +69,12 @@ class ArchiveWalk
   /// Walks over an object that plays one of these parts. Throws Unsound or Unknown.
   void object(unsigned parts);
 
+  /// True where an object was of a version that MRPT 2.5 does not read.
+  bool isNewer() const { return newer_; }
+
+  /// Gives what was walked over, and kept, the form that MRPT 2.5 reads.
+  void makeOlder();
+
  private:
   void skip(std::size_t bytes);
 
@@ -89,6 +97,9 @@ class ArchiveWalk
   void text() { skip(count(1)); }
   void doubles(std::size_t n) { skip(n * sizeof(double)); }
   void floats(std::size_t n) { skip(n * sizeof(float)); }
+
+  /// What MRPT 2.5 does not know: the older form lacks it.
+  void skipNewer(std::size_t bytes);
 
   void need(std::size_t bytes);
   void drop();
@@ -115,21 +126,33 @@ class ArchiveWalk
   void particles2D(int version);
   void particles3D(int version);
   void simplemap(int version);
+  void optionalTwist();
   void gridMap(int version);
   void mapParameters(int version);
+
+  /// A change that makes an object older, in bytes from where the walk began.
+  struct Edit
+  {
+    std::size_t at;
+    std::size_t left_out;  // 0: the byte gets the value
+    char value;
+  };
 
   struct Layout
   {
     std::string_view name;  // without its namespace, which old files lack
     ArchivePart part;
-    int newest;  // version
+    int newest;  // version that MRPT 2.5 reads
     void (ArchiveWalk::*walk)(int version);
   };
   static const Layout* layoutOf(std::string_view name);
+  static bool isKnown(const Layout& layout, int version);
 
   GzipInput& input_;
   Input use_;
   std::string_view ahead_;
   std::size_t at_ = 0;
+  std::vector<Edit> edits_;  // where the input is kept
+  bool newer_ = false;
 };
 }  // namespace sigloc::detail

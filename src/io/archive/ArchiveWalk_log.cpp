@@ -93,6 +93,7 @@ void ArchiveWalk::rangeScan(int version)
     doubles(1);
   }
   if (version >= 7 && flag()) skip(beams * sizeof(std::int32_t));
+  if (version >= 8) skipNewer(sizeof(float));  // how long the sweep took
 }
 
 void ArchiveWalk::odometry(int version)

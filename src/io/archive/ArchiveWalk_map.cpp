@@ -37,6 +37,7 @@ void ArchiveWalk::simplemap(int version)
     {
       object(only(pose));
       object(only(ArchivePart::entry));
+      if (version >= 2) optionalTwist();
     }
     catch (const Unknown&)
     {
@@ -45,6 +46,14 @@ void ArchiveWalk::simplemap(int version)
       throw;
     }
   }
+}
+
+/// The speed that a key frame may have, as MRPT writes an std::optional.
+void ArchiveWalk::optionalTwist()
+{
+  text();
+  text();
+  if (flag()) doubles(6);
 }
 
 void ArchiveWalk::gridMap(int version)

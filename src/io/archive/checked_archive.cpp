@@ -18,30 +18,46 @@ namespace
   throw std::runtime_error(path.string() + ": " + reason);
 }
 
+/// Which reader a file of one simplemap or grid map needs.
+enum class MapReader
+{
+  of_mrpt,
+  of_mrpt_once_older,  // of a version that MRPT 2.5 does not read
+  own,  // with something inside whose layout is not known
+};
+
 /// Judges a file of one simplemap or grid map. Throws ArchiveWalk::Unsound with the reason, if
 /// there is one.
-Soundness soundnessOfMapFile(const std::filesystem::path& path)
+MapReader readerOfMapFile(const std::filesystem::path& path)
 {
+  GzipInput input(path);
+  ArchiveWalk walk(input, ArchiveWalk::Input::consumed);
   try
   {
-    GzipInput input(path);
-    ArchiveWalk(input, ArchiveWalk::Input::consumed)
-        .object(only(ArchivePart::simplemap) | only(ArchivePart::grid_map));
+    walk.object(only(ArchivePart::simplemap) | only(ArchivePart::grid_map));
   }
   catch (const ArchiveWalk::Unknown&)
   {
-    return Soundness::unknown;
+    return MapReader::own;
   }
-  return Soundness::sound;
+  return walk.isNewer() ? MapReader::of_mrpt_once_older : MapReader::of_mrpt;
 }
 
 /// Fills an object from a file of one. Returns false where MRPT must not read it.
-bool take(GzipInput& input, Soundness soundness, mrpt::serialization::CSerializable& object)
+bool take(GzipInput& input, MapReader reader, mrpt::serialization::CSerializable& object)
 {
-  if (soundness == Soundness::unknown)
+  auto* const simplemap = dynamic_cast<mrpt::maps::CSimpleMap*>(&object);
+  if (reader != MapReader::of_mrpt && simplemap != nullptr)
   {
-    auto* const simplemap = dynamic_cast<mrpt::maps::CSimpleMap*>(&object);
-    return simplemap != nullptr && takeMixedSimplemap(input, *simplemap);
+    return takeMixedSimplemap(input, *simplemap);
+  }
+  if (reader == MapReader::own) return false;
+  if (reader == MapReader::of_mrpt_once_older)
+  {
+    constexpr char kGridMap = 6;  // version 7 differs from it by nothing
+    const auto header = objectHeaderIn(input.peek(kLongestObjectHeader));
+    if (!header) return false;
+    input.change(header->size, kGridMap);
   }
   auto archive = mrpt::serialization::archiveFrom(input);
   archive.ReadObject(&object);
@@ -53,7 +69,9 @@ Soundness soundnessOfNext(GzipInput& input, unsigned parts)
 {
   try
   {
-    ArchiveWalk(input, ArchiveWalk::Input::kept).object(parts);
+    ArchiveWalk walk(input, ArchiveWalk::Input::kept);
+    walk.object(parts);
+    walk.makeOlder();
   }
   catch (const ArchiveWalk::Unsound&)
   {
@@ -79,10 +97,10 @@ void readObjectFile(const std::filesystem::path& path, mrpt::serialization::CSer
   {
     fail(path, "holds a '" + name + "', not a '" + expected->className + "'");
   }
-  Soundness soundness = Soundness::sound;
+  MapReader reader = MapReader::of_mrpt;
   try
   {
-    soundness = soundnessOfMapFile(path);
+    reader = readerOfMapFile(path);
   }
   catch (const ArchiveWalk::Unsound& unsound)
   {
@@ -91,7 +109,7 @@ void readObjectFile(const std::filesystem::path& path, mrpt::serialization::CSer
   bool whole = false;
   try
   {
-    whole = take(input, soundness, object);
+    whole = take(input, reader, object);
     // The checksum of a compressed file comes after its last byte.
     input.atEnd();
   }

@@ -20,7 +20,7 @@ enum class Soundness
 };
 
 /// Judges the next object of a log without consuming it, by an ArchiveWalk. `parts` are those that
-/// it may play.
+/// it may play. A sound one of a version that MRPT 2.5 does not read gets the form that it does.
 Soundness soundnessOfNext(GzipInput& input, unsigned parts);
 
 /// True for the name of a class that a log is made of, whether it is registered or not.
@@ -31,8 +31,9 @@ bool isLogClass(const std::string& name);
 /// MRPT's readers pass.
 mrpt::serialization::CSerializable::Ptr readLogEntry(GzipInput& input);
 
-/// Fills a simplemap that holds observations whose layout is not known; they become
-/// UnreadObservations. Returns false where it is unsound. Exceptions of MRPT's readers pass.
+/// Fills a simplemap that holds observations whose layout is not known, or objects of versions that
+/// MRPT 2.5 does not read. The former become UnreadObservations. Returns false where it is unsound.
+/// Exceptions of MRPT's readers pass.
 bool takeMixedSimplemap(GzipInput& input, mrpt::maps::CSimpleMap& map);
 
 /// Fills `object` from a file that holds one object of its class.

@@ -227,6 +227,16 @@ std::string GzipInput::nextClassName()
   return header ? std::string(header->name) : std::string{};
 }
 
+void GzipInput::change(std::size_t at, char value)
+{
+  ahead_.at(ahead_from_ + at) = value;
+}
+
+void GzipInput::leaveOut(std::size_t at, std::size_t count)
+{
+  ahead_.erase(ahead_from_ + at, count);
+}
+
 void GzipInput::drop(std::size_t count)
 {
   const std::size_t dropped = std::min(count, ahead_.size() - ahead_from_);

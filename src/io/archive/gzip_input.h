@@ -53,6 +53,9 @@ class GzipInput final : public mrpt::io::CStream
   std::string_view peek(std::size_t count);
   /// Consumes what was looked at by peek(), `count` bytes of it.
   void drop(std::size_t count);
+  /// Change what peek() has shown, from the next byte on: one byte, or leave some out.
+  void change(std::size_t at, char value);
+  void leaveOut(std::size_t at, std::size_t count);
   /// Share of the file's contents consumed so far, in [0, 1].
   double progress() const;
   /// Returns the class of the MRPT object that comes next without consuming anything, or "" when no

@@ -54,13 +54,17 @@ enum class Place
   among_others,  // of a frame, or by itself
   last_of_frame,
   last_of_key_frame,  // of a simplemap
+  last_of_newer_key_frame,  // of one that may tell a speed
 };
+
+constexpr std::string_view kOptional("\x0D\0\0\0std::optional", 17);
 
 /// True where an observation may end. In a log another entry follows, or nothing. In a simplemap
 /// the pose of the next key frame follows, or the end of the map.
 bool mayEndBefore(std::string_view rest, Place place)
 {
   constexpr std::string_view kPose = "CPose";
+  if (place == Place::last_of_newer_key_frame) return rest.substr(0, kOptional.size()) == kOptional;
   const bool in_map = place == Place::last_of_key_frame;
   if (rest.empty()) return !in_map;
   if (in_map && rest.size() == 1) return rest.front() == kEnd;
@@ -158,6 +162,22 @@ mrpt::obs::CSensoryFrame::Ptr takeFrame(GzipInput& input, const ObjectHeader& he
   if (!old && take<char>(input) != kEnd) return nullptr;
   return frame;
 }
+
+/// Leaves out the speed of a key frame. Returns false where there is none and none is denied.
+bool dropTwist(GzipInput& input)
+{
+  constexpr std::size_t kLongestName = 100;  // of its type
+  constexpr std::size_t kBytes = 6 * sizeof(double);
+  if (input.peek(kOptional.size()).substr(0, kOptional.size()) != kOptional) return false;
+  input.drop(kOptional.size());
+  const auto name = take<std::uint32_t>(input);
+  if (name > kLongestName || input.peek(name).size() < name) return false;
+  input.drop(name);
+  if (take<std::uint8_t>(input) == 0) return true;
+  if (input.peek(kBytes).size() < kBytes) return false;
+  input.drop(kBytes);
+  return true;
+}
 }  // namespace
 
 bool isLogClass(const std::string& name)
@@ -183,11 +203,15 @@ CSerializable::Ptr readLogEntry(GzipInput& input)
 
 bool takeMixedSimplemap(GzipInput& input, mrpt::maps::CSimpleMap& map)
 {
-  constexpr int kVersion = 1;  // older ones never had other observations
+  constexpr int kOldest = 1;  // older ones never had other observations
+  constexpr int kWithTwist = 2;
   const auto header = objectHeaderIn(input.peek(kLongestObjectHeader));
   if (!header || header->old) return false;
   input.drop(header->size);
-  if (take<std::int8_t>(input) != kVersion) return false;
+  const int version = take<std::int8_t>(input);
+  if (version < kOldest || version > kWithTwist) return false;
+  const Place last =
+      version < kWithTwist ? Place::last_of_key_frame : Place::last_of_newer_key_frame;
   map.clear();
   for (auto left = take<std::uint32_t>(input); left > 0; --left)
   {
@@ -197,8 +221,8 @@ bool takeMixedSimplemap(GzipInput& input, mrpt::maps::CSimpleMap& map)
         mrpt::serialization::archiveFrom(input).ReadObject());
     const auto frame_header = objectHeaderIn(input.peek(kLongestObjectHeader));
     if (!pose || !frame_header || !isFrame(frame_header->name)) return false;
-    const auto frame = takeFrame(input, *frame_header, Place::last_of_key_frame);
-    if (!frame) return false;
+    const auto frame = takeFrame(input, *frame_header, last);
+    if (!frame || (version >= kWithTwist && !dropTwist(input))) return false;
     map.insert(pose, frame);
   }
   return take<char>(input) == kEnd;
