@@ -12,6 +12,7 @@
 #include "fuzz/targets.h"
 #include "io/GroundTruth.h"
 #include "io/maps/map_source_readers.h"
+#include "sigloc/io/RawlogReader.h"
 #include "sigloc/localize/LocalizationSetup.h"
 
 namespace sigloc::fuzz
@@ -44,11 +45,18 @@ bool readsRosMap(std::string_view bytes)
 bool readsCarmenLog(std::string_view bytes)
 {
   const auto path = inputFile("scans.log", bytes);
-  return accepts(
+  const bool map = accepts(
       [&]
       {
         for (const PosedScans& posed : detail::readCarmenLog(path)) observeScene(posed.scans);
       });
+  const bool drive = accepts(
+      [&]
+      {
+        RawlogReader reader(path);
+        while (const auto step = reader.next()) observe(*step);
+      });
+  return map || drive;
 }
 
 bool readsLandmarks(std::string_view bytes)
