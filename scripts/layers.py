@@ -75,7 +75,7 @@ RESTRICTED = [
 ]
 
 # What only our own sources use: whoever has sigloc installed need not have these.
-NOT_IN_PUBLIC_HEADERS = re.compile(r"(boost|fmt|nlohmann)/.*|(png|zlib)\.h")
+NOT_IN_PUBLIC_HEADERS = re.compile(r"(boost|fmt|nlohmann)/.*|(png|zlib|zstd)\.h")
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 SOURCE = ROOT / "src"

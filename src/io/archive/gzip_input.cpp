@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/archive/gzip_input.h"
 
-#include <zlib.h>
-
 #include <algorithm>
 #include <cctype>
 #include <cstring>
@@ -31,22 +29,6 @@ bool isClassNameCharacter(char c)
 {
   return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
          std::string_view("_:<>, *").find(c) != std::string_view::npos;
-}
-
-/// Returns how many bytes a file holds when unpacked; a guess for a truncated one.
-std::uint64_t unpackedSize(const std::filesystem::path& path, std::uint64_t file_size)
-{
-  constexpr std::uint64_t kTrailerBytes = 4;  // gzip's last field, little-endian
-  std::ifstream file(path, std::ios::binary);
-  const bool packed = file.get() == 0x1F && file.get() == 0x8B;
-  if (!packed || file_size < kTrailerBytes) return file_size;
-  file.seekg(-static_cast<std::streamoff>(kTrailerBytes), std::ios::end);
-  std::uint64_t size = 0;
-  for (std::uint64_t i = 0; i < kTrailerBytes; ++i)
-  {
-    size |= static_cast<std::uint64_t>(file.get() & 0xFF) << (8 * i);
-  }
-  return size;
 }
 }  // namespace
 
@@ -114,16 +96,13 @@ void requireFile(const std::filesystem::path& path)
 
 void requireIntact(const std::filesystem::path& path)
 {
-  const std::unique_ptr<gzFile_s, int (*)(gzFile_s*)> file(gzopen(path.c_str(), "rb"), gzclose);
+  const std::unique_ptr<PackedFile> file = openPacked(path, kBufferBytes);
   if (!file) fail(path, "cannot be opened");
-  gzbuffer(file.get(), kBufferBytes);
   std::vector<char> content(kBufferBytes);
-  int got = gzread(file.get(), content.data(), kBufferBytes);
-  if (gzdirect(file.get()) != 0) return;  // not compressed: it has no checksum
-  while (got > 0) got = gzread(file.get(), content.data(), kBufferBytes);
-  int code = Z_OK;
-  gzerror(file.get(), &code);
-  if (code == Z_DATA_ERROR) fail(path, "damaged");
+  unsigned got = file->read(content.data(), kBufferBytes);
+  if (file->plain()) return;  // it has no checksum
+  while (got > 0) got = file->read(content.data(), kBufferBytes);
+  if (file->wrong()) fail(path, "damaged");
 }
 
 GzipInput::GzipInput(const std::filesystem::path& path) : path_(path)
@@ -133,17 +112,13 @@ GzipInput::GzipInput(const std::filesystem::path& path) : path_(path)
   const auto size = std::filesystem::file_size(path, error);
   file_size_ = error ? 0 : size;
   unpacked_size_ = unpackedSize(path, file_size_);
-  file_ = gzopen(path.c_str(), "rb");
-  if (file_ == nullptr) fail(path, "cannot be opened");
   // zlib takes three times this. Small files are many, and read sooner so.
-  gzbuffer(file_, static_cast<unsigned>(
-                      std::clamp<std::uint64_t>(file_size_, kLeastBuffer, kBufferBytes)));
+  file_ = openPacked(path, static_cast<unsigned>(
+                               std::clamp<std::uint64_t>(file_size_, kLeastBuffer, kBufferBytes)));
+  if (!file_) fail(path, "cannot be opened");
 }
 
-GzipInput::~GzipInput()
-{
-  gzclose(file_);
-}
+GzipInput::~GzipInput() = default;
 
 std::size_t GzipInput::Read(void* buffer, std::size_t count)
 {
@@ -167,14 +142,12 @@ std::size_t GzipInput::readFile(char* buffer, std::size_t count)
   std::size_t done = 0;
   while (done < count)
   {
-    // gzread takes at most INT_MAX bytes a call.
+    // zlib takes at most INT_MAX bytes a call.
     const auto chunk = static_cast<unsigned>(std::min<std::size_t>(count - done, 1U << 30U));
-    const int got = gzread(file_, buffer + done, chunk);
-    if (got > 0) done += static_cast<std::size_t>(got);
-    if (got == static_cast<int>(chunk)) continue;
-    int code = Z_OK;
-    gzerror(file_, &code);
-    damaged_ = damaged_ || got < 0 || (code != Z_OK && code != Z_STREAM_END);
+    const unsigned got = file_->read(buffer + done, chunk);
+    done += got;
+    if (got == chunk) continue;
+    damaged_ = damaged_ || file_->broken();
     break;
   }
   return done;

@@ -6,12 +6,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 
-// zlib's handle, so that its header stays out of this one.
-struct gzFile_s;
+#include "io/archive/packed_file.h"
 
 namespace sigloc::detail
 {
@@ -29,8 +29,8 @@ struct ObjectHeader
 /// Returns the header that the bytes begin with, or nullopt when they begin otherwise.
 std::optional<ObjectHeader> objectHeaderIn(std::string_view bytes);
 
-/// Reads a file, gz-compressed or plain, front to back. Unlike MRPT's own reader it distinguishes
-/// the end of the file from damaged or truncated data.
+/// Reads a file, compressed by gzip or zstd or plain, front to back. Unlike MRPT's own reader it
+/// distinguishes the end of the file from damaged or truncated data.
 class GzipInput final : public mrpt::io::CStream
 {
  public:
@@ -72,7 +72,7 @@ class GzipInput final : public mrpt::io::CStream
   std::size_t readFile(char* buffer, std::size_t count);
 
   std::filesystem::path path_;
-  gzFile_s* file_ = nullptr;
+  std::unique_ptr<PackedFile> file_;
   std::uint64_t file_size_ = 0;
   std::uint64_t unpacked_size_ = 0;
   std::uint64_t position_ = 0;
@@ -81,8 +81,8 @@ class GzipInput final : public mrpt::io::CStream
   bool damaged_ = false;
 };
 
-/// Throws std::runtime_error "path: damaged" for a gz-compressed file whose content fails gzip's
-/// own check; one that is merely cut off passes. MRPT's readers may crash on objects with wrong
+/// Throws std::runtime_error "path: damaged" for a compressed file whose content fails its own
+/// check; one that is merely cut off passes. MRPT's readers may crash on objects with wrong
 /// bytes in them, so this is called before them. Costs one decompression of the file.
 void requireIntact(const std::filesystem::path& path);
 

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+
+namespace sigloc::detail
+{
+/// The contents of a file that may be compressed, front to back: by gzip, by zstd, as MRPT does by
+/// default since 2.15.7, or not at all.
+class PackedFile
+{
+ public:
+  virtual ~PackedFile() = default;
+
+  /// Returns the bytes read, fewer than `count` at the end or where the file is broken.
+  virtual unsigned read(char* buffer, unsigned count) = 0;
+  /// True once the compressed data broke off or failed its check.
+  virtual bool broken() const = 0;
+  /// True once the compressed data failed its check; false where it merely broke off.
+  virtual bool wrong() const = 0;
+  /// True for a file that is not compressed, once something was read.
+  virtual bool plain() const = 0;
+};
+
+/// Opens a file; null where that fails. `buffer` is in bytes.
+std::unique_ptr<PackedFile> openPacked(const std::filesystem::path& path, unsigned buffer);
+
+/// Returns how many bytes a file holds when unpacked; a guess for one that is truncated or does not
+/// tell.
+std::uint64_t unpackedSize(const std::filesystem::path& path, std::uint64_t file_size);
+}  // namespace sigloc::detail

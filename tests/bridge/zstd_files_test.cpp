@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Files that are compressed by zstd, as MRPT writes them by default since 2.15.7.
+#include <gtest/gtest.h>
+#include <zstd.h>
+
+#include <random>
+
+#include "bridge/rawlog_files.h"
+#include "io/archive/gzip_input.h"
+#include "sigloc/io/map_files.h"
+#include "sigloc/io/RawlogReader.h"
+
+namespace sigloc
+{
+namespace
+{
+using namespace sigloc::test;
+
+/// One frame of zstd, with the checksum that its program and MRPT add.
+std::string packed(const std::string& bytes)
+{
+  ZSTD_CCtx* const context = ZSTD_createCCtx();
+  ZSTD_CCtx_setParameter(context, ZSTD_c_checksumFlag, 1);
+  std::string out(ZSTD_compressBound(bytes.size()), '\0');
+  out.resize(ZSTD_compress2(context, out.data(), out.size(), bytes.data(), bytes.size()));
+  ZSTD_freeCCtx(context);
+  return out;
+}
+
+std::string unpacked(const std::filesystem::path& path)
+{
+  detail::GzipInput input(path);
+  std::string bytes(std::size_t{1} << 22U, '\0');
+  bytes.resize(input.Read(bytes.data(), bytes.size()));
+  EXPECT_FALSE(input.damaged());
+  return bytes;
+}
+
+std::string noise(std::size_t count)
+{
+  std::mt19937 generator(5);
+  std::string bytes(count, '\0');
+  for (char& byte : bytes) byte = static_cast<char>(generator() & 0xFFU);
+  return bytes;
+}
+
+const std::filesystem::path kLog = "/usr/share/mrpt/datasets/localization_demo.rawlog";
+const std::filesystem::path kMap = "/usr/share/mrpt/datasets/localization_demo.simplemap.gz";
+
+TEST(ZstdFiles, holdWhatWasPacked)
+{
+  const TemporaryFolder folder;
+  for (const std::size_t size : {1U, 1000U, 131072U, 1000000U})
+  {
+    const std::string bytes = noise(size);
+    writeText(folder / "a", packed(bytes));
+    EXPECT_EQ(unpacked(folder / "a"), bytes) << size;
+    EXPECT_NO_THROW(detail::requireIntact(folder / "a"));
+    writeText(folder / "a", packed(bytes) + packed(bytes));
+    EXPECT_EQ(unpacked(folder / "a"), bytes + bytes) << "two frames of " << size;
+  }
+}
+
+TEST(ZstdFiles, mapsAndLogsAreReadAsPlainOnes)
+{
+  const TemporaryFolder folder;
+  writeText(folder / "m.simplemap", packed(unpacked(kMap)));
+  const auto expected = std::get<std::vector<PosedScans>>(readMapSource(kMap));
+  const auto found = std::get<std::vector<PosedScans>>(readMapSource(folder / "m.simplemap"));
+  ASSERT_EQ(found.size(), expected.size());
+  EXPECT_EQ(found.back().scans.front().ranges, expected.back().scans.front().ranges);
+
+  writeText(folder / "l.rawlog", packed(unpacked(kLog)));
+  RawlogReader plain(kLog);
+  RawlogReader log(folder / "l.rawlog");
+  double progress = 0;
+  std::size_t steps = 0;
+  for (auto step = plain.next(); step; step = plain.next(), ++steps)
+  {
+    const auto same = log.next();
+    ASSERT_TRUE(same);
+    ASSERT_EQ(same->scans.front().ranges, step->scans.front().ranges);
+    EXPECT_GE(log.progress(), progress);
+    progress = log.progress();
+  }
+  EXPECT_EQ(steps, 37U);
+  EXPECT_FALSE(log.next() || log.truncated());
+  EXPECT_DOUBLE_EQ(log.progress(), 1.0);
+}
+
+TEST(ZstdFiles, cutOffOnesAreTold)
+{
+  const TemporaryFolder folder;
+  // zstd packs 128 kB at a time, which is more than the whole of a short log.
+  std::string bytes;
+  for (int k = 0; k < 20; ++k) bytes += unpacked(kLog);
+  const std::string whole = packed(bytes + noise(300000));
+  writeText(folder / "l.rawlog", whole.substr(0, whole.size() - 250000));
+  RawlogReader log(folder / "l.rawlog");
+  std::size_t steps = 0;
+  while (log.next()) ++steps;
+  EXPECT_GT(steps, 10U);
+  EXPECT_TRUE(log.truncated());
+  const std::string map = packed(unpacked(kMap));
+  for (const std::size_t size : {4U, 6U, 100U, 5000U, static_cast<unsigned>(map.size() - 1)})
+  {
+    writeText(folder / "m.simplemap", map.substr(0, size));
+    EXPECT_THROW(readMapSource(folder / "m.simplemap"), std::runtime_error) << size;
+  }
+}
+
+TEST(ZstdFiles, damagedOnesAreRefused)
+{
+  const TemporaryFolder folder;
+  const std::string whole = packed(unpacked(kMap));
+  std::mt19937 generator(9);
+  for (int k = 0; k < 40; ++k)
+  {
+    std::string spoilt = whole;
+    spoilt[8 + generator() % (spoilt.size() - 8)] ^= static_cast<char>(1 + generator() % 255);
+    writeText(folder / "m.simplemap", spoilt);
+    EXPECT_THROW(readMapSource(folder / "m.simplemap"), std::runtime_error) << k;
+  }
+}
+}  // namespace
+}  // namespace sigloc
