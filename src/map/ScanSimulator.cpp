@@ -131,7 +131,7 @@ class ScanInMaking
     double beyond = 0;  // [m], from where the walk ends to where the beam does
     const bool thin_there = thin_[sectorOf(beam, kThinSector)] < options_.thin_share;
     const TPoint2D direction(std::cos(angle), std::sin(angle));
-    const auto goesOn = [&](double range, const DenseCell& cell)
+    const auto goes_on = [&](double range, const DenseCell& cell)
     {
       if (in_unknown) left -= range - before;
       before = range;
@@ -147,7 +147,7 @@ class ScanInMaking
       return !stops;
     };
     const TPoint2D origin(origin_.x, origin_.y);
-    const auto range = caster_.walk(origin, angle, start, options_.max_range, kStride, goesOn);
+    const auto range = caster_.walk(origin, angle, start, options_.max_range, kStride, goes_on);
     if (range) return *range + beyond;
     return range;
   }
@@ -164,10 +164,10 @@ class ScanInMaking
     return dx * direction.x + dy * direction.y;
   }
 
-  /// Puts objects anywhere until about a share of the beams meets one. `rangeOf` tells the range of
-  /// an object in the direction of a return, and `apply` is told its beams and range.
+  /// Puts objects anywhere until about a share of the beams meets one. `range_of` tells the range
+  /// of an object in the direction of a return, and `apply` is told its beams and range.
   template <class Apply, class RangeOf>
-  void coverShare(double mean_share, const Apply& apply, const RangeOf& rangeOf)
+  void coverShare(double mean_share, const Apply& apply, const RangeOf& range_of)
   {
     if (mean_share <= 0) return;
     const double share = std::min(draw_.exponential(mean_share), kMostShare);
@@ -176,7 +176,7 @@ class ScanInMaking
     {
       const auto middle =
           static_cast<std::size_t>(draw_.uniform() * static_cast<double>(ranges_.size()));
-      const double range = rangeOf(ranges_[middle].value_or(options_.max_range));
+      const double range = range_of(ranges_[middle].value_or(options_.max_range));
       const double half = 0.5 * draw_.uniform(kNarrowest, kWidest) / std::max(range, kNearest);
       const auto reach = static_cast<std::size_t>(half / options_.angle_step);
       const std::size_t first = middle - std::min(middle, reach);
