@@ -62,7 +62,7 @@ void RelocationSummary::add(const RelocationRecord& record)
   outcome.inaccurate = record.claim == Claim::inaccurate;
   outcome.cut_short = record.cut_short;
   outcome.poses_scored = static_cast<double>(record.poses_scored);
-  outcome.times_ms = {record.time_ms};
+  outcome.times_ms.assign(1, record.time_ms);
   if (record.sawNothing() || !record.truth) return;
   outcome.right = record.rank_of_right == 1;
   outcome.tight =
