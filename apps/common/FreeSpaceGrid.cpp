@@ -92,8 +92,10 @@ FreeSpaceGrid::FreeSpaceGrid(const DenseField& field) : origin_(field.frame.orig
 
 TPoint2D FreeSpaceGrid::centreOf(std::size_t cell) const
 {
-  return {origin_.x + (static_cast<double>(cell % columns_) + 0.5) * kCell,
-          origin_.y + (static_cast<double>(cell / columns_) + 0.5) * kCell};
+  const std::size_t row = cell / columns_;
+  const std::size_t column = cell % columns_;
+  return {origin_.x + (static_cast<double>(column) + 0.5) * kCell,
+          origin_.y + (static_cast<double>(row) + 0.5) * kCell};
 }
 
 std::size_t FreeSpaceGrid::nearestCell(const TPoint2D& place) const
@@ -119,6 +121,7 @@ std::vector<TPoint2D> FreeSpaceGrid::spreadPlaces(std::size_t count) const
     if (!is_new) square->second = std::min(square->second, std::pair(off, cell));
   }
   std::vector<TPoint2D> places;
+  places.reserve(squares.size());
   for (const auto& [key, nearest] : squares) places.push_back(centreOf(nearest.second));
   return places;
 }

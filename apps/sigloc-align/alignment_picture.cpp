@@ -90,8 +90,10 @@ mrpt::img::CImage alignmentPicture(const DenseField& a, const DenseField& b,
         return isWall(cell->state) ? kWallOfA : kFree;
       });
   for (std::size_t k = 0; k < poses.size(); ++k)
+  {
     drawOutline(picture, b, poses[k].a_from_b.mean,
                 fmt::format("{}: {:.0f} %", k + 1, 100 * poses[k].weight));
+  }
   picture.drawAxes();
   picture.put(kMargin, 8, title, kText);
   picture.put(kMargin, 36, fmt::format("poses that are possible: {}", poses.size()), kText);

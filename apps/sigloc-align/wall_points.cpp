@@ -99,8 +99,10 @@ std::vector<TPoint2D> wallPoints(const DenseField& field, std::size_t most)
   {
     const DenseCell& cell = field.cells[k];
     if (!isWall(cell.state)) continue;
-    const double x = (static_cast<double>(k % frame.width) + 0.5) * frame.resolution;
-    const double y = (static_cast<double>(k / frame.width) + 0.5) * frame.resolution;
+    const std::size_t row = k / frame.width;
+    const std::size_t column = k % frame.width;
+    const double x = (static_cast<double>(column) + 0.5) * frame.resolution;
+    const double y = (static_cast<double>(row) + 0.5) * frame.resolution;
     const TPoint2D ridge(frame.origin.x + x + cell.dx * DenseField::kOffsetUnit,
                          frame.origin.y + y + cell.dy * DenseField::kOffsetUnit);
     all.push_back(ridge);
@@ -109,6 +111,7 @@ std::vector<TPoint2D> wallPoints(const DenseField& field, std::size_t most)
   const std::vector<TPoint2D>& points = 5 * solid.size() > all.size() ? solid : all;
   std::vector<TPoint2D> chosen;
   const std::size_t count = std::min(most, points.size());
+  chosen.reserve(count);
   for (std::size_t k = 0; k < count; ++k) chosen.push_back(points[k * points.size() / count]);
   return chosen;
 }

@@ -114,9 +114,13 @@ class Checker
     for (const Candidate& candidate : result.candidates)
     {
       if (isRight(candidate.pose.mean, truth))
+      {
         place.probability += candidate.probability / place.scans;
+      }
       else if (candidate.score > result.candidates.front().score - kAlike)
+      {
         confusions.push_back({truth, candidate.pose.mean, candidate.probability});
+      }
     }
     const bool first_right =
         !result.candidates.empty() && isRight(result.candidates.front().pose.mean, truth);
@@ -222,16 +226,20 @@ MapCheck checkMap(const std::shared_ptr<const FeatureMap>& map, const SimulatedL
   {
     check.places.push_back(checker.ask(pose, options.scans, options.poses.empty()));
     if (progress)
+    {
       progress(kShareOfScans * static_cast<double>(check.places.size()) /
                static_cast<double>(poses.size()));
+    }
   }
   const auto unsure = unsurePlaces(check.places, options.drives);
   for (std::size_t k = 0; k < unsure.size(); ++k)
   {
     unsure[k]->drive = checker.driveFrom(space, {unsure[k]->pose.x, unsure[k]->pose.y});
     if (progress)
+    {
       progress(kShareOfScans + (1 - kShareOfScans) * static_cast<double>(k + 1) /
                                    static_cast<double>(unsure.size()));
+    }
   }
   check.twins = gatherTwins(checker.confusions);
   check.times_ms = std::move(checker.times_ms);
