@@ -147,6 +147,10 @@ void describeOptions(CLI::App& app, Settings& settings)
       {app.add_flag("--identical", settings.buildings.identical, "the buildings share one seed")
            ->group("Buildings"),
        isScanned});
+  settings.of_some_worlds.push_back(
+      {app.add_flag("--mirrored", settings.buildings.mirrored, "each building is its mirror image")
+           ->group("Buildings"),
+       isScanned});
   limit(addFlags(app, settings.changes, "What the drive finds changed since the map was made",
                  "drive-", {{"moved_share", "--moved-share"}, {"extra_items", "--unmapped"}}),
         by_key);

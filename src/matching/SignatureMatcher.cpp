@@ -8,6 +8,7 @@
 
 #include "features/feature_values.h"
 #include "geometry/same_place.h"
+#include "map/wall_blur.h"
 #include "matching/candidate_probabilities.h"
 #include "matching/candidates.h"
 #include "matching/dense/DenseVerifier.h"
@@ -88,7 +89,8 @@ SignatureMatcher::SignatureMatcher(std::shared_ptr<const FeatureMap> map,
   checkOptions(options);
   if (map_->field() && options.use_dense_field)
   {
-    verifier_ = std::make_unique<DenseVerifier>(*map_->field());
+    verifier_ =
+        std::make_unique<DenseVerifier>(*map_->field(), wallBlur(map_->features(), *map_->field()));
   }
   const auto mode = static_cast<GenerationMode>(options.mode);
   const bool from_minimal_sets =

@@ -18,11 +18,13 @@ constexpr double kMisfitFloor =
     0.02;  // share that even the right pose leaves unexplained, eq. (7.1)
 constexpr double kSharpening = 1.0;  // of candidates against each other, eq. (7.3)
 // The log-odds of being in the map, fitted on simulated worlds too, eq. (7.2).
-constexpr double kExplainedSlope = 8.5;  // per share of explained or occluded returns
-constexpr double kThroughSlope = 20.0;  // per share of beams through walls
-constexpr double kConstraintSlope = 0.3;  // per explained constraint
-constexpr double kLeadSlope = 0.46;  // per unit of log-likelihood ahead of the best rival
-constexpr double kFitOffset = 11.2;  // constant of eq. (7.2) without the prior of 2.6
+constexpr double kExplainedSlope = 11.4;  // per share of explained or occluded returns
+constexpr double kThroughSlope = 14.0;  // per share of beams through walls
+constexpr double kWallSlope = 0.3;  // per explained wall
+constexpr double kMissingWallSlope = 0.58;  // per wall that is not mapped
+constexpr double kWallEndSlope = 1.02;  // per explained wall end
+constexpr double kLeadSlope = 0.25;  // per unit of log-likelihood ahead of the best rival
+constexpr double kFitOffset = 13.0;  // constant of eq. (7.2) without the prior of 2.6
 // A scan with little angular coverage fits elsewhere by chance. The scans that were fitted on cover
 // 180 degrees and more, so a further term is needed.
 constexpr double kFullCoverage = M_PI / 2;  // [rad] angular coverage from which the term is 0
@@ -110,10 +112,12 @@ double trackedLogOdds(const DenseEvidence& evidence)
 double fitLogOdds(const Candidate& candidate)
 {
   // A return in free space may be an occlusion. It lowers the rank of the pose, but is no evidence
-  // against being in the map. The score has lost half of both shares already.
-  const double explained = candidate.score + 0.5 * candidate.through_wall + 1.5 * candidate.in_free;
+  // against being in the map.
+  const double explained = candidate.explained + candidate.in_free;
   return kExplainedSlope * explained - kThroughSlope * candidate.through_wall +
-         kConstraintSlope * candidate.explained_constraints - kFitOffset;
+         kWallSlope * candidate.constraints.walls -
+         kMissingWallSlope * candidate.constraints.missing_walls +
+         kWallEndSlope * candidate.constraints.wall_ends - kFitOffset;
 }
 
 double leadLogOdds(double score, double rival_score)

@@ -20,12 +20,12 @@ std::vector<Candidate> candidatesOf(const std::vector<RankedPose>& ranked,
     Candidate candidate;
     candidate.pose.mean = pose;
     candidate.score = evidence.score;
-    candidate.explained = evidence.coarse;
+    candidate.explained = 0.5 * (evidence.fine + evidence.coarse);
     candidate.through_wall = evidence.through_wall;
     candidate.in_free = evidence.in_free;
     if (evidence.score >= ranked.front().evidence.score - DenseVerifier::kContender)
     {
-      candidate.explained_constraints = constraints.explainedAt(pose, verifier.field());
+      candidate.constraints = constraints.countAt(pose, verifier.field());
     }
     candidates.push_back(std::move(candidate));
   }

@@ -18,7 +18,6 @@ namespace
 using mrpt::math::TPose2D;
 using testing::isRight;
 using testing::MappedWorld;
-using testing::mirrored;
 using testing::officeWorld;
 
 constexpr std::uint64_t kOfficeSeed = 3;

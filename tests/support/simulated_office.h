@@ -66,30 +66,6 @@ inline World officeWorld(std::uint64_t seed)
   return makeWorld(WorldKind::office, options, seed);
 }
 
-/// The world mirrored at the y axis.
-inline World mirrored(World world)
-{
-  const auto flip = [](mrpt::math::TPoint2D& p) { p.x = -p.x; };
-  world.bounds = {-world.bounds.x_max, -world.bounds.x_min, world.bounds.y_min, world.bounds.y_max};
-  for (WallSegment& wall : world.walls)
-  {
-    flip(wall.start);
-    flip(wall.end);
-  }
-  for (Disc& disc : world.discs) flip(disc.centre);
-  for (Furniture& item : world.furniture)
-  {
-    item.pose.x = -item.pose.x;
-    item.pose.phi = -item.pose.phi;
-  }
-  for (Door& door : world.doors)
-  {
-    flip(door.leaf.start);
-    flip(door.leaf.end);
-  }
-  return world;
-}
-
 /// Right: within 0.5 m and 10 degrees of the truth.
 inline bool isRight(const mrpt::math::TPose2D& pose, const mrpt::math::TPose2D& truth)
 {

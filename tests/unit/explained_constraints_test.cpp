@@ -33,6 +33,7 @@ Surfaces wallsOf(int sides)
   return outline(vertices);
 }
 
+/// The field of a room seen from its middle: unknown behind what is seen.
 DenseField fieldOf(const Surfaces& walls)
 {
   OccupancyRaster raster;
@@ -52,39 +53,72 @@ DenseField fieldOf(const Surfaces& walls)
   return buildDenseField(raster);
 }
 
-ObservedScene sceneOf(int sides)
+/// Counts the constraints that the field of `mapped` meets for a scan of `scanned`, both from the
+/// origin.
+ConstraintCounts countIn(const Surfaces& mapped, const Surfaces& scanned)
 {
-  return observeScene({scanByHand(wallsOf(sides), {0, 0, 0})});
-}
-
-std::uint32_t factsOf(int sides)
-{
-  const DenseField field = fieldOf(wallsOf(sides));
+  const DenseField field = fieldOf(mapped);
   const DenseVerifier verifier(field);
-  const ObservedScene scene = sceneOf(sides);
+  const ObservedScene scene = observeScene({scanByHand(scanned, {0, 0, 0})});
   RankedPose here;
   here.evidence = verifier.evaluate(makeDenseScan(scene, 400), here.pose);
-  return candidatesOf({here}, verifier, scene).front().explained_constraints;
+  return candidatesOf({here}, verifier, scene).front().constraints;
+}
+
+ConstraintCounts countIn(int sides)
+{
+  return countIn(wallsOf(sides), wallsOf(sides));
 }
 
 std::ptrdiff_t segmentsOf(int sides)
 {
-  const std::vector<Feature> features = sceneOf(sides).features;
-  return std::count_if(features.begin(), features.end(),
+  const ObservedScene scene = observeScene({scanByHand(wallsOf(sides), {0, 0, 0})});
+  return std::count_if(scene.features.begin(), scene.features.end(),
                        [](const Feature& feature) { return feature.type == FeatureType::segment; });
 }
 
-TEST(ExplainedFacts, EachWallOfARoomIsOne)
+TEST(ConstraintCounts, EachWallOfARoomIsOne)
 {
-  EXPECT_EQ(factsOf(4), 4U);
-  EXPECT_EQ(factsOf(6), 6U);
+  EXPECT_EQ(countIn(4).walls, 4U);
+  EXPECT_EQ(countIn(6).walls, 6U);
+  EXPECT_EQ(countIn(6).missing_walls, 0U);
 }
 
 // A round wall is observed as many short ones: a centre and a radius explain all of them.
-TEST(ExplainedFacts, ARoundWallIsThree)
+TEST(ConstraintCounts, ARoundWallIsThree)
 {
   EXPECT_GT(segmentsOf(kRound), 8);
-  EXPECT_EQ(factsOf(kRound), 3U);
+  EXPECT_EQ(countIn(kRound).walls, 3U);
+}
+
+TEST(ConstraintCounts, AWallInMappedFreeSpaceIsMissing)
+{
+  Surfaces partitioned = wallsOf(4);
+  partitioned.walls.push_back({{-0.8, -1}, {0.8, -1}});
+  const ConstraintCounts counts = countIn(wallsOf(4), partitioned);
+  EXPECT_EQ(counts.missing_walls, 1U);
+  EXPECT_EQ(countIn(partitioned, partitioned).missing_walls, 0U);
+}
+
+// The map holds the partition, and nothing of what lies behind it.
+TEST(ConstraintCounts, AWallInUnknownAreaCountsNeitherWay)
+{
+  Surfaces partitioned = wallsOf(4);
+  partitioned.walls.push_back({{-2, -0.9}, {2, -0.9}});
+  const ConstraintCounts counts = countIn(partitioned, wallsOf(4));
+  EXPECT_EQ(counts.walls, 2U);
+  EXPECT_EQ(counts.missing_walls, 0U);
+}
+
+// What is before the end must be a wall, and what is beyond must not.
+TEST(ConstraintCounts, AWallEndMustEndInTheMap)
+{
+  Surfaces partitioned = wallsOf(4);
+  partitioned.walls.push_back({{-0.8, -1}, {0.8, -1}});
+  Surfaces longer = wallsOf(4);
+  longer.walls.push_back({{-1.6, -1}, {1.6, -1}});
+  EXPECT_EQ(countIn(partitioned, partitioned).wall_ends, 2U);
+  EXPECT_EQ(countIn(longer, partitioned).wall_ends, 0U);
 }
 }  // namespace
 }  // namespace sigloc

@@ -42,6 +42,15 @@ struct MatchingCounters
   std::uint64_t cut_short = 0;  ///< searches that ended at their budget, before they were complete
 };
 
+/// How many of the constraints that a scan's features give on the pose the map meets.
+/// \cite algorithm eq. (7.5)
+struct ConstraintCounts
+{
+  std::uint32_t walls = 0;  ///< walls that are mapped where they are seen
+  std::uint32_t missing_walls = 0;  ///< walls that are seen in mapped area, and not mapped there
+  std::uint32_t wall_ends = 0;  ///< ends of walls that are mapped where they are seen
+};
+
 /// A pose that the robot may be at.
 struct Candidate
 {
@@ -51,9 +60,8 @@ struct Candidate
   double explained = 0;  ///< share of the returns on mapped walls, in [0, 1]
   double through_wall = 0;  ///< share of the beams that pass through mapped walls, in [0, 1]
   double in_free = 0;  ///< share of the returns that end in known free space, in [0, 1]
-  /// Number of explained constraints; 0 for a score of more than 0.2 below the first candidate's.
-  /// \cite algorithm eq. (7.5)
-  std::uint32_t explained_constraints = 0;
+  /// All 0 for a score of more than 0.2 below the first candidate's.
+  ConstraintCounts constraints;
   std::vector<FeaturePairing> pairings;  ///< empty where the dense field has scored the pose
 };
 

@@ -9,6 +9,7 @@
 #include "eval/methods/features/FeatureVoting.h"
 #include "eval/methods/lattice/lattice_search.h"
 #include "eval/methods/RelocationMethod.h"
+#include "map/wall_blur.h"
 #include "matching/candidate_probabilities.h"
 #include "matching/candidates.h"
 #include "matching/dense/DenseVerifier.h"
@@ -97,7 +98,7 @@ class LatticeRelocation : public RelocationMethod
 {
  public:
   LatticeRelocation(const EvaluationMap& map, const RelocationMethodOptions& options)
-      : map_(map.features), verifier_(fieldOf(*map_))
+      : map_(map.features), verifier_(fieldOf(*map_), wallBlur(map_->features(), fieldOf(*map_)))
   {
     DenseSearchOptions lattice;
     lattice.lattice_step = 0.4;

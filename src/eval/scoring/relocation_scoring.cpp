@@ -160,10 +160,14 @@ const Columns<CandidateRecord>& candidateColumns()
       C(
           "probability", [](const R& r) { return r.candidate.probability; }, "", 6),
       C(
+          "explained", [](const R& r) { return r.candidate.explained; }, "share of returns", 5),
+      C(
           "through_wall", [](const R& r) { return r.candidate.through_wall; }, "share of beams", 5),
       C(
           "in_free", [](const R& r) { return r.candidate.in_free; }, "share of returns", 5),
-      C("constraints", [](const R& r) { return r.candidate.explained_constraints; }),
+      C("walls", [](const R& r) { return r.candidate.constraints.walls; }),
+      C("missing_walls", [](const R& r) { return r.candidate.constraints.missing_walls; }),
+      C("wall_ends", [](const R& r) { return r.candidate.constraints.wall_ends; }),
       C("right", &R::right, "empty without truth")};
   return kColumns;
 }

@@ -38,6 +38,30 @@ std::vector<WallSegment> visibleSegments(const World& world)
   return segments;
 }
 
+World mirrored(World world)
+{
+  const double sum = world.bounds.x_min + world.bounds.x_max;
+  const auto flip = [&](mrpt::math::TPoint2D& p) { p.x = sum - p.x; };
+  for (WallSegment& wall : world.walls)
+  {
+    flip(wall.start);
+    flip(wall.end);
+  }
+  for (Disc& disc : world.discs) flip(disc.centre);
+  for (Furniture& item : world.furniture)
+  {
+    item.pose.x = sum - item.pose.x;
+    item.pose.phi = -item.pose.phi;
+  }
+  for (Door& door : world.doors)
+  {
+    flip(door.leaf.start);
+    flip(door.leaf.end);
+  }
+  for (mrpt::math::TPoint2D& point : world.points) flip(point);
+  return world;
+}
+
 World changedWorld(const World& mapped, const WorldChangeOptions& options, std::uint64_t seed)
 {
   checkOptions(options);

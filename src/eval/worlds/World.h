@@ -79,6 +79,9 @@ std::vector<WallSegment> visibleSegments(const World& world);
 /// Returns the four sides of a piece of furniture, counter-clockwise.
 std::vector<WallSegment> outlineOf(const Furniture& furniture);
 
+/// Returns the mirror image of the world, within the same bounds: x is turned around.
+World mirrored(World world);
+
 /// How the world of a drive differs from the world that was mapped.
 struct WorldChangeOptions
 {

@@ -20,7 +20,7 @@ struct DenseEvidence
   static constexpr double kThroughPenalty = 0.5;  ///< score per share of beams through walls
   static constexpr double kFreePenalty = 0.5;  ///< score per share of returns in free space
 
-  double sharp = 0;  ///< mean likelihood by the ridges of walls, sigma 0.06 m, in [0, 1]
+  double sharp = 0;  ///< mean likelihood by the ridges of walls, eq. (6.14), in [0, 1]
   double fine = 0;  ///< mean likelihood, sigma 0.12 m, in [0, 1]
   double coarse = 0;  ///< mean likelihood, sigma 0.25 m, in [0, 1]
   double through_wall = 0;  ///< share of beams that pass a solid wall before their end

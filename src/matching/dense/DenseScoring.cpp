@@ -19,42 +19,9 @@ namespace
 constexpr std::size_t kRayBeams = WallCrossings::kRays;  // beams tested for passing through walls
 constexpr double kFreeMargin = 0.4;  // [m] from any wall, from which a return is in free space
 constexpr auto kFarFromWall = static_cast<std::uint8_t>(kFreeMargin / DenseField::kDistanceUnit);
-constexpr float kSharpSigma = 0.06F;  // [m] of L_0.06, eq. (6.3)
 
-/// L_0.06 by the squared distance from the ridge of the nearest wall, up to four sigmas: linear
-/// between the values of a table.
-class SharpTable
-{
- public:
-  SharpTable()
-  {
-    for (std::size_t i = 0; i < kSteps; ++i)
-    {
-      const float square = static_cast<float>(i) / kPerSquare;
-      values_[i] = std::exp(-0.5F * square / (kSharpSigma * kSharpSigma));
-    }
-  }
-  float at(float square) const
-  {
-    const float step = std::min(square * kPerSquare, static_cast<float>(kSteps));
-    const auto i = static_cast<std::size_t>(step);
-    return values_[i] + (step - static_cast<float>(i)) * (values_[i + 1] - values_[i]);
-  }
-
- private:
-  static constexpr std::size_t kSteps = 512;
-  static constexpr float kPerSquare = kSteps / (16 * kSharpSigma * kSharpSigma);  // [1/m^2]
-  std::array<float, kSteps + 2> values_{};
-};
-
-const SharpTable& sharpTable()
-{
-  static const SharpTable kTable;
-  return kTable;
-}
-
-/// Returns L_0.06 of a return, by its distance from the ridge of the nearest wall. Eq. (6.3),
-/// (6.12)
+/// Returns the sharp likelihood of a return, by its distance from the ridge of the nearest wall.
+/// Eq. (6.3), (6.12)
 inline float sharpLikelihood(const SharpTable& table, const CellView::Block& block, std::size_t i,
                              float resolution)
 {
@@ -70,11 +37,11 @@ struct EndSums
   std::uint32_t in_free = 0, specks = 0, unknown = 0;  ///< numbers of returns far from any wall
 };
 
-SIGLOC_WIDE_VECTORS EndSums sumsOfEnds(const DenseField& field, const DenseScan& scan,
-                                       const Placement& place, std::size_t count)
+SIGLOC_WIDE_VECTORS EndSums sumsOfEnds(const DenseField& field, const SharpTable& sharp,
+                                       const DenseScan& scan, const Placement& place,
+                                       std::size_t count)
 {
   const CellView cells(field);
-  const SharpTable& sharp = sharpTable();
   const LikelihoodTable& fine = fineTable();
   const LikelihoodTable& coarse = coarseTable();
   EndSums sums;
@@ -102,7 +69,7 @@ SIGLOC_WIDE_VECTORS EndSums sumsOfEnds(const DenseField& field, const DenseScan&
 /// Returns the sum of the fine likelihood over the returns: F of eq. (6.13).
 double DenseVerifier::fineLikelihood(const DenseScan& scan, const TPose2D& pose) const
 {
-  return static_cast<double>(sumsOfEnds(field_, scan, Placement(pose), scan.size()).fine);
+  return static_cast<double>(sumsOfEnds(field_, sharp_, scan, Placement(pose), scan.size()).fine);
 }
 
 std::vector<ExplainedReturn> DenseVerifier::explainedReturns(const DenseScan& scan,
@@ -115,7 +82,6 @@ std::vector<ExplainedReturn> DenseVerifier::explainedReturns(const DenseScan& sc
   constexpr auto kThrough = static_cast<float>(DenseEvidence::kThroughPenalty);
   const CellView cells(field_);
   const Placement place(pose);
-  const SharpTable& sharp_table = sharpTable();
   const LikelihoodTable& fine = fineTable();
   const LikelihoodTable& coarse = coarseTable();
   const std::uint64_t through = wall_crossings_->throughBits(scan, pose, kRayBeams);
@@ -130,7 +96,7 @@ std::vector<ExplainedReturn> DenseVerifier::explainedReturns(const DenseScan& sc
       const std::uint8_t distance = block.distance(i);
       const bool in_free = distance > kFarFromWall && block.state(i) == CellState::free;
       const float blunt = 0.5F * (fine[distance] + coarse[distance]);
-      const float sharp = sharpLikelihood(sharp_table, block, i, cells.resolution());
+      const float sharp = sharpLikelihood(sharp_, block, i, cells.resolution());
       float share = blunt + kSharpShare * (sharp - blunt) - (in_free ? kFree : 0.0F);
       const bool passes_wall = first + i < kRayBeams && (through >> (first + i) & 1U) != 0;
       if (passes_wall) share -= kThrough;
@@ -157,7 +123,7 @@ DenseEvidence DenseVerifier::evaluate(const DenseScan& scan, const TPose2D& pose
   DenseEvidence evidence;
   const std::size_t count = std::min(returns, scan.spaced);
   if (count == 0) return evidence;
-  const EndSums sums = sumsOfEnds(field_, scan, Placement(pose), count);
+  const EndSums sums = sumsOfEnds(field_, sharp_, scan, Placement(pose), count);
   // An isolated return in free space is a speck of clutter, and no evidence.
   const auto n = static_cast<double>(std::max<std::size_t>(1, count - sums.specks));
   evidence.sharp = static_cast<double>(sums.sharp) / n;

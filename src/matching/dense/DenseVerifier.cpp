@@ -92,7 +92,8 @@ DenseScan balancedScan(DenseScan scan)
 
 }  // namespace
 
-DenseVerifier::DenseVerifier(const DenseField& field) : field_(field)
+DenseVerifier::DenseVerifier(const DenseField& field, double wall_blur)
+    : field_(field), sharp_(wall_blur)
 {
   if (field.cells.empty()) throw std::invalid_argument("DenseVerifier: the field has no cells");
   coarse_field_ = std::make_unique<CoarseField>(field);

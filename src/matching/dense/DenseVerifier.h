@@ -10,6 +10,7 @@
 
 #include "matching/dense/DenseEvidence.h"
 #include "matching/dense/DenseScan.h"
+#include "matching/dense/likelihood_table.h"
 #include "sigloc/map/DenseField.h"
 #include "sigloc/matching/RelocationResult.h"
 
@@ -28,9 +29,9 @@ class DenseVerifier
   /// A pose may still win, or be the best rival, if it scores less than this below the best.
   static constexpr double kContender = 0.2;
 
-  /// Keeps a reference to the field, which must outlive the verifier. Throws std::invalid_argument
-  /// for a field without cells.
-  explicit DenseVerifier(const DenseField& field);
+  /// Keeps a reference to the field, which must outlive the verifier. `wall_blur` [m] is how far
+  /// the field's ridges lie from the walls. Throws std::invalid_argument for a field without cells.
+  explicit DenseVerifier(const DenseField& field, double wall_blur = 0);
   ~DenseVerifier();
 
   /// Returns at most `max_ranked` distinct poses (more than 0.5 m or 17 degrees apart), best first.
@@ -82,6 +83,7 @@ class DenseVerifier
   double fineLikelihood(const DenseScan& scan, const mrpt::math::TPose2D& pose) const;
 
   const DenseField& field_;
+  const SharpTable sharp_;
   std::unique_ptr<const CoarseField> coarse_field_;
   std::unique_ptr<const CoarseField> rough_field_;  // where proposals are very many
   std::unique_ptr<const WallCrossings> wall_crossings_;

@@ -31,15 +31,34 @@ constexpr double kOnWall = 0.13;  // [m] from a mapped wall, within which a poin
 constexpr double kOffWall = 0.16;  // [m] from any mapped wall, beyond which a point is off walls
 }  // namespace
 
+/// What the map says about an observed wall.
+enum class ExplainedConstraints::WallState : std::uint8_t
+{
+  mapped,
+  missing,
+  unknown,  // most of it lies in unknown area
+};
+
 /// Look-up of points given in the robot frame.
 class ExplainedConstraints::PlacedField
 {
  public:
   PlacedField(const DenseField& field, const TPose2D& pose) : cells_(field), place_(pose) {}
 
-  double likelihood(const TPoint2D& p) const
+  WallState stateOf(const Wall& wall) const
   {
-    return static_cast<double>(fineTable()[cellAt(p).distance]);
+    const TPoint2D along = wall.end - wall.start;
+    const int samples = std::max(2, static_cast<int>(std::lround(wall.length / kSampleStep)));
+    double likelihood = 0;
+    int unknown = 0;
+    for (int i = 0; i < samples; ++i)
+    {
+      const DenseCell& cell = cellAt(wall.start + along * ((i + 0.5) / samples));
+      likelihood += static_cast<double>(fineTable()[cell.distance]);
+      unknown += cell.state == CellState::unknown;
+    }
+    if (likelihood > kExplained * samples) return WallState::mapped;
+    return 2 * unknown > samples ? WallState::unknown : WallState::missing;
   }
   double distance(const TPoint2D& p) const
   {
@@ -101,7 +120,6 @@ ExplainedConstraints::ExplainedConstraints(const std::vector<Feature>& observed)
     {
       wall_ends_.push_back({place + along * kInside, place - along * kBeyond});
     }
-    if (feature.type == FeatureType::circle) circles_.push_back(place + along * feature.size);
   }
 }
 
@@ -119,35 +137,31 @@ bool ExplainedConstraints::bendsOn(const Wall& a, const Wall& b)
   return joint < kJoint && std::abs(wrapToPi(a.direction - b.direction)) < kBend;
 }
 
-bool ExplainedConstraints::isExplained(const Wall& wall, const PlacedField& field)
-{
-  const TPoint2D along = wall.end - wall.start;
-  const int samples = std::max(2, static_cast<int>(std::lround(wall.length / kSampleStep)));
-  double sum = 0;
-  for (int i = 0; i < samples; ++i)
-  {
-    sum += field.likelihood(wall.start + along * ((i + 0.5) / samples));
-  }
-  return sum > kExplained * samples;
-}
-
-std::uint32_t ExplainedConstraints::explainedAt(const TPose2D& pose, const DenseField& field) const
+ConstraintCounts ExplainedConstraints::countAt(const TPose2D& pose, const DenseField& field) const
 {
   const PlacedField placed(field, pose);
   WallCount walls;
-  std::uint32_t explained = 0;
+  WallCount missing;
+  ConstraintCounts counts;
   for (const Wall& wall : walls_)
   {
-    if (isExplained(wall, placed)) explained += walls.add(wall);
+    switch (placed.stateOf(wall))
+    {
+      case WallState::mapped:
+        counts.walls += walls.add(wall);
+        break;
+      case WallState::missing:
+        counts.missing_walls += missing.add(wall);
+        break;
+      case WallState::unknown:
+        break;
+    }
   }
   for (const WallEnd& end : wall_ends_)
   {
-    explained += placed.distance(end.before) < kOnWall && placed.distance(end.beyond) > kOffWall;
+    counts.wall_ends +=
+        placed.distance(end.before) < kOnWall && placed.distance(end.beyond) > kOffWall;
   }
-  for (const TPoint2D& circle : circles_)
-  {
-    if (placed.likelihood(circle) > kExplained) explained += 2;
-  }
-  return explained;
+  return counts;
 }
 }  // namespace sigloc

@@ -10,6 +10,7 @@
 
 #include "sigloc/features/Feature.h"
 #include "sigloc/map/DenseField.h"
+#include "sigloc/matching/RelocationResult.h"
 
 namespace sigloc
 {
@@ -20,9 +21,9 @@ class ExplainedConstraints
  public:
   explicit ExplainedConstraints(const std::vector<Feature>& observed);
 
-  /// Returns how many constraints the map explains when the robot is at `pose`. A wall counts one,
-  /// however many pieces of it are seen, a curved wall three at most, a wall end one, a circle two.
-  std::uint32_t explainedAt(const mrpt::math::TPose2D& pose, const DenseField& field) const;
+  /// Counts the constraints when the robot is at `pose`. A wall counts one, however many pieces of
+  /// it are seen, and a curved wall three at most.
+  ConstraintCounts countAt(const mrpt::math::TPose2D& pose, const DenseField& field) const;
 
  private:
   /// All points are in the robot frame [m].
@@ -36,15 +37,14 @@ class ExplainedConstraints
   {
     mrpt::math::TPoint2D before, beyond;  // points before and beyond the end of the wall
   };
+  enum class WallState : std::uint8_t;
   class WallCount;
   class PlacedField;
 
   static bool isSameWall(const Wall& a, const Wall& b);
   static bool bendsOn(const Wall& a, const Wall& b);
-  static bool isExplained(const Wall& wall, const PlacedField& field);
 
   std::vector<Wall> walls_;
   std::vector<WallEnd> wall_ends_;
-  std::vector<mrpt::math::TPoint2D> circles_;  // points of the circles nearest to the robot
 };
 }  // namespace sigloc

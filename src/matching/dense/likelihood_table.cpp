@@ -10,6 +10,7 @@ namespace sigloc
 {
 namespace
 {
+constexpr double kSharpSigma = 0.055;  // [m] without the blur of the map, eq. (6.14)
 constexpr double kFineSigma = 0.12;  // [m]
 constexpr double kCoarseSigma = 0.25;  // [m]
 
@@ -37,4 +38,14 @@ const LikelihoodTable& coarseTable()
   return kTable;
 }
 
+SharpTable::SharpTable(double wall_blur)
+{
+  const double variance = kSharpSigma * kSharpSigma + wall_blur * wall_blur;
+  per_square_ = static_cast<float>(kSteps / (16 * variance));
+  for (std::size_t i = 0; i < values_.size(); ++i)
+  {
+    const double square = static_cast<double>(i) * 16 * variance / kSteps;
+    values_[i] = static_cast<float>(std::exp(-0.5 * square / variance));
+  }
+}
 }  // namespace sigloc

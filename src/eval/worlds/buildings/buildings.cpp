@@ -53,6 +53,7 @@ std::vector<PlacedWorld> makeBuildings(WorldKind kind, const WorldOptions& layou
   for (std::size_t k = 0; k < options.buildings; ++k)
   {
     World world = makeWorld(kind, layout, options.identical ? seed : seedOf(k, seed));
+    if (options.mirrored) world = mirrored(std::move(world));
     if (k == 0)
     {
       pitch = {world.bounds.x_max - world.bounds.x_min + options.building_gap,

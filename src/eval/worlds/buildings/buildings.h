@@ -19,6 +19,7 @@ struct BuildingOptions
   std::uint32_t buildings = 1;
   double building_gap = 2;
   bool identical = false;  ///< all have the seed of the first
+  bool mirrored = false;  ///< each is its mirror image
   std::uint32_t queries = 0;
 
   template <class V>
