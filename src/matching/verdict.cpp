@@ -21,8 +21,8 @@ std::optional<VerdictReason> objectionTo(const VerdictGrounds& grounds, double s
     return VerdictReason::open_position;
   }
   if (grounds.doubtful) return VerdictReason::doubtful;
-  if (!(grounds.first >= sure)) return VerdictReason::not_sure;
   if (!grounds.confirmed) return VerdictReason::unconfirmed;
+  if (!(grounds.first >= sure)) return VerdictReason::not_sure;
   return std::nullopt;
 }
 }  // namespace

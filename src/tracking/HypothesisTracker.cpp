@@ -56,6 +56,7 @@ struct HypothesisTracker::State
   Track startAt(const RelocationResult& result, std::size_t k, const DenseScan& scan);
   void rateFirst(const DenseScan& scan);
   void publish(const ObservedScene& scene);
+  void publishProbabilities();
 
   std::shared_ptr<const SignatureMatcher> matcher;
   TrackerOptions options;
@@ -255,7 +256,7 @@ void HypothesisTracker::State::relocate(const ObservedScene& scene, const DenseS
   const double fresh_share = freshShare();
   haveRelocated();
 
-  set.countFound(result);
+  set.noteFound(result);
   confirm(result, scan, fresh_share);
   weighElsewhere(result, fresh_share);
   set.dealOut(result, [&](std::size_t k) { return startAt(result, k, scan); });
@@ -335,7 +336,7 @@ Track HypothesisTracker::State::startAt(const RelocationResult& result, std::siz
                                kMinConfirmed, kMaxConfirmed);
   fresh.evidence = matcher->verifier()->evaluate(scan, candidate.pose.mean);
   fresh.addTrackedLogOdds(kInitialTrackedLogOdds + novelty * trackedLogOdds(fresh.evidence));
-  fresh.addFit(0);
+  fresh.in_field = true;
   set.showTo(fresh, scan, *matcher->verifier(), travelled);
   return fresh;
 }
@@ -369,9 +370,27 @@ void HypothesisTracker::State::publish(const ObservedScene& scene)
   if (!set.tracks.empty())
   {
     belief.reliability = reliability;
-    grounds.confirmed = set.claimLogOdds() >= options.confirmation;
+    grounds.confirmed = landmark_tracker
+                            ? set.tracks.front().inMapLogOdds() >= options.confirmation
+                            : set.probabilityHere() >= options.localized_probability;
     grounds.doubtful = doubtful();
   }
+  if (!landmark_tracker) publishProbabilities();
   setVerdict(belief, grounds, options.localized_probability, fieldOf(matcher->map()));
+}
+
+/// The tracks share the probability of being in the map by their weights. The floor of "somewhere
+/// else" starts new tracks and says nothing about where the robot is. Eq. (8.25)
+void HypothesisTracker::State::publishProbabilities()
+{
+  if (set.tracks.empty()) return;
+  const double here = set.probabilityHere();
+  double sum = 0;
+  for (TrackedHypothesis& hypothesis : belief.hypotheses)
+  {
+    hypothesis.weight *= here / (1.0 - options.min_elsewhere);
+    sum += hypothesis.weight;
+  }
+  belief.elsewhere = std::max(0.0, 1.0 - sum);
 }
 }  // namespace sigloc

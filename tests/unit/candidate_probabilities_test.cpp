@@ -21,6 +21,7 @@ RelocationResult resultOf(const std::vector<double>& scores)
   {
     Candidate candidate;
     candidate.score = score;
+    candidate.explained = std::max(0.0, score);
     for (int d = 0; d < 3; ++d) candidate.pose.covariance(d, d) = 0.01;
     result.candidates.push_back(candidate);
   }

@@ -110,42 +110,15 @@ TEST(TrackSetUpdate, AScanThatFitsBadlySaysLessOfThePose)
   EXPECT_NEAR(drawn_back(10), 0, 0.05) << "nothing is explained, and nothing breaks";
 }
 
-TEST(TrackSetStanding, TheFirstIsContestedByTheSecond)
+TEST(TrackSetStanding, TheFirstTellsWhetherTheRobotIsInTheMap)
 {
-  TrackSet set = setOf({newcomer(0.9, 1, 0), newcomer(0.09, 1, 0), newcomer(0.01, 1, 0)});
-  for (Track& track : set.tracks) track.misfit = 0;
-  set.tracks[1].confirmed = set.tracks[2].confirmed = -1;
-  EXPECT_EQ(set.claimLogOdds(), set.tracks[0].claimLogOdds({0.09}));
-  set.tracks.resize(1);
-  EXPECT_EQ(set.claimLogOdds(), set.tracks[0].claimLogOdds({}));
-}
-
-TEST(TrackSetStanding, KnowsHowFarTheRobotSeesAndHowMuchFits)
-{
-  const DenseField field = room();
-  const DenseVerifier verifier(field);
-  TrackSet set = setOf({newcomer(0.99, 1, 0)});
-  set.tracks[0].hypothesis.pose.mean = {5.0, 4.0, 0};
-  const auto after = [&](int unmapped, double travel)
-  {
-    const DenseScan scan = makeDenseScan(lookAround(unmapped), 180);
-    set.predict(MotionIncrement{});
-    set.update(scan, verifier);
-    set.weigh(scan, verifier, travel, travel);
-    return set.claimContext();
-  };
-  constexpr double kMedian = 4.06;  // of the ranges to the walls of the room
-  EXPECT_NEAR(after(0, 0).range, kMedian, 0.02) << "the first addScan tells at once";
-  const ClaimContext at_first = after(0, 1e3);
-  EXPECT_NEAR(at_first.range, kMedian, 0.02);
-  EXPECT_NEAR(at_first.unexplained, 1 - set.tracks[0].score, 1e-6);
-  const ClaimContext at_once = after(10, 1e-6);
-  EXPECT_NEAR(at_once.range, at_first.range, 1e-5);
-  EXPECT_NEAR(at_once.unexplained, at_first.unexplained, 1e-5);
-  const ClaimContext later = after(10, 10);
-  EXPECT_NEAR(later.range, kMedian - 2 * (1 - std::exp(-1.0)), 0.02);
-  EXPECT_GT(later.unexplained, 0.5);
-  EXPECT_EQ(set.claimLogOdds(), set.tracks[0].claimLogOdds(later));
+  TrackSet set = setOf({newcomer(0.9, 1, 0), newcomer(0.1, 1, 0)});
+  for (Track& track : set.tracks) track.in_field = true;
+  set.tracks[0].confirmed = -1;
+  set.tracks[1].confirmed = 12;
+  EXPECT_LT(set.probabilityHere(), 0.9);
+  std::swap(set.tracks[0].confirmed, set.tracks[1].confirmed);
+  EXPECT_GT(set.probabilityHere(), 0.99);
 }
 
 TEST(WeighFirstLook, TheMilderOfScoreAndGroundCounts)

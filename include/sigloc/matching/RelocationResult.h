@@ -57,7 +57,7 @@ struct Candidate
   GaussianPose pose;  ///< map_from_robot
   double score = 0;  ///< dense score in about [-1, 1], or log-odds for maps without a field
   double probability = 0;  ///< that it is the right one; all sum to 1 with `elsewhere`
-  double explained = 0;  ///< share of the returns on mapped walls, in [0, 1]
+  double explained = 0;  ///< mean of the fine and the coarse likelihood, in [0, 1]
   double through_wall = 0;  ///< share of the beams that pass through mapped walls, in [0, 1]
   double in_free = 0;  ///< share of the returns that end in known free space, in [0, 1]
   /// All 0 for a score of more than 0.2 below the first candidate's.

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <optional>
 
 #include "matching/dense/DenseVerifier.h"
 #include "sigloc/tracking/Belief.h"
@@ -49,15 +48,6 @@ struct LogLikelihoodDeficit
   }
 };
 
-/// What a claim depends on besides the track itself.
-struct ClaimContext
-{
-  double next = 0;  // weight of the next track
-  double range = 0;  // [m] fading mean of the median range of a scan
-  double unexplained =
-      0;  // fading mean of the share of a scan that the best track does not explain
-};
-
 /// A hypothesis with what the tracker remembers of it.
 struct Track
 {
@@ -67,51 +57,27 @@ struct Track
   mrpt::math::TPose2D evaluated_at;  // pose at which the observed cells are evaluated
   double mean_score = 0;  // running mean
   bool found = false;  // this step's relocation found it best of the whole map
-  std::size_t relocations = 0;  // since the track began; not counted without a field
-  std::size_t times_found = 0;  // how many of them found it best of the whole map
   double confirmed = 0;  // log-odds from relocations: kappa of eq. (8.7)
   VisitedCells seen;  // cells seen at relocations
   double tracked_log_odds = 0;  // log-odds from the way driven: gamma of eq. (8.21)
   VisitedCells seen_while_tracked;  // cells seen on the way
-  std::optional<double> misfit;  // fading mean of eq. (8.22); none without a field
   double tracked_distance = 0;  // [m] driven since the track began
   CellEvidence explained;  // how it explains the observed cells, each once
   LogLikelihoodDeficit deficit;  // against its rivals
+  bool in_field = false;  // tracked in a dense field
   FeatureMemory features;  // used in a map without a dense field
 
   /// True for a track that this step's relocation has started.
   bool isNew() const { return hypothesis.age == 0; }
 
-  /// Notes a relocation: whether it found the track best of the whole map.
-  void noteRelocation(bool found_best)
-  {
-    found = found_best;
-    ++relocations;
-    if (found_best) ++times_found;
-  }
-
   /// Adds to `tracked_log_odds`, within its bounds. Eq. (8.21)
   void addTrackedLogOdds(double log_odds);
-
-  /// Adds what the last scan leaves unexplained to the mean misfit, after `travel` [m]. Eq. (8.22)
-  void addFit(double travel);
 
   /// Takes over the evidence of the track that it branched off.
   void inherit(const Track& parent);
 
-  /// Log-odds that the robot is in the map at all: the left side of eq. (8.22).
+  /// Log-odds that the robot is in the map at all: eq. (8.22) with a field, kappa without one.
   double inMapLogOdds() const;
-
-  /// Claim log-odds: inMapLogOdds() and, with a field, the terms for survival, eq. (8.25), for
-  /// rival poses, eq. (8.28), and for the number of unexplained things, eq. (8.29).
-  double claimLogOdds(const ClaimContext& now) const;
-
-  /// How far relocations have found other poses best, in [0, 1]; 0 after fewer than four of them.
-  /// Eq. (8.28)
-  double missed() const;
-
-  /// Log-odds from the number of things that the track leaves unexplained, eq. (8.29).
-  double explainedCellsLogOdds(const ClaimContext& now) const;
 
   /// What speaks for the track being in this map, in numbers.
   InMapEvidence summary() const

@@ -31,17 +31,6 @@ constexpr double kScoreMemory = 0.9;  // of the running mean of the score, per s
 constexpr double kMinSigma = 0.005;  // [m] added to the motion of a step, eq. (8.1)
 constexpr double kMinTurnSigma = 0.002;  // [rad] added to the turn of a step, eq. (8.1)
 
-double medianRange(const DenseScan& scan)
-{
-  if (scan.size() == 0) return 0;
-  std::vector<float> ranges(scan.size());
-  std::transform(scan.x.begin(), scan.x.end(), scan.y.begin(), ranges.begin(),
-                 [](float x, float y) { return std::hypot(x, y); });
-  const auto middle = ranges.begin() + static_cast<std::ptrdiff_t>(ranges.size() / 2);
-  std::nth_element(ranges.begin(), middle, ranges.end());
-  return static_cast<double>(*middle);
-}
-
 bool heavier(const Track& a, const Track& b)
 {
   if (a.hypothesis.weight != b.hypothesis.weight) return a.hypothesis.weight > b.hypothesis.weight;
@@ -111,7 +100,6 @@ void TrackSet::follow(const DenseScan& scan, double travelled, double travel, do
     const double novelty =
         std::min(most, track.seen_while_tracked.add(scan, track.hypothesis.pose.mean, travelled));
     track.addTrackedLogOdds(novelty * trackedLogOdds(track.evidence));
-    track.addFit(travel);
     track.tracked_distance += driven;
   }
 }
@@ -121,9 +109,8 @@ void TrackSet::follow(const DenseScan& scan, double travelled, double travel, do
 void TrackSet::weigh(const DenseScan& scan, const DenseVerifier& verifier, double travelled,
                      double travel)
 {
-  const double fresh = 1.0 - std::exp(-travel / kScanMemory);
-  range_ += (range_ > 0 ? fresh : 1.0) * (medianRange(scan) - range_);
   if (tracks.empty()) return;
+  const double fresh = 1.0 - std::exp(-travel / kScanMemory);
   const double best_score =
       std::max_element(tracks.begin(), tracks.end(),
                        [](const Track& a, const Track& b) { return a.score < b.score; })
@@ -239,11 +226,11 @@ Track* TrackSet::trackAt(const TPose2D& pose)
   return nullptr;
 }
 
-void TrackSet::countFound(const RelocationResult& result)
+void TrackSet::noteFound(const RelocationResult& result)
 {
   const Track* best =
       result.candidates.empty() ? nullptr : trackAt(result.candidates.front().pose.mean);
-  for (Track& track : tracks) track.noteRelocation(&track == best);
+  for (Track& track : tracks) track.found = &track == best;
 }
 
 void TrackSet::weighElsewhere(const RelocationResult& result, double here, bool beaten,
@@ -323,6 +310,11 @@ void TrackSet::mergeAndPrune()
   const double keep = std::min(here, 1.0 - options_.min_elsewhere);
   for (Track& track : tracks) track.hypothesis.weight *= here > 0 ? keep / here : 0;
   elsewhere = 1.0 - (here > 0 ? keep : 0);
+}
+
+double TrackSet::probabilityHere() const
+{
+  return 1.0 / (1.0 + std::exp(-tracks.front().inMapLogOdds()));
 }
 
 const Track& TrackSet::heaviest() const

@@ -38,9 +38,8 @@ class TrackSet
   void update(const DenseScan& scan, const DenseVerifier& verifier);
 
   /// Weighs tracks against each other and the best one against "somewhere else". The scan is taken
-  /// after `travelled` [m] in all, `travel` [m] after the one before. Also updates the mean range
-  /// and, where there are tracks, the mean share that the best one leaves unexplained.
-  /// Eq. (8.5), (8.6), (8.26), (8.29)
+  /// after `travelled` [m] in all, `travel` [m] after the one before. Where there are tracks, also
+  /// updates the mean share that the best one leaves unexplained. Eq. (8.5), (8.6), (8.26)
   void weigh(const DenseScan& scan, const DenseVerifier& verifier, double travelled, double travel);
 
   /// Adds the last scan to the observed cells of a track that starts with it.
@@ -56,7 +55,7 @@ class TrackSet
 
   /// Adds to the log-odds of every track by the part of the scan that came into view with the last
   /// `travel` [m] of `travelled` [m]. The robot has moved by `driven` [m], turns not counted.
-  /// Eq. (8.21), (8.22), (8.25)
+  /// Eq. (8.21)
   void follow(const DenseScan& scan, double travelled, double travel, double driven);
 
   /// Scales all weights so that they sum to one.
@@ -65,8 +64,8 @@ class TrackSet
   /// Scales the weights of the tracks alone so that all sum to one. They must not all be zero.
   void normaliseTracks();
 
-  /// Counts for each track whether a relocation has found it best of the whole map. Eq. (8.28)
-  void countFound(const RelocationResult& result);
+  /// Notes which track the relocation has found best of the whole map.
+  void noteFound(const RelocationResult& result);
 
   /// Changes the weight of "somewhere else" by the log-odds `here` for the tracks. They count by
   /// the share `fresh_share` of new evidence. Where a track is retained and not `beaten` by a pose
@@ -84,14 +83,9 @@ class TrackSet
   /// Returns the track at a pose (within 0.5 m and 17 degrees), or null.
   Track* trackAt(const mrpt::math::TPose2D& pose);
 
-  /// What a claim of the first track depends on besides the track. The tracks must be sorted.
-  ClaimContext claimContext() const
-  {
-    return {tracks.size() > 1 ? tracks[1].hypothesis.weight : 0.0, range_, unexplained_};
-  }
-
-  /// Claim log-odds of the first track. The tracks must be sorted, and not empty.
-  double claimLogOdds() const { return tracks.front().claimLogOdds(claimContext()); }
+  /// Probability that the robot is in the map, by the first track. The tracks must be sorted, and not
+  /// empty. Eq. (8.22)
+  double probabilityHere() const;
 
   /// The heaviest track. Must not be called on an empty set.
   const Track& heaviest() const;
@@ -110,6 +104,5 @@ class TrackSet
   mrpt::math::TPose2D left_;  // pose of the heaviest track before the last prediction
   ObservedCells view_;  // of the last scan, from ground_
   double unexplained_ = 0;  // fading mean of the share that the best track leaves unexplained
-  double range_ = 0;  // [m] fading mean of the median range
 };
 }  // namespace sigloc
