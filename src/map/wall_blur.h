@@ -9,8 +9,8 @@
 
 namespace sigloc
 {
-/// Returns how far the ridges of walls in the field lie from the segments of the map, across these:
-/// the root of the mean square [m] over points along all segments. In a map of few, thick or rough
-/// wall cells it is large. 0 without segments. \cite algorithm eq. (6.14)
+/// Returns the root mean square distance [m] from points along the segments of the map to the
+/// ridges of their walls in the field, across the segments. 0 without segments. Thick or rough
+/// walls make it large. \cite algorithm eq. (6.14)
 double wallBlur(const std::vector<Feature>& features, const DenseField& field);
 }  // namespace sigloc

@@ -370,9 +370,8 @@ void HypothesisTracker::State::publish(const ObservedScene& scene)
   if (!set.tracks.empty())
   {
     belief.reliability = reliability;
-    grounds.confirmed = landmark_tracker
-                            ? set.tracks.front().inMapLogOdds() >= options.confirmation
-                            : set.probabilityHere() >= options.localized_probability;
+    grounds.confirmed = landmark_tracker ? set.tracks.front().inMapLogOdds() >= options.confirmation
+                                         : set.probabilityHere() >= options.localized_probability;
     grounds.doubtful = doubtful();
   }
   if (!landmark_tracker) publishProbabilities();

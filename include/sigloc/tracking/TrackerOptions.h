@@ -60,7 +60,7 @@ struct TrackerOptions
         "suspicion", &O::suspicion, 0.0, 1.0,
         "[-] weight of somewhere else when relocation finds the robot far from all tracks"});
     visit(OptionField{"confirmation", &O::confirmation, 0.0, 20.0,
-                      "[-] log-odds of being in the map that a localized hypothesis must have"});
+                      "[-] least log-odds of being in the map for a claim without a dense field"});
     visit(OptionField{"free_motion_sigma", &O::free_motion_sigma, 0.001, 10.0,
                       "[m] standard deviation of a step without odometry"});
     visit(OptionField{"free_turn_sigma", &O::free_turn_sigma, 0.001, 3.0,

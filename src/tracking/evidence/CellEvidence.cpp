@@ -34,11 +34,6 @@ double CellEvidence::Cell::offWalls() const
   return returns > 0 ? seen() * static_cast<double>(off_walls / returns) : 0.0;
 }
 
-double CellEvidence::unexplainedShare() const
-{
-  return seen() > 0 ? std::clamp(unexplained_ / seen(), 0.0, 1.0) : 0.0;
-}
-
 double CellEvidence::offWallShare() const
 {
   return std::clamp(off_walls_ / std::max(kFewCells, known_), 0.0, 1.0);
@@ -70,9 +65,7 @@ double CellEvidence::addScan(const ObservedCells& view,
     cell.off_walls += observed[k].off_walls;
     cell.last_seen = travelled;
     unexplained_ += cell.unexplained() - before.unexplained();
-    const double unknown = cell.unknown() - before.unknown();
-    known_ += cell.seen() - before.seen() - unknown;
-    unknown_ += unknown;
+    known_ += cell.seen() - before.seen() - (cell.unknown() - before.unknown());
     off_walls_ += cell.offWalls() - before.offWalls();
   }
   return unexplained_ - unexplained_before;

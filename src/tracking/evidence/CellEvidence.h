@@ -30,21 +30,15 @@ class CellEvidence
   /// How many cells all scans so far have left unexplained. A cell that counted anew counts again.
   double unexplained() const { return unexplained_; }
 
-  /// How many cells all scans so far have shown. A cell that counted anew counts again. Eq. (8.29)
-  double seen() const { return known_ + unknown_; }
-
-  /// How many of them are mapped area.
+  /// How many cells of mapped area all scans so far have shown. A cell that counted anew counts
+  /// again.
   double known() const { return known_; }
 
   /// Sets all sums back to 0, but keeps the cells.
-  void countAnew() { unexplained_ = known_ = unknown_ = off_walls_ = 0; }
-
-  /// Unexplained share of the cells seen, in [0, 1]; 0 before the first. \cite algorithm eq. (8.25)
-  double unexplainedShare() const;
+  void countAnew() { unexplained_ = known_ = off_walls_ = 0; }
 
   /// Share of the cells of mapped area whose returns end off all walls or beyond one, in [0, 1]; 0
-  /// before the first. Fewer than five cells count as five. It depends less on how sharp a map is
-  /// than the unexplained share does.
+  /// before the first. Fewer than five cells count as five. \cite algorithm eq. (8.22)
   double offWallShare() const;
 
  private:
@@ -67,7 +61,6 @@ class CellEvidence
   std::unordered_map<std::uint64_t, Cell> cells_;
   double unexplained_ = 0;  // [cells], sum over all scans
   double known_ = 0;  // [cells] of mapped area, sum over all scans
-  double unknown_ = 0;  // [cells] of unknown area, sum over all scans
   double off_walls_ = 0;  // [cells] off all walls or beyond one, sum over all scans
   double tidied_ = 0;  // travelled [m] when cells were last forgotten
 };

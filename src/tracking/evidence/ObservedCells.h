@@ -22,8 +22,7 @@ struct ObservedCells
   std::vector<std::uint32_t> cell_of;  ///< of each return: index into cells, kNowhere if isolated
 };
 
-/// Number of cells from which on a scan counts in full: 7 m of walls. \cite algorithm eq. (8.7),
-/// (8.29)
+/// Number of cells from which on a scan counts in full: 7 m of walls. \cite algorithm eq. (8.7)
 constexpr std::size_t kCellsOfView = 14;
 
 /// Returns the cells of a scan seen from `frame_from_robot`.

@@ -83,8 +83,8 @@ class TrackSet
   /// Returns the track at a pose (within 0.5 m and 17 degrees), or null.
   Track* trackAt(const mrpt::math::TPose2D& pose);
 
-  /// Probability that the robot is in the map, by the first track. The tracks must be sorted, and not
-  /// empty. Eq. (8.22)
+  /// Probability that the robot is in the map, by the first track. The tracks must be sorted, and
+  /// not empty. Eq. (8.22)
   double probabilityHere() const;
 
   /// The heaviest track. Must not be called on an empty set.
