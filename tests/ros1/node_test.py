@@ -260,7 +260,7 @@ def test_a_bag_that_is_played_again_starts_anew(start, bag):
     # The first transform of the past comes before the scan that shows that time went back.
     first, *again = player.play(bag, topics=("/tf_static", "/tf", "/scan"))
     assert first.level == ERROR and "scan left out" in first.message
-    assert values(again[0])["state"] == "searching" and values(again[0])["verdict"] == "ambiguous"
+    assert values(again[0])["state"] in ("searching", "confirming")
     assert values(again[-1])["state"] == "known"
     eventually(lambda: len(player.initial_poses) == 2, "the second pose")
     assert_right(player.initial_poses[1].header.stamp, planar(player.initial_poses[1].pose.pose))

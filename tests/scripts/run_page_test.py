@@ -73,6 +73,8 @@ def walk(driver, rows):
     check_step(driver, rows[0], 1, count)
     driver.find_element(By.ID, "times").click()
     check(abs(int(shown(driver, "number").split()[0]) - count / 2) < 3, "not in the middle")
+    verdicts = [row["verdict"] for row in rows]
+    check("localized" in verdicts and "ambiguous" in verdicts, "the log does not show both")
     for verdict, has_banner in (("localized", False), ("ambiguous", True)):
         number = next(k for k, row in enumerate(rows, 1) if row["verdict"] == verdict)
         driver.execute_script(f"show({number - 1})")
@@ -84,9 +86,12 @@ def main():
     localize, source = sys.argv[1], pathlib.Path(sys.argv[2])
     with tempfile.TemporaryDirectory() as folder:
         out = pathlib.Path(folder) / "answer"
+        # At its first scan the robot is localized with 0.998: it is to be unsure for a while.
+        ini = pathlib.Path(folder) / "careful.ini"
+        ini.write_text("[LocalizationExperiment]\n[sigloc.tracker]\nlocalized_probability = 0.9995\n", encoding="utf-8")
         subprocess.run(
             [localize, "--map", source / "maps/office.simplemap", "--log",
-             source / "rawlogs/office.rawlog", "--out", out, "--quiet"],
+             source / "rawlogs/office.rawlog", "--out", out, "--quiet", ini],
             check=True, stdout=subprocess.DEVNULL, env={"XDG_CACHE_HOME": folder},
         )  # fmt: skip
         with open(out / "steps.csv", newline="", encoding="utf-8") as file:
