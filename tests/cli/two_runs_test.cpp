@@ -112,32 +112,46 @@ void expectWhole(const TemporaryFolder& folder, int steps)
   EXPECT_EQ(names, (std::set<std::string>{"a.ini", "b.ini", "out"}));
 }
 
-// How far the first run has come when the second begins: that many files of it are there. It is
-// stopped meanwhile, so that it cannot end first. SIGLOC_PAIRS asks for more of them.
+/// Starts a second run when so many files of the first are there. The first is stopped meanwhile,
+/// so that it cannot end first. Returns false where it had ended already.
+bool meet(std::size_t files)
+{
+  const TemporaryFolder folder;
+  const int steps = writeIni(folder, "a.ini", 100);
+  writeIni(folder, "b.ini", 150);
+  const std::size_t before = filesBelow(folder.path());
+  Background first(folder, {"a.ini", "--quiet", "--out", "out"});
+  while (first.running() && filesBelow(folder.path()) < before + files)
+  {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  first.signal(SIGSTOP);
+  if (!first.running() || std::filesystem::exists(folder / "out/summary.json"))
+  {
+    first.signal(SIGCONT);
+    return false;
+  }
+  const auto second = run(folder, "sigloc-localize", {"b.ini", "--quiet", "--out", "out"});
+  first.signal(SIGCONT);
+  EXPECT_EQ(second.exit_code, 1);
+  EXPECT_EQ(countLines(second.errors), 1) << second.errors;
+  EXPECT_NE(second.errors.find(": another run writes here"), std::string::npos) << second.errors;
+  EXPECT_EQ(first.wait(), 0);
+  expectWhole(folder, steps);
+  return true;
+}
+
+// SIGLOC_PAIRS asks for more pairs of runs. Where the machine is busy, the first may end too early.
 TEST(TwoRuns, IntoOneFolderTheSecondIsRefusedAndTheFirstIsWhole)
 {
-  const char* const asked = std::getenv("SIGLOC_PAIRS");
+  const char* asked = std::getenv("SIGLOC_PAIRS");
   const int pairs = asked != nullptr ? std::atoi(asked) : 3;
   for (int pair = 0; pair < pairs; ++pair)
   {
-    const TemporaryFolder folder;
-    const int steps = writeIni(folder, "a.ini", 100);
-    writeIni(folder, "b.ini", 150);
-    const auto wanted = static_cast<std::size_t>(1 + pair * 200 / pairs);
-    Background first(folder, {"a.ini", "--quiet", "--out", "out"});
-    while (first.running() && filesBelow(folder.path()) < 2 + wanted)
-    {
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    ASSERT_TRUE(first.running()) << "pair " << pair;
-    first.signal(SIGSTOP);
-    const auto second = run(folder, "sigloc-localize", {"b.ini", "--quiet", "--out", "out"});
-    first.signal(SIGCONT);
-    EXPECT_EQ(second.exit_code, 1);
-    EXPECT_EQ(countLines(second.errors), 1) << second.errors;
-    EXPECT_NE(second.errors.find(": another run writes here"), std::string::npos) << second.errors;
-    EXPECT_EQ(first.wait(), 0);
-    expectWhole(folder, steps);
+    const auto files = static_cast<std::size_t>(1 + pair * 200 / pairs);
+    int tries = 1;
+    while (!meet(files) && tries < 10) ++tries;
+    EXPECT_LT(tries, 10) << "pair " << pair;
   }
 }
 
