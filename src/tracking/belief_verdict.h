@@ -7,17 +7,17 @@
 
 namespace sigloc
 {
-/// What decides a verdict besides the weights.
+/// What decides a verdict besides the probabilities.
 struct BeliefGrounds
 {
-  bool confirmed = false;  ///< the claim log-odds of the first hypothesis reach the bound
+  bool confirmed = false;  ///< the evidence that the robot is in the map is strong enough
   bool doubtful = false;  ///< the first hypothesis has stopped explaining the scans
   bool sees_too_little = false;  ///< the scan has too few returns for the verdict *not here*
 };
 
 /// Sets the verdict of a belief, its probability and its reason by decideVerdict(), from its
-/// hypotheses (heaviest first) and the weight of "somewhere else". A claim requires the weight
-/// `sure`. Without a field (null) the reason does not say where rivals differ.
+/// hypotheses (heaviest first) and the probability of being elsewhere. A claim requires the
+/// probability `sure`. Without a field (null) the reason does not say where rivals differ.
 /// \cite algorithm section 8, "Publish"
 void setVerdict(Belief& belief, const BeliefGrounds& more, double sure, const DenseField* field);
 }  // namespace sigloc

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <array>
-#include <cmath>
 
 #include "matching/dense/CellView.h"
 #include "matching/dense/DenseVerifier.h"
