@@ -14,6 +14,7 @@ namespace sigloc
 {
 namespace
 {
+using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
 using testing::isRight;
 using testing::MappedWorld;
@@ -129,6 +130,93 @@ TEST(LookAlikes, IdenticalRastersGetIdenticalWeights)
     EXPECT_GE(equal, 12);
     EXPECT_GT(worst, 1.0 / (10.0 * copies));
   }
+}
+
+/// The surfaces of a corridor as a raster of 5 cm, of which a room of 5 m is a whole number of
+/// cells. So each room is the same, cell by cell.
+OccupancyRaster rasterOf(const World& world)
+{
+  OccupancyRaster raster;
+  raster.frame = {
+      {world.bounds.x_min - 1.0125, world.bounds.y_min - 1.0125},
+      0.05,
+      static_cast<std::uint32_t>((world.bounds.x_max - world.bounds.x_min) / 0.05) + 40,
+      static_cast<std::uint32_t>((world.bounds.y_max - world.bounds.y_min) / 0.05) + 40};
+  raster.cells.assign(std::size_t{raster.frame.width} * raster.frame.height, CellState::free);
+  for (const WallSegment& wall : visibleSegments(world))
+  {
+    const TPoint2D along = wall.end - wall.start;
+    for (double share = 0; share <= 1; share += 0.01 / std::max(0.01, along.norm()))
+    {
+      const TPoint2D at = wall.start + along * share - raster.frame.origin;
+      raster.cells[static_cast<std::size_t>(at.y / 0.05) * raster.frame.width +
+                   static_cast<std::size_t>(at.x / 0.05)] = CellState::solid_wall;
+    }
+  }
+  return raster;
+}
+
+/// How the copies of a corridor's room share the probability, where the raster is the same in each.
+struct Shares
+{
+  int asked = 0;
+  int all_listed = 0;  ///< every copy is a candidate
+  int even = 0;  ///< and the lightest has at least 0.9 of the heaviest
+  int localized = 0;
+};
+
+Shares sharesOfRooms(std::uint32_t copies)
+{
+  constexpr double kRoom = 5.0;  // [m] from a room to the next
+  WorldOptions options;
+  options.copies = copies;
+  const World world = makeWorld(WorldKind::corridor, options, 9);
+  const FreeSpace space(world, 0.35);
+  const LaserSimulator simulator(world, MappedWorld::laser());
+  const SignatureMatcher matcher(
+      std::make_shared<const FeatureMap>(buildMapFromRaster(rasterOf(world))));
+  Random random(2011 + copies);
+  Shares shares;
+  for (int k = 0; k < 5000 && shares.asked < 15; ++k)
+  {
+    const TPoint2D place = space.randomPlace(random);
+    const TPose2D truth(place.x, place.y, random.uniform(-M_PI, M_PI));
+    // Well inside a room, with the back to the door: nothing distinguishes the copies.
+    if (truth.y < 4.5 || std::abs(std::remainder(truth.phi - M_PI / 2, 2 * M_PI)) > 0.3) continue;
+    ++shares.asked;
+    const RelocationResult result = matcher.localize(observeScene({simulator.scan(truth, random)}));
+    shares.localized += result.verdict == Verdict::localized ? 1 : 0;
+    std::vector<double> found;
+    for (const Candidate& candidate : result.candidates)
+    {
+      TPose2D in_room = candidate.pose.mean;
+      in_room.x = truth.x + std::remainder(in_room.x - truth.x, kRoom);
+      if (isRight(in_room, truth)) found.push_back(candidate.probability);
+    }
+    if (found.size() < copies) continue;
+    ++shares.all_listed;
+    const auto [lightest, heaviest] = std::minmax_element(found.begin(), found.end());
+    shares.even += *lightest >= 0.9 * *heaviest ? 1 : 0;
+  }
+  return shares;
+}
+
+TEST(LookAlikes, EveryIdenticalRoomIsListedWithAnEqualShare)
+{
+  int asked = 0;
+  int even = 0;
+  for (const std::uint32_t copies : {4U, 12U, 30U})
+  {
+    const Shares shares = sharesOfRooms(copies);
+    std::cout << copies << " identical rooms: all listed " << shares.all_listed << ", equal shares "
+              << shares.even << " of " << shares.asked << "\n";
+    EXPECT_EQ(shares.localized, 0);
+    EXPECT_GE(shares.all_listed, shares.asked - 1);
+    asked += shares.asked;
+    even += shares.even;
+  }
+  EXPECT_EQ(asked, 45);
+  EXPECT_GE(even, 42);
 }
 
 /// How many of fifty drives through one of two copies of the office end with both tracks alive.

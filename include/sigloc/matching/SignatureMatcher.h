@@ -31,7 +31,7 @@ struct MatcherOptions
 {
   std::uint32_t mode = 0;
   bool use_dense_field = true;
-  std::uint32_t max_candidates = 10;
+  std::uint32_t max_candidates = 32;
   std::uint32_t min_beams = 10;
   std::uint32_t seed = 1;
 
@@ -44,7 +44,7 @@ struct MatcherOptions
     visit(OptionField{"use_dense_field", &O::use_dense_field, false, true,
                       "[-] verify proposed poses in the dense field where the map has one"});
     visit(OptionField{"max_candidates", &O::max_candidates, 1U, 1000U,
-                      "[-] how many candidates are returned at most"});
+                      "[-] returned at most; after ten only those that tie with the first"});
     visit(OptionField{"min_beams", &O::min_beams, 1U, 1000U,
                       "[-] with fewer returns the verdict is too little seen"});
     visit(OptionField{"seed", &O::seed, 0U, 0xFFFFFFFFU, "[-] of the sampling modes"});

@@ -42,6 +42,8 @@ constexpr std::size_t kFinallyRefined = 4;  // poses that are refined
 constexpr int kLastSteps = 12;  // of refinement on all returns
 constexpr double kLastLoss = 0.01;  // of the score that it may cost
 // All stages:
+constexpr std::size_t kUsuallyRanked = 10;  // distinct poses; more only where they tie
+constexpr double kTie = 0.03;  // of the score behind the best, up to which poses tie
 constexpr double kApartDistance = 0.08;  // [m] between distinct poses after stage 2
 
 /// Orders poses, best first. Ties are broken by the pose, so that the order never depends on how
@@ -54,19 +56,23 @@ bool better(const RankedPose& a, const RankedPose& b)
   return a.pose.phi < b.pose.phi;
 }
 
-/// Keeps the best of each group of poses that are not distinct, at most `count`.
-void keepDistinct(std::vector<RankedPose>& poses, std::size_t count,
+/// Keeps the best of each group of poses that are not distinct, at most `count`. Beyond these it
+/// keeps distinct places that tie with the best, up to `most_tied` in all.
+void keepDistinct(std::vector<RankedPose>& poses, std::size_t count, std::size_t most_tied,
                   double distance = kSamePlaceDistance)
 {
   std::sort(poses.begin(), poses.end(), better);
   std::vector<RankedPose> kept;
   for (const RankedPose& candidate : poses)
   {
-    if (kept.size() == count) break;
-    const bool fresh = std::all_of(
-        kept.begin(), kept.end(),
-        [&](const RankedPose& other)
-        { return !withinReach(candidate.pose, other.pose, distance, kSamePlaceAngle); });
+    const bool full = kept.size() >= count;
+    const bool ties = candidate.evidence.score >= poses.front().evidence.score - kTie;
+    if (full && (!ties || kept.size() >= most_tied)) break;
+    const double apart = full ? kSamePlaceDistance : distance;
+    const bool fresh =
+        std::all_of(kept.begin(), kept.end(),
+                    [&](const RankedPose& other)
+                    { return !withinReach(candidate.pose, other.pose, apart, kSamePlaceAngle); });
     if (fresh) kept.push_back(candidate);
   }
   poses = std::move(kept);
@@ -121,7 +127,7 @@ std::vector<RankedPose> DenseVerifier::rank(const DenseScan& scan,
   std::vector<RankedPose> poses = race(scan, tried, std::move(scores), before, counters);
   // Neighbouring poses that did not converge stay rivals until all returns have scored them. Which
   // of them wins must not depend on where the proposals were.
-  keepDistinct(poses, kFinalKept, kApartDistance);
+  keepDistinct(poses, kFinalKept, kFinalKept + max_ranked, kApartDistance);
 
   // 3. Refine the best of those on more returns, and score them by all.
   const double promising = std::max(bestScore(poses), bestScore(before)) - kFinalLead;
@@ -137,19 +143,21 @@ std::vector<RankedPose> DenseVerifier::rank(const DenseScan& scan,
     if (k < refined.size()) poses[k].pose = refined[k];
     poses[k].evidence = evaluate(scan, poses[k].pose, scan.spaced, kFinalRays);
   }
-  keepDistinct(poses, max_ranked);
+  const std::size_t usual = std::min(kUsuallyRanked, max_ranked);
+  keepDistinct(poses, usual, max_ranked);
 
-  // 4. Refine those that may win or be the runner-up on all returns.
+  // 4. Refine those that may win or be the runner-up on all returns, and all that tie.
   const DenseScan balanced = balancedScan(scan);
   const double contender = std::max(bestScore(poses), bestScore(before)) - kContender;
-  for (std::size_t k = 0; k < std::min(kFinallyRefined, poses.size()); ++k)
+  const double tied = std::max(bestScore(poses), bestScore(before)) - kTie;
+  for (std::size_t k = 0; k < poses.size(); ++k)
   {
     RankedPose& pose = poses[k];
-    if (pose.evidence.score < contender) break;
+    if (pose.evidence.score < (k < kFinallyRefined ? contender : tied)) break;
     refineFinally(scan, balanced, pose);
   }
   poses.insert(poses.end(), before.begin(), before.end());
-  keepDistinct(poses, max_ranked);
+  keepDistinct(poses, usual, max_ranked);
   return poses;
 }
 

@@ -34,7 +34,8 @@ class DenseVerifier
   explicit DenseVerifier(const DenseField& field, double wall_blur = 0);
   ~DenseVerifier();
 
-  /// Returns at most `max_ranked` distinct poses (more than 0.5 m or 17 degrees apart), best first.
+  /// Returns at most `max_ranked` distinct poses (more than 0.5 m or 17 degrees apart), best first;
+  /// more than ten only where they tie with the first.
   /// Counts the poses scored, and a search cut short where more than 400 places fit nearly as well
   /// as the best: the others are not refined. Poses ranked `before` for the same
   /// scan compete with those from the proposals. \cite algorithm section 6, "The cascade"
