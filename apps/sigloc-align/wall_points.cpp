@@ -95,18 +95,23 @@ std::vector<TPoint2D> wallPoints(const DenseField& field, std::size_t most)
   std::vector<TPoint2D> solid;
   std::vector<TPoint2D> all;
   const RasterFrame& frame = field.frame;
-  for (std::size_t k = 0; k < field.cells.size(); ++k)
+  const auto add = [&](const DenseCell& cell, std::uint32_t column, std::uint32_t row)
   {
-    const DenseCell& cell = field.cells[k];
-    if (!isWall(cell.state)) continue;
-    const std::size_t row = k / frame.width;
-    const std::size_t column = k % frame.width;
-    const double x = (static_cast<double>(column) + 0.5) * frame.resolution;
-    const double y = (static_cast<double>(row) + 0.5) * frame.resolution;
+    if (!isWall(cell.state)) return;
+    const double x = (column + 0.5) * frame.resolution;
+    const double y = (row + 0.5) * frame.resolution;
     const TPoint2D ridge(frame.origin.x + x + cell.dx * DenseField::kOffsetUnit,
                          frame.origin.y + y + cell.dy * DenseField::kOffsetUnit);
     all.push_back(ridge);
     if (cell.state == CellState::solid_wall) solid.push_back(ridge);
+  };
+  for (const StoredCells& stored : storedCells(field))
+  {
+    for (std::uint32_t y = 0; y < stored.height; ++y)
+    {
+      for (std::uint32_t x = 0; x < stored.width; ++x)
+        add(stored.row(y)[x], stored.x + x, stored.y + y);
+    }
   }
   const std::vector<TPoint2D>& points = 5 * solid.size() > all.size() ? solid : all;
   std::vector<TPoint2D> chosen;

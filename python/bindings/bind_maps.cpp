@@ -78,6 +78,14 @@ SharedMap mapFromGrid(const py::array& array, double resolution, const Numbers& 
   return std::make_shared<FeatureMap>(buildMapFromRaster(detail::rasterOfOccupancy(grid)));
 }
 
+std::int8_t percentOf(CellState state)
+{
+  const int percent = isWall(state)              ? kPercentOfWall
+                      : state == CellState::free ? 0
+                                                 : kPercentUnknown;
+  return static_cast<std::int8_t>(percent);
+}
+
 const RasterFrame* frameOf(const FeatureMap& map)
 {
   return map.field() ? &map.field()->frame : nullptr;
@@ -90,12 +98,14 @@ std::optional<py::array_t<std::int8_t>> gridOf(const FeatureMap& map)
   py::array_t<std::int8_t> grid(
       {static_cast<py::ssize_t>(frame.height), static_cast<py::ssize_t>(frame.width)});
   std::int8_t* out = grid.mutable_data();
-  for (const DenseCell& cell : map.field()->cells)
+  std::fill_n(out, grid.size(), static_cast<std::int8_t>(kPercentUnknown));
+  for (const StoredCells& stored : storedCells(*map.field()))
   {
-    const int percent = isWall(cell.state)              ? kPercentOfWall
-                        : cell.state == CellState::free ? 0
-                                                        : kPercentUnknown;
-    *out++ = static_cast<std::int8_t>(percent);
+    for (std::uint32_t y = 0; y < stored.height; ++y)
+    {
+      std::int8_t* to = out + (std::size_t{stored.y + y} * frame.width + stored.x);
+      for (std::uint32_t x = 0; x < stored.width; ++x) to[x] = percentOf(stored.row(y)[x].state);
+    }
   }
   return grid;
 }

@@ -10,6 +10,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "map/field_tiles.h"
 #include "sigloc/plugin/map_drawing.h"
 
 namespace sigloc::detail
@@ -37,33 +38,19 @@ ordered_json shrunkRaster(const DenseField& field)
   const RasterFrame& frame = field.frame;
   const std::uint32_t block =
       std::max(1U, (std::max(frame.width, frame.height) + kMostPixels - 1) / kMostPixels);
-  const std::uint32_t width = (frame.width + block - 1) / block;
-  const std::uint32_t height = (frame.height + block - 1) / block;
+  const ShrunkField shrunk = shrunkField(field, block);
   std::vector<std::uint32_t> runs(1);
   const auto add = [&](std::uint32_t shade)
   {
     while ((runs.size() - 1) % 3 != shade) runs.push_back(0);
     ++runs.back();
   };
-  for (std::uint32_t v = 0; v < height; ++v)
+  for (const CellState state : shrunk.states)
   {
-    for (std::uint32_t u = 0; u < width; ++u)
-    {
-      CellState state = CellState::unknown;
-      for (std::uint32_t y = v * block; y < std::min(frame.height, (v + 1) * block); ++y)
-      {
-        for (std::uint32_t x = u * block; x < std::min(frame.width, (u + 1) * block); ++x)
-          state = std::max(state, field.cells[std::size_t{y} * frame.width + x].state);
-      }
-      add(isWall(state) ? 2 : static_cast<std::uint32_t>(state));
-    }
+    add(isWall(state) ? 2 : static_cast<std::uint32_t>(state));
   }
-  return {{"width", width},
-          {"height", height},
-          {"x", frame.origin.x},
-          {"y", frame.origin.y},
-          {"pixel", frame.resolution * block},
-          {"runs", runs}};
+  return {{"width", shrunk.width}, {"height", shrunk.height},           {"x", frame.origin.x},
+          {"y", frame.origin.y},   {"pixel", frame.resolution * block}, {"runs", runs}};
 }
 
 /// A segment as [x, y, x, y], anything else as [x, y].

@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "map/field_tiles.h"
 #include "map/map_values.h"
 
 namespace sigloc
@@ -241,6 +242,7 @@ DenseField buildDenseField(const OccupancyRaster& raster)
 
 OccupancyRaster rasterOf(const DenseField& field)
 {
+  if (field.isTiled()) return rasterOf(wholeField(field));
   const double units = DenseField::kOffsetUnit / (field.frame.resolution * WallHits::kUnit);
   const auto hit_byte = [&](std::int8_t offset)
   { return static_cast<std::int8_t>(std::clamp(std::lround(offset * units), -127L, 127L)); };

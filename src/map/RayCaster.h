@@ -51,7 +51,7 @@ class RayCaster
       if (!(x >= 0 && y >= 0 && x < frame.width && y < frame.height)) return std::nullopt;
       const auto ix = static_cast<std::size_t>(x);
       const auto iy = static_cast<std::size_t>(y);
-      const DenseCell& cell = field_.cells[iy * frame.width + ix];
+      const DenseCell& cell = field_.at(ix, iy);
       if (!visit(along * resolution, cell)) return along * resolution;
       // The distance is between cell centres. A ray may be nearer by up to two half diagonals, and
       // the byte may have been rounded up.

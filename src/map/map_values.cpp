@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "features/feature_values.h"
@@ -39,25 +40,48 @@ std::optional<std::string> unusableCells(double resolution)
   return fmt::format("cells of {:g} m, not of {:g} to {:g} m", resolution, kFinest, kCoarsest);
 }
 
-std::optional<std::string> flawOf(const RasterFrame& frame)
+std::optional<std::string> flawOf(const RasterFrame& frame, double most_cells)
 {
   if (auto reason = unusableCells(frame.resolution)) return reason;
   const double cells = static_cast<double>(frame.width) * frame.height;
-  if (!isWithin(cells, 1, kMostCells))
+  if (!isWithin(cells, 1, most_cells))
   {
     return fmt::format("a raster of {} x {} cells, not of 1 to {:g}", frame.width, frame.height,
-                       kMostCells);
+                       most_cells);
   }
   if (auto reason = beyondReach(frame.origin.x, frame.origin.y)) return reason;
   return beyondReach(frame.origin.x + frame.width * frame.resolution,
                      frame.origin.y + frame.height * frame.resolution);
 }
 
+namespace
+{
+std::optional<std::string> flawOfTiles(const DenseField& field)
+{
+  const std::size_t rows = (field.frame.height + DenseField::kTileSide - 1) / DenseField::kTileSide;
+  const std::size_t stored = field.cells.size() / DenseField::kTileCells;
+  const bool sound = field.tiles.size() == field.tileColumns() * rows && stored > 0 &&
+                     stored * DenseField::kTileCells == field.cells.size() &&
+                     std::all_of(field.tiles.begin(), field.tiles.end(),
+                                 [&](std::uint32_t tile) { return tile < stored; });
+  if (sound) return std::nullopt;
+  return fmt::format("a raster of {} tiles and {} cells in a frame of {} x {}", field.tiles.size(),
+                     field.cells.size(), field.frame.width, field.frame.height);
+}
+}  // namespace
+
 std::optional<std::string> flawOf(const DenseField& field)
 {
-  if (auto reason = flawOf(field.frame)) return reason;
+  if (auto reason = flawOf(field.frame, field.isTiled() ? kMostTiledCells : kMostCells))
+  {
+    return reason;
+  }
   const std::size_t cells = std::size_t{field.frame.width} * field.frame.height;
-  if (field.cells.size() != cells)
+  if (field.isTiled())
+  {
+    if (auto reason = flawOfTiles(field)) return reason;
+  }
+  else if (field.cells.size() != cells)
   {
     return fmt::format("a raster of {} cells in a frame of {}", field.cells.size(), cells);
   }

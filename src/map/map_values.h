@@ -16,6 +16,8 @@ namespace sigloc
 /// A raster of more cells, or a map with a longer outline [m], is refused. Their memory is up to 7
 /// GB and 100 MB.
 constexpr double kMostCells = 4e8;
+/// The same for a field in tiles, most of which is not stored: 6.3 km x 6.3 km of 5 cm.
+constexpr double kMostTiledCells = 1.6e10;
 constexpr double kLongestOutline = 1e6;
 
 /// Returns why a map cannot hold the position (x, y) [m], or nullopt where it can. Positions are
@@ -27,7 +29,7 @@ std::optional<std::string> beyondReach(double x, double y);
 std::optional<std::string> unusableCells(double resolution);
 
 /// Return why these values cannot be those of a map, or nullopt where they can.
-std::optional<std::string> flawOf(const RasterFrame& frame);
+std::optional<std::string> flawOf(const RasterFrame& frame, double most_cells = kMostCells);
 std::optional<std::string> flawOf(const DenseField& field);
 std::optional<std::string> flawOf(const MapErrorModel& error);
 std::optional<std::string> flawOf(const std::vector<Feature>& features);

@@ -10,6 +10,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "map/field_tiles.h"
 #include "plugin/TriangleBatch.h"
 
 namespace sigloc
@@ -66,25 +67,16 @@ mrpt::opengl::CTexturedPlane::Ptr drawRaster(const DenseField& field)
   const RasterFrame& frame = field.frame;
   const std::uint32_t block =
       std::max(1U, (std::max(frame.width, frame.height) + kMaxTextureSide - 1) / kMaxTextureSide);
-  const std::uint32_t width = (frame.width + block - 1) / block;
-  const std::uint32_t height = (frame.height + block - 1) / block;
+  const ShrunkField shrunk = shrunkField(field, block);
+  const auto& [width, height, states] = shrunk;
   mrpt::img::CImage image(width, height, mrpt::img::CH_RGB);
   for (std::uint32_t v = 0; v < height; ++v)
   {
     for (std::uint32_t u = 0; u < width; ++u)
     {
-      CellState state = CellState::unknown;
-      for (std::uint32_t iy = v * block; iy < std::min(frame.height, (v + 1) * block); ++iy)
-      {
-        for (std::uint32_t ix = u * block; ix < std::min(frame.width, (u + 1) * block); ++ix)
-        {
-          const CellState cell = field.cells[std::size_t{iy} * frame.width + ix].state;
-          state = std::max(state, cell);
-        }
-      }
       // CTexturedPlane draws its texture's first row at the lowest y.
       auto* pixel = image.ptr<std::uint8_t>(u, v);
-      std::fill(pixel, pixel + 3, greyOf(state));
+      std::fill(pixel, pixel + 3, greyOf(states[std::size_t{v} * width + u]));
     }
   }
   auto plane = mrpt::opengl::CTexturedPlane::Create();
@@ -294,14 +286,16 @@ PlanarBox boundsOf(const FeatureMap& map)
   if (map.field())
   {
     const RasterFrame& frame = map.field()->frame;
-    for (std::uint32_t iy = 0; iy < frame.height; ++iy)
+    for (const StoredCells& stored : storedCells(*map.field()))
     {
-      for (std::uint32_t ix = 0; ix < frame.width; ++ix)
+      for (std::uint32_t y = 0; y < stored.height; ++y)
       {
-        if (map.field()->cells[std::size_t{iy} * frame.width + ix].state == CellState::unknown)
-          continue;
-        include(frame.origin.x + frame.resolution * (ix + 0.5),
-                frame.origin.y + frame.resolution * (iy + 0.5));
+        for (std::uint32_t x = 0; x < stored.width; ++x)
+        {
+          if (stored.row(y)[x].state == CellState::unknown) continue;
+          include(frame.origin.x + frame.resolution * (stored.x + x + 0.5),
+                  frame.origin.y + frame.resolution * (stored.y + y + 0.5));
+        }
       }
     }
   }

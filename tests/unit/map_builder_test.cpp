@@ -9,9 +9,12 @@
 #include <limits>
 #include <random>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 #include "bridge/sample_maps.h"
 #include "map/building/counted_field.h"
+#include "map/field_tiles.h"
 
 using namespace sigloc;
 using mrpt::math::TPose2D;
@@ -122,6 +125,59 @@ TEST(DenseFieldOf, IsSolvedInStripsAsInOnePiece)
   {
     test::expectSameField(denseFieldOf(counts, min_scans, 1),
                           buildDenseField(counts.raster(counts.box(), min_scans)));
+  }
+}
+
+/// Scans of two tours, far apart along both axes.
+std::vector<PosedScans> toursApart(double metres)
+{
+  std::vector<PosedScans> scans = tour(24, 7);
+  for (PosedScans posed : tour(24, 9))
+  {
+    posed.map_from_robot.x += metres;
+    posed.map_from_robot.y += metres;
+    scans.push_back(std::move(posed));
+  }
+  return scans;
+}
+
+TEST(DenseFieldOf, IsSolvedInTilesAsInOnePiece)
+{
+  BeamCounts counts(0.05);
+  for (const PosedScans& posed : toursApart(83)) counts.add(posed, 30);
+  const DenseField tiled = denseFieldOf(counts, 1, 1 << 22, 0);
+  ASSERT_TRUE(tiled.isTiled());
+  const DenseField whole = buildDenseField(counts.raster(counts.box(), 1));
+  test::expectSameField(wholeField(tiled), whole);
+  EXPECT_EQ(tiled.cells.size(), inTilesWhereSparse(whole, 0).cells.size());
+}
+
+TEST(BuildMapFromScans, CostsWhatIsMappedAndNotTheBoxAroundIt)
+{
+  const std::vector<PosedScans> scans = toursApart(5000);
+  const FeatureMap map = buildMapFromScans(scans);
+  const FeatureMap one = buildMapFromScans({scans.begin(), scans.begin() + 24});
+  const DenseField& field = *map.field();
+  ASSERT_TRUE(field.isTiled());
+  EXPECT_GT(1.0 * field.frame.width * field.frame.height, 1e10) << "cells of 25 km2";
+  EXPECT_LT(field.cells.size(), 2 * one.field()->cells.size() + 100 * DenseField::kTileCells);
+  EXPECT_LT(sizeof(std::uint32_t) * field.tiles.size(), 11e6);
+  EXPECT_NEAR(field.free_area, 2 * one.field()->free_area, 0.02 * field.free_area);
+}
+
+TEST(BuildMapFromScans, NamesTheScanThatIsFarFromTheOthers)
+{
+  std::vector<PosedScans> scans = tour(24, 7);
+  scans[5].map_from_robot = {52000, -8000, 0};
+  try
+  {
+    buildMapFromScans(scans);
+    FAIL();
+  }
+  catch (const std::invalid_argument& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("scan 6 at (52000.0, -8000.0) m"), std::string::npos)
+        << error.what();
   }
 }
 

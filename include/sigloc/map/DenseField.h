@@ -75,15 +75,36 @@ struct DenseCell
 };
 
 /// Distance to, and direction of, the nearest wall everywhere on the map, for dense verification.
-/// Plain data; see `buildDenseField`. \cite algorithm eq. (6.3)
+/// Plain data; see `buildDenseField`. Where most of a large frame is not mapped, only tiles with
+/// something in them are stored. \cite algorithm eq. (6.3)
 struct DenseField
 {
   static constexpr double kDistanceUnit = 0.005;  ///< [m] per unit of DenseCell::distance
   static constexpr double kOffsetUnit = 0.01;  ///< [m] per unit of DenseCell::dx and dy
+  static constexpr std::uint32_t kTileSide = 64;  ///< [cells]
+  static constexpr std::size_t kTileCells = std::size_t{kTileSide} * kTileSide;
   RasterFrame frame;
-  std::vector<DenseCell> cells;  ///< width * height
+  /// width * height, or kTileCells for each stored tile, row by row in it.
+  std::vector<DenseCell> cells;
+  /// For each tile of the frame, row by row: its place among the stored ones. The first stored tile
+  /// stands for all without anything in them. Empty where `cells` has the whole frame.
+  std::vector<std::uint32_t> tiles;
   double free_area = 0;  ///< [m^2] known to be free
   std::uint32_t wall_cells = 0;
+
+  bool isTiled() const { return !tiles.empty(); }
+  /// Returns how many tiles lie side by side in the frame.
+  std::uint32_t tileColumns() const
+  {
+    return frame.width / kTileSide + (frame.width % kTileSide != 0 ? 1 : 0);
+  }
+  /// Returns the cell in column `x` and row `y`, which must be in the frame.
+  const DenseCell& at(std::size_t x, std::size_t y) const
+  {
+    if (tiles.empty()) return cells[y * frame.width + x];
+    const std::size_t tile = tiles[y / kTileSide * tileColumns() + x / kTileSide];
+    return cells[tile * kTileCells + y % kTileSide * kTileSide + x % kTileSide];
+  }
 };
 
 /// Returns the cell with a point of the map frame [m], or null outside the field.
@@ -93,8 +114,32 @@ inline const DenseCell* cellAt(const DenseField& field, const mrpt::math::TPoint
   const double x = std::floor((point.x - frame.origin.x) / frame.resolution);
   const double y = std::floor((point.y - frame.origin.y) / frame.resolution);
   if (!(x >= 0 && y >= 0 && x < frame.width && y < frame.height)) return nullptr;
-  return &field.cells[static_cast<std::size_t>(y) * frame.width + static_cast<std::size_t>(x)];
+  return &field.at(static_cast<std::size_t>(x), static_cast<std::size_t>(y));
 }
+
+/// A rectangle of a field's cells.
+struct StoredCells
+{
+  std::uint32_t x = 0;  ///< [cells] column of its lower left cell
+  std::uint32_t y = 0;
+  std::uint32_t width = 0;  ///< [cells]
+  std::uint32_t height = 0;
+  const DenseCell* first = nullptr;  ///< its lower left cell
+  std::size_t stride = 0;  ///< [cells] from a row to the next
+
+  const DenseCell* row(std::uint32_t k) const { return first + k * stride; }
+};
+
+/// Returns the rectangles that hold all cells with something in them: the whole frame, or the
+/// stored tiles within it, row by row.
+std::vector<StoredCells> storedCells(const DenseField& field);
+
+/// Frames of at most so many cells are stored whole: what is looked up in them is often cached.
+constexpr std::size_t kMostWholeCells = std::size_t{1} << 24U;
+
+/// Returns the same field, in tiles where these take less than half of the memory and the whole
+/// frame has more than `most_whole` cells.
+DenseField inTilesWhereSparse(DenseField field, std::size_t most_whole = kMostWholeCells);
 
 /// Returns the least distance [m] to any wall of a cell whose distance byte is 255. The distance
 /// bytes end at 1.27 m, the offset bytes at 127 cells.
@@ -111,6 +156,7 @@ std::int32_t fieldReach(double resolution);
 DenseField buildDenseField(const OccupancyRaster& raster);
 
 /// Returns the raster of a field. It has the ridge of a wall cell as the position of its hits,
-/// because a field does not store them.
+/// because a field does not store them. Throws std::invalid_argument for the frame of a field in
+/// tiles that is too large for a raster.
 OccupancyRaster rasterOf(const DenseField& field);
 }  // namespace sigloc

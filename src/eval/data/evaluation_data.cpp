@@ -6,6 +6,7 @@
 
 #include "eval/process/cpu_time.h"
 #include "io/GroundTruth.h"
+#include "map/map_values.h"
 #include "sigloc/io/map_files.h"
 #include "sigloc/io/RawlogReader.h"
 
@@ -17,6 +18,12 @@ namespace
 // lost (aces revisit: recall@1 0.86 instead of 1.00).
 constexpr double kSearchResolution = 0.1;  // [m]
 constexpr std::uint32_t kSearchMinHits = 1;
+
+/// Whether the baselines can search the map: a frame in tiles may be too large for a raster.
+bool isSearchable(const FeatureMap& map)
+{
+  return map.field() && !flawOf(map.field()->frame);
+}
 
 EvaluationMap evaluationMapOf(const MapSource& source)
 {
@@ -35,7 +42,7 @@ EvaluationMap evaluationMapOf(const MapSource& source)
   }
   const auto& features = std::get<FeatureMap>(source);
   map.features = std::make_shared<const FeatureMap>(features);
-  if (features.field()) map.raster = rasterOf(*features.field());
+  if (isSearchable(features)) map.raster = rasterOf(*features.field());
   return map;
 }
 
@@ -146,7 +153,7 @@ EvaluationMap evaluationMapFromScans(const std::vector<PosedScans>& scans)
   MapBuildingOptions options;
   options.raster_resolution = kSearchResolution;
   options.min_hits = kSearchMinHits;
-  map.raster = rasterFromScans(scans, options);
+  if (isSearchable(*map.features)) map.raster = rasterFromScans(scans, options);
   for (const PosedScans& posed : scans) map.mapped_poses.push_back(posed.map_from_robot);
   return map;
 }

@@ -10,10 +10,12 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "io/archive/gzip_input.h"
 #include "io/archive_values.h"
 #include "io/maps/feature_archive.h"
+#include "map/field_tiles.h"
 #include "map/map_values.h"
 #include "sigloc/io/file_output.h"
 
@@ -26,7 +28,8 @@ namespace
 // The whole file is one gzip member, whose own checksum covers every byte of it.
 constexpr char kMagic[] = "sigloc-map\n";
 constexpr std::size_t kMagicSize = sizeof(kMagic) - 1;
-constexpr std::uint8_t kBodyVersion = 3;
+constexpr std::uint8_t kBodyVersion = 4;  // the field is in tiles
+constexpr std::uint8_t kWholeVersion = 3;  // the field's whole frame is stored
 constexpr std::uint8_t kOldestBodyVersion = 2;  // it lacks the error of the map's turn
 constexpr std::uint64_t kMostSkipped = 1ULL << 28U;  // bytes, which take half a second
 constexpr std::size_t kBlockCells = 1U << 16U;
@@ -40,17 +43,15 @@ constexpr std::uint32_t kLongestText = 1U << 16U;
 // Cells are written in blocks of four planes. Equal bytes are next to each other, so that the
 // lowest level of compression is both quick and small. A reader allocates no more than the file has
 // data for.
-void writeField(const DenseField& field, CArchive& out)
+void writeCells(const std::vector<DenseCell>& cells, std::size_t from, CArchive& out)
 {
-  out << field.frame.origin.x << field.frame.origin.y << field.frame.resolution << field.frame.width
-      << field.frame.height << field.free_area << field.wall_cells;
   std::vector<std::uint8_t> planes(4 * kBlockCells);
-  for (std::size_t first = 0; first < field.cells.size(); first += kBlockCells)
+  for (std::size_t first = from; first < cells.size(); first += kBlockCells)
   {
-    const std::size_t n = std::min(kBlockCells, field.cells.size() - first);
+    const std::size_t n = std::min(kBlockCells, cells.size() - first);
     for (std::size_t i = 0; i < n; ++i)
     {
-      const DenseCell& cell = field.cells[first + i];
+      const DenseCell& cell = cells[first + i];
       planes[i] = cell.distance;
       planes[n + i] = static_cast<std::uint8_t>(cell.dx);
       planes[2 * n + i] = static_cast<std::uint8_t>(cell.dy);
@@ -60,26 +61,21 @@ void writeField(const DenseField& field, CArchive& out)
   }
 }
 
-DenseField readField(CArchive& in)
+/// Appends cells until there are `count`.
+void readCells(CArchive& in, std::size_t count, std::vector<DenseCell>& cells)
 {
-  DenseField field;
-  in >> field.frame.origin.x >> field.frame.origin.y >> field.frame.resolution >>
-      field.frame.width >> field.frame.height >> field.free_area >> field.wall_cells;
-  if (const auto flaw = flawOf(field.frame)) throw detail::BadContent(*flaw);
-  const std::size_t count = std::size_t{field.frame.width} * field.frame.height;
-  std::uint64_t wall_cells = 0;
-  std::uint64_t free_cells = 0;
   std::vector<std::uint8_t> planes(4 * kBlockCells);
-  for (std::size_t first = 0; first < count; first += kBlockCells)
+  while (cells.size() < count)
   {
+    const std::size_t first = cells.size();
     const std::size_t n = std::min<std::size_t>(kBlockCells, count - first);
     if (in.ReadBuffer(planes.data(), 4 * n) != 4 * n) throw std::runtime_error("raster cut off");
     // No more is allocated than eight times what the file has shown to hold.
-    if (first + n > field.cells.capacity()) field.cells.reserve(std::min(count, 8 * (first + n)));
-    field.cells.resize(first + n);
+    if (first + n > cells.capacity()) cells.reserve(std::min(count, 8 * (first + n)));
+    cells.resize(first + n);
     for (std::size_t i = 0; i < n; ++i)
     {
-      DenseCell& cell = field.cells[first + i];
+      DenseCell& cell = cells[first + i];
       cell.distance = planes[i];
       cell.dx = static_cast<std::int8_t>(planes[n + i]);
       cell.dy = static_cast<std::int8_t>(planes[2 * n + i]);
@@ -88,25 +84,92 @@ DenseField readField(CArchive& in)
         throw detail::BadContent("a cell of no known state");
       }
       cell.state = static_cast<CellState>(planes[3 * n + i]);
-      if (isWall(cell.state)) ++wall_cells;
-      if (cell.state == CellState::free) ++free_cells;
     }
   }
+}
+
+/// Writes which tiles are stored, by their place in the frame.
+void writeTiles(const DenseField& field, CArchive& out)
+{
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> stored;
+  for (std::uint32_t k = 0; k < field.tiles.size(); ++k)
+  {
+    if (field.tiles[k] != 0) stored.emplace_back(field.tiles[k], k);
+  }
+  std::sort(stored.begin(), stored.end());
+  out << static_cast<std::uint32_t>(stored.size());
+  for (const auto& [tile, place] : stored) out << place;
+}
+
+/// Reads the places of the stored tiles, and returns how many there are.
+std::uint32_t readTiles(CArchive& in, DenseField& field)
+{
+  field = tiledField(field.frame);
+  std::uint32_t count = 0;
+  in >> count;
+  for (std::uint32_t tile = 1; tile <= count; ++tile)
+  {
+    std::uint32_t place = 0;
+    in >> place;
+    if (place >= field.tiles.size() || field.tiles[place] != 0)
+    {
+      throw detail::BadContent("a tile that is not in the raster, or is in it twice");
+    }
+    field.tiles[place] = tile;
+  }
+  return count;
+}
+
+void writeField(const DenseField& field, CArchive& out)
+{
+  out << field.frame.origin.x << field.frame.origin.y << field.frame.resolution << field.frame.width
+      << field.frame.height << field.free_area << field.wall_cells;
+  if (field.isTiled()) writeTiles(field, out);
+  writeCells(field.cells, field.isTiled() ? DenseField::kTileCells : 0, out);
+}
+
+/// Throws where the sums of a field are not those of its cells.
+void checkSums(const DenseField& field, double free_area, std::uint32_t wall_cells)
+{
+  const auto count = [&](auto&& counts)
+  { return std::count_if(field.cells.begin(), field.cells.end(), counts); };
+  const auto walls = count([](const DenseCell& cell) { return isWall(cell.state); });
+  const auto free_cells =
+      count([](const DenseCell& cell) { return cell.state == CellState::free; });
   const double cell_area = field.frame.resolution * field.frame.resolution;
-  const double free_area = static_cast<double>(free_cells) * cell_area;
+  const double counted = static_cast<double>(free_cells) * cell_area;
   constexpr double kRounding = 1e-6;
-  if (field.wall_cells != wall_cells ||
-      !(std::abs(field.free_area - free_area) <= kRounding * (cell_area + free_area)))
+  if (static_cast<std::int64_t>(wall_cells) != walls ||
+      !(std::abs(free_area - counted) <= kRounding * (cell_area + counted)))
   {
     throw detail::BadContent("the raster's free area or wall cells are not those of its cells");
   }
+}
+
+DenseField readField(CArchive& in, bool in_tiles)
+{
+  DenseField field;
+  double free_area = 0;
+  std::uint32_t wall_cells = 0;
+  in >> field.frame.origin.x >> field.frame.origin.y >> field.frame.resolution >>
+      field.frame.width >> field.frame.height >> free_area >> wall_cells;
+  if (const auto flaw = flawOf(field.frame, in_tiles ? kMostTiledCells : kMostCells))
+  {
+    throw detail::BadContent(*flaw);
+  }
+  std::size_t count = std::size_t{field.frame.width} * field.frame.height;
+  if (in_tiles) count = (std::size_t{readTiles(in, field)} + 1) * DenseField::kTileCells;
+  readCells(in, count, field.cells);
+  checkSums(field, free_area, wall_cells);
+  field.free_area = free_area;
+  field.wall_cells = wall_cells;
   return field;
 }
 }  // namespace
 
 void writeFeatureMap(const FeatureMap& map, CArchive& out)
 {
-  out << kBodyVersion;
+  out << (map.field() && map.field()->isTiled() ? kBodyVersion : kWholeVersion);
   const MapProvenance& provenance = map.provenance();
   out << provenance.source_path << provenance.source_checksum << provenance.options_digest;
   const MapErrorModel& error = map.error();
@@ -141,7 +204,7 @@ FeatureMap readFeatureMap(CArchive& in)
   std::vector<Feature> features = detail::readFeatures(in);
   const bool has_field = detail::readFlag(in);
   std::optional<DenseField> field;
-  if (has_field) field = readField(in);
+  if (has_field) field = inTilesWhereSparse(readField(in, version > kWholeVersion));
   if (const auto flaw = flawOf(features)) throw detail::BadContent(*flaw);
   return FeatureMap(std::move(features), std::move(field), error, std::move(provenance));
 }

@@ -68,6 +68,11 @@ std::int32_t tileOf(std::int32_t cell)
 }
 static_assert(kTile == 1 << 5);
 
+std::int32_t firstOfTile(std::int32_t cell)
+{
+  return tileOf(cell) * kTile;
+}
+
 std::uint64_t keyOf(const CellIndex& cell)
 {
   return cellKey(tileOf(cell.x), tileOf(cell.y));
@@ -124,12 +129,12 @@ void BeamCounts::Extent::add(const TPoint2D& p)
   high = {std::max(high.x, p.x), std::max(high.y, p.y)};
 }
 
-BeamCounts::BeamCounts(double resolution, const TPoint2D& anchor)
-    : resolution_(resolution), anchor_(anchor)
+BeamCounts::BeamCounts(double resolution, const TPoint2D& anchor, double most_cells)
+    : resolution_(resolution), anchor_(anchor), most_cells_(most_cells)
 {
 }
 
-/// Whether a raster can be made of the extent; false where it is not finite.
+/// Whether a field can be made of the extent; false where it is not finite.
 bool BeamCounts::isHeld(const Extent& extent) const
 {
   const TPoint2D size = extent.high - extent.low;
@@ -139,7 +144,7 @@ bool BeamCounts::isHeld(const Extent& extent) const
   const TPoint2D high = extent.high - anchor_;
   const double farthest =
       std::max({std::abs(low.x), std::abs(low.y), std::abs(high.x), std::abs(high.y)});
-  return size.x >= 0 && size.y >= 0 && cells < kMostCells && farthest / resolution_ < kMaxIndex;
+  return size.x >= 0 && size.y >= 0 && cells < most_cells_ && farthest / resolution_ < kMaxIndex;
 }
 
 void BeamCounts::add(const PosedScans& posed, double max_range)
@@ -296,30 +301,34 @@ RasterFrame BeamCounts::frameOf(const CellBox& box) const
   return frame;
 }
 
+/// Copies the cells of a tile into a raster. The tiles at the border extend beyond its frame.
+void BeamCounts::fillTile(const CellIndex& name, std::uint32_t min_scans, const CellIndex& low,
+                          OccupancyRaster& raster) const
+{
+  const RasterFrame& frame = raster.frame;
+  const TileCells tile = cellsOf(name, min_scans);
+  for (std::size_t i = 0; i < tile.states.size(); ++i)
+  {
+    const std::int64_t column = name.x - low.x + static_cast<std::int64_t>(i % kTile);
+    const std::int64_t row = name.y - low.y + static_cast<std::int64_t>(i / kTile);
+    if (column < 0 || row < 0 || column >= frame.width || row >= frame.height) continue;
+    const auto k = static_cast<std::size_t>(row * frame.width + column);
+    raster.cells[k] = tile.states[i];
+    raster.hits[k] = tile.hits[i];
+  }
+}
+
 OccupancyRaster BeamCounts::raster(const CellBox& box, std::uint32_t min_scans) const
 {
   const RasterFrame frame = frameOf(box);
   OccupancyRaster raster{frame, {}, {}};
   raster.cells.resize(static_cast<std::size_t>(frame.width) * frame.height);
   raster.hits.resize(raster.cells.size());
-  for (const auto& [key, counted] : tiles_)
+  for (std::int32_t y = firstOfTile(box.low.y); y < box.high.y; y += kTile)
   {
-    const CellIndex name = nameOf(key);
-    if (name.x >= box.high.x || name.y >= box.high.y || name.x + kTile <= box.low.x ||
-        name.y + kTile <= box.low.y)
+    for (std::int32_t x = firstOfTile(box.low.x); x < box.high.x; x += kTile)
     {
-      continue;
-    }
-    const TileCells tile = cellsOf(name, min_scans);
-    for (std::size_t i = 0; i < tile.states.size(); ++i)
-    {
-      const std::int64_t column = name.x - box.low.x + static_cast<std::int64_t>(i % kTile);
-      const std::int64_t row = name.y - box.low.y + static_cast<std::int64_t>(i / kTile);
-      // The tiles at the border extend beyond the frame.
-      if (column < 0 || row < 0 || column >= frame.width || row >= frame.height) continue;
-      const auto k = static_cast<std::size_t>(row * frame.width + column);
-      raster.cells[k] = tile.states[i];
-      raster.hits[k] = tile.hits[i];
+      if (tiles_.count(keyOf({x, y})) > 0) fillTile({x, y}, min_scans, box.low, raster);
     }
   }
   return raster;

@@ -10,6 +10,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "map/map_values.h"
 #include "sigloc/map/map_building.h"
 
 namespace sigloc
@@ -92,8 +93,10 @@ class BeamCounts
     bool empty() const { return low.x > high.x; }
   };
 
-  /// `resolution` is in metres. One cell has its lower left corner at `anchor` [m].
-  explicit BeamCounts(double resolution, const mrpt::math::TPoint2D& anchor = {0, 0});
+  /// `resolution` is in metres. One cell has its lower left corner at `anchor` [m]. The box of all
+  /// that is counted may have `most_cells`.
+  explicit BeamCounts(double resolution, const mrpt::math::TPoint2D& anchor = {0, 0},
+                      double most_cells = kMostCells);
 
   /// Counts the beams of one scan up to `max_range` [m]. Throws std::invalid_argument, with nothing
   /// counted, for a pose that is not finite or where the area seen would become too large.
@@ -145,10 +148,13 @@ class BeamCounts
   void markChanged(std::uint64_t key, Tile& tile);
   void touchNeighbours(const CellIndex& hit);
   void addBeam(const mrpt::math::TPoint2D& origin, const mrpt::math::TPoint2D& end, Cursor& cursor);
+  void fillTile(const CellIndex& name, std::uint32_t min_scans, const CellIndex& low,
+                OccupancyRaster& raster) const;
   bool hitOftenAround(const CellIndex& cell, std::uint32_t min_scans) const;
 
   double resolution_;
   mrpt::math::TPoint2D anchor_;
+  double most_cells_;
   std::unordered_map<std::uint64_t, Tile> tiles_;
   std::vector<std::uint64_t> changed_;  // keys of changed tiles, each once
   Extent extent_;

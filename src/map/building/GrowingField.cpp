@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "map/field_tiles.h"
+
 namespace sigloc
 {
 namespace
@@ -90,8 +92,8 @@ std::vector<CellBox> boxesOf(std::vector<CellIndex> cells)
 }
 }  // namespace
 
-GrowingField::GrowingField(DenseField base)
-    : field_(std::move(base)),
+GrowingField::GrowingField(const DenseField& base)
+    : field_(wholeField(base)),
       hits_(rasterOf(field_).hits),
       box_(boxOf(field_.frame, {0, 0})),
       tight_(box_),

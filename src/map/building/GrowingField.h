@@ -21,7 +21,7 @@ class GrowingField
   GrowingField() = default;
   /// Starts on top of `base`, which must not be empty. The counts must have its resolution and be
   /// anchored at its origin.
-  explicit GrowingField(DenseField base);
+  explicit GrowingField(const DenseField& base);
 
   /// Updates the field by what has changed in `counts`, which must always be the same object. Where
   /// a cell of the counts is unknown, the field stays.

@@ -3,6 +3,10 @@
 #include "map/building/counted_field.h"
 
 #include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "map/field_tiles.h"
 
 namespace sigloc
 {
@@ -24,9 +28,10 @@ void takeRows(const DenseField& window, std::size_t first, std::size_t to, std::
   }
   std::copy(from, end, field.cells.begin() + static_cast<std::ptrdiff_t>(to * width));
 }
-}  // namespace
 
-DenseField denseFieldOf(const BeamCounts& counts, std::uint32_t min_scans, std::int32_t strip_cells)
+/// Returns the field with its whole frame, solved strip by strip.
+DenseField solvedInStrips(const BeamCounts& counts, std::uint32_t min_scans,
+                          std::int32_t strip_cells)
 {
   const CellBox box = counts.box();
   const std::int32_t reach = fieldReach(counts.resolution());
@@ -47,5 +52,151 @@ DenseField denseFieldOf(const BeamCounts& counts, std::uint32_t min_scans, std::
   }
   field.free_area = static_cast<double>(free_cells) * counts.resolution() * counts.resolution();
   return field;
+}
+
+/// Solves the field in tiles: only those that a counted cell is in or near.
+class TileSolver
+{
+ public:
+  TileSolver(const BeamCounts& counts, std::uint32_t min_scans)
+      : counts_(counts),
+        min_scans_(min_scans),
+        box_(counts.box()),
+        reach_(fieldReach(counts.resolution())),
+        field_(tiledField(counts.frameOf(box_))),
+        columns_(static_cast<std::int32_t>(field_.tileColumns())),
+        rows_(static_cast<std::int32_t>(field_.tiles.size()) / columns_),
+        wanted_(field_.tiles.size(), false)
+  {
+    for (const CellIndex& name : counts.tileNames()) want(name);
+  }
+
+  /// Whether the tiles take less than half of the memory of the whole frame.
+  bool isWorthIt() const
+  {
+    const auto tiles = static_cast<std::size_t>(std::count(wanted_.begin(), wanted_.end(), true));
+    return 2 * (tiles + 1) * DenseField::kTileCells <
+           std::size_t{field_.frame.width} * field_.frame.height;
+  }
+
+  /// Solves runs of tiles that lie side by side in bands of tile rows.
+  DenseField solve()
+  {
+    for (std::int32_t row = 0; row < rows_; row += kBandRows)
+    {
+      const std::int32_t row_end = std::min(row + kBandRows, rows_);
+      std::int32_t column = 0;
+      while (column < columns_)
+      {
+        std::int32_t end = column;
+        while (end < columns_ && isWanted(end, row, row_end)) ++end;
+        if (end > column) solveTiles({{column, row}, {end, row_end}});
+        column = end + 1;
+      }
+    }
+    field_.cells.shrink_to_fit();
+    const double resolution = counts_.resolution();
+    field_.free_area = static_cast<double>(free_cells_) * resolution * resolution;
+    return std::move(field_);
+  }
+
+ private:
+  static constexpr auto kSide = static_cast<std::int32_t>(DenseField::kTileSide);
+  static constexpr std::int32_t kBandRows = 4;
+
+  std::size_t indexOf(std::int32_t column, std::int32_t row) const
+  {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+           static_cast<std::size_t>(column);
+  }
+
+  /// Marks the tiles whose cells can depend on those of a tile of the counts.
+  void want(const CellIndex& name)
+  {
+    const auto tile_of = [](std::int32_t cell, std::int32_t tiles)
+    { return std::clamp(cell, 0, tiles * kSide - 1) / kSide; };
+    const std::int32_t x = name.x - box_.low.x;
+    const std::int32_t y = name.y - box_.low.y;
+    const std::int32_t last = BeamCounts::kTileCells - 1 + reach_;
+    for (std::int32_t row = tile_of(y - reach_, rows_); row <= tile_of(y + last, rows_); ++row)
+    {
+      for (std::int32_t column = tile_of(x - reach_, columns_);
+           column <= tile_of(x + last, columns_); ++column)
+      {
+        wanted_[indexOf(column, row)] = true;
+      }
+    }
+  }
+
+  bool isWanted(std::int32_t column, std::int32_t row, std::int32_t row_end) const
+  {
+    bool wanted = false;
+    for (; row < row_end; ++row) wanted = wanted || wanted_[indexOf(column, row)];
+    return wanted;
+  }
+
+  /// Solves a rectangle of tiles from the walls in and around it.
+  void solveTiles(const CellBox& tiles)
+  {
+    const CellBox cells{{box_.low.x + tiles.low.x * kSide, box_.low.y + tiles.low.y * kSide},
+                        {std::min(box_.low.x + tiles.high.x * kSide, box_.high.x),
+                         std::min(box_.low.y + tiles.high.y * kSide, box_.high.y)}};
+    const CellBox window{
+        {std::max(cells.low.x - reach_, box_.low.x), std::max(cells.low.y - reach_, box_.low.y)},
+        {std::min(cells.high.x + reach_, box_.high.x),
+         std::min(cells.high.y + reach_, box_.high.y)}};
+    const DenseField solved = buildDenseField(counts_.raster(window, min_scans_));
+    for (std::int32_t row = tiles.low.y; row < tiles.high.y; ++row)
+    {
+      for (std::int32_t column = tiles.low.x; column < tiles.high.x; ++column)
+      {
+        take(solved, window.low, column, row);
+      }
+    }
+  }
+
+  void take(const DenseField& solved, const CellIndex& window, std::int32_t column,
+            std::int32_t row)
+  {
+    const CellIndex low{box_.low.x + column * kSide, box_.low.y + row * kSide};
+    const StoredCells tile{0,
+                           0,
+                           static_cast<std::uint32_t>(std::min(kSide, box_.high.x - low.x)),
+                           static_cast<std::uint32_t>(std::min(kSide, box_.high.y - low.y)),
+                           &solved.at(static_cast<std::size_t>(low.x - window.x),
+                                      static_cast<std::size_t>(low.y - window.y)),
+                           solved.frame.width};
+    for (std::uint32_t y = 0; y < tile.height; ++y)
+    {
+      for (const DenseCell* cell = tile.row(y); cell != tile.row(y) + tile.width; ++cell)
+      {
+        free_cells_ += cell->state == CellState::free ? 1U : 0U;
+        field_.wall_cells += isWall(cell->state) ? 1U : 0U;
+      }
+    }
+    storeTile(field_, indexOf(column, row), tile);
+  }
+
+  const BeamCounts& counts_;
+  std::uint32_t min_scans_;
+  CellBox box_;
+  std::int32_t reach_;  // [cells]
+  DenseField field_;
+  std::int32_t columns_, rows_;  // [tiles]
+  std::vector<bool> wanted_;
+  std::size_t free_cells_ = 0;
+};
+}  // namespace
+
+DenseField denseFieldOf(const BeamCounts& counts, std::uint32_t min_scans, std::int32_t strip_cells,
+                        std::size_t most_whole)
+{
+  const RasterFrame frame = counts.frameOf(counts.box());
+  if (std::size_t{frame.width} * frame.height > most_whole)
+  {
+    TileSolver solver(counts, min_scans);
+    if (solver.isWorthIt()) return solver.solve();
+  }
+  return inTilesWhereSparse(solvedInStrips(counts, min_scans, strip_cells), most_whole);
 }
 }  // namespace sigloc

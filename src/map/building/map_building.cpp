@@ -39,7 +39,7 @@ std::optional<TPoint2D> standingPlace(const DenseField& field, std::uint32_t x0,
   {
     for (std::uint32_t x = x0; x < x1; ++x)
     {
-      const DenseCell& cell = field.cells[static_cast<std::size_t>(y) * frame.width + x];
+      const DenseCell& cell = field.at(x, y);
       if (cell.state != CellState::free || cell.distance < clearance) continue;
       const double d = std::hypot(x + 0.5 - middle_x, y + 0.5 - middle_y);
       if (d >= best) continue;
@@ -105,6 +105,6 @@ FeatureMap buildMapFromRaster(const OccupancyRaster& raster, const MapBuildingOp
   }
   std::vector<Feature> features = merger.features();
   setWallEndLengths(features);
-  return FeatureMap(std::move(features), std::move(field), {}, provenance);
+  return FeatureMap(std::move(features), inTilesWhereSparse(std::move(field)), {}, provenance);
 }
 }  // namespace sigloc

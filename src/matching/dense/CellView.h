@@ -35,6 +35,8 @@ class CellView
  public:
   explicit CellView(const DenseField& field)
       : cells_(field.cells.data()),
+        tiles_(field.isTiled() ? field.tiles.data() : nullptr),
+        tile_columns_(field.tileColumns()),
         x0_(static_cast<float>(field.frame.origin.x)),
         y0_(static_cast<float>(field.frame.origin.y)),
         scale_(static_cast<float>(1.0 / field.frame.resolution)),
@@ -77,6 +79,11 @@ class CellView
       if (outside != 0)
       {
         for (std::size_t i = 0; i < count; ++i) packed[i] = pack(view.cellAt(ix[i], iy[i]));
+        return;
+      }
+      if (view.tiles_ != nullptr)
+      {
+        for (std::size_t i = 0; i < count; ++i) packed[i] = pack(view.storedAt(ix[i], iy[i]));
         return;
       }
       const DenseCell* before = view.cells_ - view.width_ - 1;
@@ -132,11 +139,25 @@ class CellView
   const DenseCell& cellAt(std::int32_t column, std::int32_t row) const
   {
     if (column < 1 || row < 1 || column > width_ || row > height_) return outside_;
+    if (tiles_ != nullptr) return storedAt(column, row);
     return cells_[static_cast<std::size_t>(row - 1) * static_cast<std::size_t>(width_) +
                   static_cast<std::size_t>(column - 1)];
   }
 
+  /// Returns a cell of a field in tiles; column and row count from 1 and must be in the frame.
+  const DenseCell& storedAt(std::int32_t column, std::int32_t row) const
+  {
+    constexpr std::uint32_t kSide = DenseField::kTileSide;
+    const auto x = static_cast<std::uint32_t>(column - 1);
+    const auto y = static_cast<std::uint32_t>(row - 1);
+    const std::uint32_t tile = tiles_[y / kSide * tile_columns_ + x / kSide];
+    return cells_[tile * static_cast<std::uint32_t>(DenseField::kTileCells) +
+                  (y % kSide * kSide + x % kSide)];
+  }
+
   const DenseCell* cells_;
+  const std::uint32_t* tiles_;  // null where the whole frame is stored
+  std::uint32_t tile_columns_;
   float x0_, y0_, scale_, resolution_;
   std::int32_t width_, height_;
   DenseCell outside_;

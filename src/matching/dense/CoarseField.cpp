@@ -50,43 +50,37 @@ RasterFrame likelihoodFrame(const RasterFrame& field)
   return cellCount(frame) <= kCachedCells ? frame : coarserFrame(field, kLargestCell);
 }
 
-/// Returns kStanding for each block of the field with free space, else 0.
-std::vector<std::uint8_t> freeBlocks(const DenseField& field, const RasterFrame& blocks)
+/// Returns the blocks of the field with free space, and those around them: a map may end a little
+/// before the free space does.
+ByteRaster standingBlocks(const DenseField& field, const RasterFrame& blocks)
 {
   const std::uint32_t ratio = ratioOf(blocks, field.frame);
-  std::vector<std::uint8_t> out(cellCount(blocks), 0);
-  for (std::uint32_t y = 0; y < field.frame.height; ++y)
+  ByteRaster free(blocks.width, blocks.height, field.isTiled());
+  for (const StoredCells& stored : storedCells(field))
   {
-    const DenseCell* row = &field.cells[static_cast<std::size_t>(y) * field.frame.width];
-    std::uint8_t* to = &out[static_cast<std::size_t>(y / ratio) * blocks.width];
-    for (std::uint32_t x = 0; x < field.frame.width; ++x)
+    for (std::uint32_t y = 0; y < stored.height; ++y)
     {
-      if (row[x].state == CellState::free) to[x / ratio] = kStanding;
-    }
-  }
-  return out;
-}
-
-/// Marks the blocks around free ones too, because a map may end a little before the free space
-/// does.
-std::vector<std::uint8_t> withNeighbours(const RasterFrame& blocks,
-                                         const std::vector<std::uint8_t>& free)
-{
-  std::vector<std::uint8_t> out(free.size(), 0);
-  for (std::uint32_t y = 0; y < blocks.height; ++y)
-  {
-    for (std::uint32_t x = 0; x < blocks.width; ++x)
-    {
-      if (free[static_cast<std::size_t>(y) * blocks.width + x] == 0) continue;
-      const std::uint32_t left = x == 0 ? 0 : x - 1;
-      const std::uint32_t end = std::min(x + 2, blocks.width);
-      for (std::uint32_t j = y == 0 ? 0 : y - 1; j < std::min(y + 2, blocks.height); ++j)
+      const DenseCell* row = stored.row(y);
+      for (std::uint32_t x = 0; x < stored.width; ++x)
       {
-        std::fill_n(&out[static_cast<std::size_t>(j) * blocks.width + left], end - left, kStanding);
+        if (row[x].state != CellState::free) continue;
+        free.at((stored.x + x) / ratio, (stored.y + y) / ratio) = kStanding;
       }
     }
   }
-  return out;
+  ByteRaster standing(blocks.width, blocks.height, field.isTiled());
+  free.forEachSet(
+      [&](std::uint32_t x, std::uint32_t y)
+      {
+        for (std::uint32_t j = y == 0 ? 0 : y - 1; j < std::min(y + 2, blocks.height); ++j)
+        {
+          for (std::uint32_t i = x == 0 ? 0 : x - 1; i < std::min(x + 2, blocks.width); ++i)
+          {
+            standing.at(i, j) = kStanding;
+          }
+        }
+      });
+  return standing;
 }
 
 /// Keeps the best `count` of the first scores, and those equal to the last of them, so that the
@@ -122,7 +116,9 @@ class CoarseField::TurnedReturns
 {
  public:
   TurnedReturns(const DenseScan& scan, const CoarseField& field)
-      : bytes_(field.likelihoods_.data()),
+      : bytes_(field.likelihoods_.bytes()),
+        tiles_(field.likelihoods_.tiles()),
+        tile_columns_(field.likelihoods_.tileColumns()),
         x0_(static_cast<float>(field.frame_.origin.x)),
         y0_(static_cast<float>(field.frame_.origin.y)),
         scale_(static_cast<float>(1.0 / field.frame_.resolution)),
@@ -156,7 +152,7 @@ class CoarseField::TurnedReturns
       if (!(x >= near_rim && y >= near_rim && x < right_rim && y < top_rim)) continue;
       // The entry is kept or overwritten by the next one: a branch here could not be predicted.
       scores[count] = {sumAt<0, returns>(p), k};
-      const std::uint8_t here = *byteAt(static_cast<std::int32_t>(x), static_cast<std::int32_t>(y));
+      const std::uint8_t here = byteAt(static_cast<std::int32_t>(x), static_cast<std::int32_t>(y));
       count += here & kStanding;
     }
     scores.resize(count);
@@ -203,7 +199,12 @@ class CoarseField::TurnedReturns
     std::uint32_t sum = 0;
     if (x >= turned.left && x < turned.right && y >= turned.bottom && y < turned.top)
     {
-      const std::uint8_t* cell = byteAt(x, y);
+      if (tiles_ != nullptr)
+      {
+        for (std::size_t i = from; i < to; ++i) sum += byteAt(x + turned.dx[i], y + turned.dy[i]);
+        return sum;
+      }
+      const std::uint8_t* cell = bytes_ + static_cast<std::ptrdiff_t>(y) * width_ + x;
       for (std::size_t i = from; i < to; ++i) sum += cell[turned.flat[i]];
       return sum;
     }
@@ -211,7 +212,7 @@ class CoarseField::TurnedReturns
     {
       const std::int32_t ix = x + turned.dx[i];
       const std::int32_t iy = y + turned.dy[i];
-      if (isWithin(ix, width_) && isWithin(iy, height_)) sum += *byteAt(ix, iy);
+      if (isWithin(ix, width_) && isWithin(iy, height_)) sum += byteAt(ix, iy);
     }
     return sum;
   }
@@ -221,9 +222,14 @@ class CoarseField::TurnedReturns
     return static_cast<std::uint32_t>(index) < static_cast<std::uint32_t>(size);
   }
 
-  const std::uint8_t* byteAt(std::int32_t x, std::int32_t y) const
+  std::uint8_t byteAt(std::int32_t x, std::int32_t y) const
   {
-    return bytes_ + static_cast<std::ptrdiff_t>(y) * width_ + x;
+    if (tiles_ == nullptr) return bytes_[static_cast<std::ptrdiff_t>(y) * width_ + x];
+    constexpr std::uint32_t kSide = ByteRaster::kTileSide;
+    const auto column = static_cast<std::uint32_t>(x);
+    const auto row = static_cast<std::uint32_t>(y);
+    const std::size_t tile = tiles_[row / kSide * tile_columns_ + column / kSide];
+    return bytes_[tile * ByteRaster::kTileBytes + (row % kSide * kSide + column % kSide)];
   }
 
   const Turned& at(float phi)
@@ -271,6 +277,8 @@ class CoarseField::TurnedReturns
   }
 
   const std::uint8_t* bytes_;
+  const std::uint32_t* tiles_;  // null where the raster is stored whole
+  std::uint32_t tile_columns_;
   float x0_, y0_, scale_;
   std::int32_t width_, height_, border_;
   std::array<float, kReturns> x_, y_;  // [cells], robot frame
@@ -302,22 +310,27 @@ void CoarseField::fillLikelihoods(const DenseField& field)
   frame_.origin.y -= border_ * frame_.resolution;
   frame_.width += 2 * border_;
   frame_.height += 2 * border_;
-  likelihoods_.assign(cellCount(frame_), 0);
+  likelihoods_ = ByteRaster(frame_.width, frame_.height,
+                            field.isTiled() && cellCount(frame_) > kMostWholeCells);
   std::array<std::uint8_t, 256> bytes{};
   for (std::size_t d = 0; d < bytes.size(); ++d)
   {
     const auto byte = static_cast<std::uint8_t>(std::lround(255.0F * coarseTable()[d]));
     bytes[d] = byte & static_cast<std::uint8_t>(~kStanding);
   }
-  for (std::uint32_t y = 0; y < field.frame.height; ++y)
+  for (const StoredCells& stored : storedCells(field))
   {
-    const DenseCell* row = &field.cells[static_cast<std::size_t>(y) * field.frame.width];
-    std::uint8_t* likelihood =
-        &likelihoods_[static_cast<std::size_t>(y / ratio + border_) * frame_.width + border_];
-    for (std::uint32_t x = 0; x < field.frame.width; ++x)
+    for (std::uint32_t y = 0; y < stored.height; ++y)
     {
-      std::uint8_t& best = likelihood[x / ratio];
-      best = std::max(best, bytes[row[x].distance]);
+      const DenseCell* row = stored.row(y);
+      for (std::uint32_t x = 0; x < stored.width; ++x)
+      {
+        const std::uint8_t byte = bytes[row[x].distance];
+        if (byte == 0) continue;
+        std::uint8_t& best =
+            likelihoods_.at((stored.x + x) / ratio + border_, (stored.y + y) / ratio + border_);
+        best = std::max(best, byte);
+      }
     }
   }
 }
@@ -325,19 +338,25 @@ void CoarseField::fillLikelihoods(const DenseField& field)
 void CoarseField::markStanding(const DenseField& field)
 {
   const RasterFrame blocks = coarserFrame(field.frame, kStandingCell);
-  const std::vector<std::uint8_t> standing = withNeighbours(blocks, freeBlocks(field, blocks));
   const std::uint32_t ratio = ratioOf(frame_, field.frame);
   const std::uint32_t block_ratio = ratioOf(blocks, field.frame);
-  for (std::uint32_t y = border_; y < frame_.height - border_; ++y)
-  {
-    std::uint8_t* row = &likelihoods_[static_cast<std::size_t>(y) * frame_.width];
-    const std::uint8_t* block_row =
-        &standing[static_cast<std::size_t>((y - border_) * ratio / block_ratio) * blocks.width];
-    for (std::uint32_t x = border_; x < frame_.width - border_; ++x)
-    {
-      row[x] |= block_row[(x - border_) * ratio / block_ratio];
-    }
-  }
+  const std::uint32_t width = frame_.width - 2 * border_;
+  const std::uint32_t height = frame_.height - 2 * border_;
+  const auto first_in = [&](std::uint32_t block)
+  { return (block * block_ratio + ratio - 1) / ratio; };
+  standingBlocks(field, blocks)
+      .forEachSet(
+          [&](std::uint32_t x, std::uint32_t y)
+          {
+            for (std::uint32_t j = first_in(y); j < std::min(first_in(y + 1), height); ++j)
+            {
+              for (std::uint32_t i = first_in(x); i < std::min(first_in(x + 1), width); ++i)
+              {
+                likelihoods_.at(i + border_, j + border_) |= kStanding;
+              }
+            }
+          });
+  likelihoods_.finish();
 }
 
 std::vector<PoseProposal> CoarseField::best(const DenseScan& scan,

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "geometry/ByteRaster.h"
 #include "matching/dense/DenseEvidence.h"
 #include "matching/dense/DenseScan.h"
 #include "sigloc/map/DenseField.h"
@@ -60,6 +61,6 @@ class CoarseField
 
   RasterFrame frame_;  ///< with a border around the map
   std::uint32_t border_ = 0;  ///< [cells] width of the border
-  std::vector<std::uint8_t> likelihoods_;  ///< the lowest bit: whether a robot could be there
+  ByteRaster likelihoods_;  ///< the lowest bit: whether a robot could be there
 };
 }  // namespace sigloc

@@ -21,43 +21,6 @@ constexpr float kMargin = 0.4F;  // [m] before its end, up to which a beam is te
 constexpr float kBeyondRim = 0.7F;  // [cells] added to each step; a grazed cell is no wall
 constexpr float kTiny = 1e-6F;  // [cells] avoids a division by zero
 
-/// Computes the chessboard distance [cells] to the nearest zero cell, in two passes, exact up to
-/// 255.
-void spreadRings(std::vector<std::uint8_t>& rings, std::uint32_t width, std::uint32_t height)
-{
-  const auto relax = [&](std::size_t cell, std::size_t neighbour)
-  {
-    if (rings[neighbour] + 1 < rings[cell])
-    {
-      rings[cell] = static_cast<std::uint8_t>(rings[neighbour] + 1);
-    }
-  };
-  for (std::uint32_t y = 0; y < height; ++y)
-  {
-    for (std::uint32_t x = 0; x < width; ++x)
-    {
-      const std::size_t cell = static_cast<std::size_t>(y) * width + x;
-      if (x > 0) relax(cell, cell - 1);
-      if (y == 0) continue;
-      relax(cell, cell - width);
-      if (x > 0) relax(cell, cell - width - 1);
-      if (x + 1 < width) relax(cell, cell - width + 1);
-    }
-  }
-  for (std::uint32_t y = height; y-- > 0;)
-  {
-    for (std::uint32_t x = width; x-- > 0;)
-    {
-      const std::size_t cell = static_cast<std::size_t>(y) * width + x;
-      if (x + 1 < width) relax(cell, cell + 1);
-      if (y + 1 == height) continue;
-      relax(cell, cell + width);
-      if (x > 0) relax(cell, cell + width - 1);
-      if (x + 1 < width) relax(cell, cell + width + 1);
-    }
-  }
-}
-
 constexpr std::size_t kRays = WallCrossings::kRays;
 
 /// Beams in cells of the frame, from its origin.
@@ -118,7 +81,7 @@ Rays raysOf(const RasterFrame& frame, const DenseScan& scan, const Placement& pl
 
 /// Finds, for eight rays that have advanced by `along` [cells], how many rings of cells around them
 /// are clear. Also finds how far they may go on: to the rim of those, and a little beyond.
-inline void lookAround(const RasterFrame& frame, const std::uint8_t* clear_rings, const Rays& rays,
+inline void lookAround(const RasterFrame& frame, const ClearRings& clear_rings, const Rays& rays,
                        std::size_t first, const WideFloat& along, WideInt& rings, WideFloat& clear)
 {
   WideFloat x, y, dx, dy, per_column, per_row;
@@ -134,12 +97,20 @@ inline void lookAround(const RasterFrame& frame, const std::uint8_t* clear_rings
   const WideInt row = __builtin_convertvector(y, WideInt);
   const auto width = static_cast<std::int32_t>(frame.width);
   const auto height = static_cast<std::int32_t>(frame.height);
-  const std::int32_t outside = width * height;
   const WideInt is_inside = (column >= 0) & (row >= 0) & (column < width) & (row < height);
-  const WideInt cell = ((row * width + column) & is_inside) | (outside & ~is_inside);
-  rings = WideInt{clear_rings[cell[0]], clear_rings[cell[1]], clear_rings[cell[2]],
-                  clear_rings[cell[3]], clear_rings[cell[4]], clear_rings[cell[5]],
-                  clear_rings[cell[6]], clear_rings[cell[7]]};
+  if (clear_rings.isTiled())
+  {
+    for (std::size_t k = 0; k < kWideFloats; ++k)
+      rings[k] = is_inside[k] != 0 ? clear_rings.inTile(column[k], row[k]) : ClearRings::kOutside;
+  }
+  else
+  {
+    const std::uint8_t* bytes = clear_rings.whole();
+    const std::int32_t outside = width * height;
+    const WideInt cell = ((row * width + column) & is_inside) | (outside & ~is_inside);
+    rings = WideInt{bytes[cell[0]], bytes[cell[1]], bytes[cell[2]], bytes[cell[3]],
+                    bytes[cell[4]], bytes[cell[5]], bytes[cell[6]], bytes[cell[7]]};
+  }
   const WideFloat reach = __builtin_convertvector(rings, WideFloat) - 0.5F;
   const WideFloat right = x - __builtin_convertvector(column, WideFloat) - 0.5F;
   const WideFloat up = y - __builtin_convertvector(row, WideFloat) - 0.5F;
@@ -151,17 +122,7 @@ inline void lookAround(const RasterFrame& frame, const std::uint8_t* clear_rings
 }
 }  // namespace
 
-WallCrossings::WallCrossings(const DenseField& field) : frame_(field.frame)
-{
-  clear_rings_.reserve(field.cells.size() + 1);
-  for (const DenseCell& cell : field.cells)
-  {
-    clear_rings_.push_back(cell.state == CellState::solid_wall ? 0 : 255);
-  }
-  spreadRings(clear_rings_, frame_.width, frame_.height);
-  // A wall just inside the frame may be near, so the cell outside has one clear ring.
-  clear_rings_.push_back(1);
-}
+WallCrossings::WallCrossings(const DenseField& field) : frame_(field.frame), clear_rings_(field) {}
 
 double WallCrossings::throughShare(const DenseScan& scan, const TPose2D& pose,
                                    std::size_t beams) const
@@ -218,7 +179,7 @@ SIGLOC_WIDE_VECTORS std::uint64_t WallCrossings::crossings(const DenseScan& scan
       WideInt rings;
       WideFloat clear;
       WideFloat length;
-      lookAround(frame_, clear_rings_.data(), rays, eight.first, eight.along, rings, clear);
+      lookAround(frame_, clear_rings_, rays, eight.first, eight.along, rings, clear);
       loadWide(&rays.length[eight.first], kWideFloats, length);
       eight.along += clear;
       crossed[eight.first / kWideFloats] |= eight.under_way & (rings == 0);

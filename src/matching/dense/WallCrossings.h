@@ -4,8 +4,8 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
+#include "map/ClearRings.h"
 #include "matching/dense/DenseEvidence.h"
 #include "matching/dense/DenseScan.h"
 #include "sigloc/map/DenseField.h"
@@ -37,8 +37,6 @@ class WallCrossings
                           std::size_t count) const;
 
   RasterFrame frame_;
-  /// Number of rings of cells around each cell without a solid wall; 0 for a solid wall itself. One
-  /// more element at the end is for all cells outside the frame.
-  std::vector<std::uint8_t> clear_rings_;
+  ClearRings clear_rings_;
 };
 }  // namespace sigloc

@@ -1,0 +1,170 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "map/ClearRings.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace sigloc
+{
+namespace
+{
+constexpr std::uint8_t kMostRings = 255;
+constexpr std::uint32_t kWanted = ~0U;  // a tile that is stored, but has no place yet
+
+/// Computes the chessboard distance [cells] to the nearest zero cell, in two passes, exact up to
+/// 255.
+void spreadRings(std::vector<std::uint8_t>& rings, std::uint32_t width, std::uint32_t height)
+{
+  const auto relax = [&](std::size_t cell, std::size_t neighbour)
+  {
+    if (rings[neighbour] + 1 < rings[cell])
+    {
+      rings[cell] = static_cast<std::uint8_t>(rings[neighbour] + 1);
+    }
+  };
+  for (std::uint32_t y = 0; y < height; ++y)
+  {
+    for (std::uint32_t x = 0; x < width; ++x)
+    {
+      const std::size_t cell = static_cast<std::size_t>(y) * width + x;
+      if (x > 0) relax(cell, cell - 1);
+      if (y == 0) continue;
+      relax(cell, cell - width);
+      if (x > 0) relax(cell, cell - width - 1);
+      if (x + 1 < width) relax(cell, cell - width + 1);
+    }
+  }
+  for (std::uint32_t y = height; y-- > 0;)
+  {
+    for (std::uint32_t x = width; x-- > 0;)
+    {
+      const std::size_t cell = static_cast<std::size_t>(y) * width + x;
+      if (x + 1 < width) relax(cell, cell + 1);
+      if (y + 1 == height) continue;
+      relax(cell, cell + width);
+      if (x > 0) relax(cell, cell + width - 1);
+      if (x + 1 < width) relax(cell, cell + width + 1);
+    }
+  }
+}
+
+std::uint8_t ringsAt(const DenseCell& cell)
+{
+  return cell.state == CellState::solid_wall ? 0 : kMostRings;
+}
+}  // namespace
+
+ClearRings::ClearRings(const DenseField& field)
+{
+  const RasterFrame& frame = field.frame;
+  if (!field.isTiled())
+  {
+    rings_.reserve(field.cells.size() + 1);
+    for (const DenseCell& cell : field.cells) rings_.push_back(ringsAt(cell));
+    spreadRings(rings_, frame.width, frame.height);
+    rings_.push_back(kOutside);
+    return;
+  }
+  columns_ = static_cast<std::int32_t>((frame.width + kTileSide - 1) / kTileSide);
+  rows_ = static_cast<std::int32_t>((frame.height + kTileSide - 1) / kTileSide);
+  tiles_.resize(indexOf(0, rows_));
+  rings_.assign(kTileCells, kMostRings);  // for all tiles far from any wall
+  wantAroundWalls(field);
+  for (std::int32_t row = 0; row < rows_; ++row)
+  {
+    for (std::int32_t column = 0; column < columns_; ++column)
+    {
+      if (tiles_[indexOf(column, row)] != kWanted) continue;
+      const auto first = static_cast<std::uint32_t>(rings_.size() / kTileCells);
+      solve(field, nameIsland(column, row), first);
+    }
+  }
+  rings_.shrink_to_fit();
+}
+
+void ClearRings::wantAroundWalls(const DenseField& field)
+{
+  constexpr std::int32_t kRatio = kTileSide / static_cast<std::int32_t>(DenseField::kTileSide);
+  for (const StoredCells& stored : storedCells(field))
+  {
+    bool has_wall = false;
+    for (std::uint32_t y = 0; y < stored.height && !has_wall; ++y)
+    {
+      has_wall =
+          std::any_of(stored.row(y), stored.row(y) + stored.width,
+                      [](const DenseCell& cell) { return cell.state == CellState::solid_wall; });
+    }
+    if (!has_wall) continue;
+    const auto column = static_cast<std::int32_t>(stored.x / DenseField::kTileSide) / kRatio;
+    const auto row = static_cast<std::int32_t>(stored.y / DenseField::kTileSide) / kRatio;
+    for (std::int32_t j = std::max(0, row - kTilesAround);
+         j <= std::min(rows_ - 1, row + kTilesAround); ++j)
+    {
+      const std::int32_t left = std::max(0, column - kTilesAround);
+      const std::int32_t right = std::min(columns_ - 1, column + kTilesAround);
+      std::fill_n(&tiles_[indexOf(left, j)], right - left + 1, kWanted);
+    }
+  }
+}
+
+/// Gives places to the wanted tiles that hang together with one, over corners too, and returns the
+/// box around them. No wall of another such island is near.
+ClearRings::TileBox ClearRings::nameIsland(std::int32_t column, std::int32_t row)
+{
+  TileBox box{column, column, row, row};
+  std::vector<std::pair<std::int32_t, std::int32_t>> open;
+  const auto take = [&](std::int32_t x, std::int32_t y)
+  {
+    std::uint32_t& tile = tiles_[indexOf(x, y)];
+    if (tile != kWanted) return;
+    tile = static_cast<std::uint32_t>(rings_.size() / kTileCells);
+    rings_.resize(rings_.size() + kTileCells);
+    open.emplace_back(x, y);
+  };
+  take(column, row);
+  for (std::size_t k = 0; k < open.size(); ++k)
+  {
+    const auto [x, y] = open[k];
+    box = {std::min(box.left, x), std::max(box.right, x), std::min(box.bottom, y),
+           std::max(box.top, y)};
+    for (std::int32_t j = std::max(0, y - 1); j <= std::min(rows_ - 1, y + 1); ++j)
+    {
+      for (std::int32_t i = std::max(0, x - 1); i <= std::min(columns_ - 1, x + 1); ++i) take(i, j);
+    }
+  }
+  return box;
+}
+
+/// Fills the tiles of an island, by the box around it. Its tiles have the places from `first` on;
+/// those of other islands may lie in the box.
+void ClearRings::solve(const DenseField& field, const TileBox& box, std::uint32_t first)
+{
+  const auto x0 = static_cast<std::uint32_t>(box.left * kTileSide);
+  const auto y0 = static_cast<std::uint32_t>(box.bottom * kTileSide);
+  const std::uint32_t width =
+      std::min(static_cast<std::uint32_t>((box.right + 1) * kTileSide), field.frame.width) - x0;
+  const std::uint32_t height =
+      std::min(static_cast<std::uint32_t>((box.top + 1) * kTileSide), field.frame.height) - y0;
+  std::vector<std::uint8_t> rings;
+  rings.reserve(std::size_t{width} * height);
+  for (std::uint32_t y = 0; y < height; ++y)
+  {
+    for (std::uint32_t x = 0; x < width; ++x) rings.push_back(ringsAt(field.at(x0 + x, y0 + y)));
+  }
+  spreadRings(rings, width, height);
+  for (std::uint32_t y = 0; y < height; ++y)
+  {
+    for (std::int32_t column = box.left; column <= box.right; ++column)
+    {
+      const std::uint32_t tile =
+          tiles_[indexOf(column, box.bottom + static_cast<std::int32_t>(y) / kTileSide)];
+      if (tile < first || tile == kWanted) continue;
+      const auto x = static_cast<std::uint32_t>((column - box.left) * kTileSide);
+      std::copy_n(&rings[std::size_t{y} * width + x],
+                  std::min(static_cast<std::uint32_t>(kTileSide), width - x),
+                  &rings_[tile * kTileCells + std::size_t{y % kTileSide} * kTileSide]);
+    }
+  }
+}
+}  // namespace sigloc
