@@ -19,6 +19,7 @@
 #include "number_option.h"
 #include "picture_file.h"
 #include "progress_line.h"
+#include "reading_arguments.h"
 #include "run_app.h"
 #include "sigloc/io/map_files.h"
 #include "sigloc/plugin/pose_pdf.h"
@@ -36,14 +37,16 @@ struct Arguments
   fs::path b;
   fs::path poses;
   fs::path picture;
+  sigloc::ReadingArguments reading;
   sigloc::AlignmentOptions options;
 };
 
-std::shared_ptr<const sigloc::FeatureMap> readMap(const fs::path& path)
+std::shared_ptr<const sigloc::FeatureMap> readMap(const fs::path& path,
+                                                  const sigloc::ReadingOptions& reading)
 {
   sigloc::ProgressLine progress;
   auto map = std::make_shared<const sigloc::FeatureMap>(sigloc::buildMapFromFile(
-      path, {}, {}, [&](double share) { progress.showBar("building the map", share); }));
+      path, {}, {}, [&](double share) { progress.showBar("building the map", share); }, reading));
   progress.finish();
   sigloc::warn(kProgram, path, sigloc::warningOfMapSource(path));
   sigloc::warn(kProgram, path, sigloc::warningOfMap(*map));
@@ -101,8 +104,8 @@ void print(const std::vector<sigloc::MapPose>& poses)
 int align(const Arguments& arguments)
 {
   checkOutputs(arguments);
-  const auto a = readMap(arguments.a);
-  const auto b = readMap(arguments.b);
+  const auto a = readMap(arguments.a, arguments.reading.in());
+  const auto b = readMap(arguments.b, arguments.reading.in());
   std::vector<sigloc::MapPose> poses;
   try
   {
@@ -138,6 +141,7 @@ int main(int argc, char** argv)
   app.add_option("A", arguments.a, "map: " + sigloc::mapFormatNames() + ". .gz may follow")
       ->required();
   app.add_option("B", arguments.b, "map whose pose in A is asked")->required();
+  arguments.reading.declare(app);
   app.add_option("--poses", arguments.poses, "file to write, named *.CPosePDFSOG");
   app.add_option("--picture", arguments.picture, "PNG to write: B over A at the first pose");
   sigloc::addNumber(app, "--places", arguments.options.places, "of B whose views are looked for", 1,

@@ -8,6 +8,7 @@
 #include "commands.h"
 #include "eval/reports/report_files.h"
 #include "failure_pictures.h"
+#include "reading_arguments.h"
 
 namespace sigloc
 {
@@ -18,6 +19,7 @@ struct RelocateFlags
   CommonOptions common;
   EvaluationSources sources;
   std::vector<double> map_from_queries;
+  ReadingArguments reading;
   bool simulated = false;
 
   int run(const std::string& command_line) const
@@ -26,6 +28,7 @@ struct RelocateFlags
                                                            sources.ground_truth}));
     RelocateOptions options;
     options.sources = sources;
+    options.sources.reading = reading.in();
     options.sources.map_from_queries = poseOfFlag(map_from_queries);
     options.sources.max_queries = common.max_queries;
     common.passTo(options, command_line);
@@ -48,6 +51,7 @@ std::function<int()> setUpRelocate(CLI::App& command, const std::string& command
   const auto flags = std::make_shared<RelocateFlags>();
   EvaluationSources& sources = flags->sources;
   command.add_option("--map", sources.map, "whatever sigloc-map build takes")->required();
+  flags->reading.declare(command);
   command.add_option("--queries", sources.queries, "simplemap: every key frame is a query");
   command.add_option("--rawlog", sources.rawlog, "rawlog: every step with truth is a query");
   command.add_option("--ground-truth", sources.ground_truth,

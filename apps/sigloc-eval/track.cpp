@@ -11,6 +11,7 @@
 #include "eval/reports/report_files.h"
 #include "eval/wakeup/wakeup_simulated.h"
 #include "failure_pictures.h"
+#include "reading_arguments.h"
 
 namespace sigloc
 {
@@ -23,6 +24,7 @@ struct TrackFlags
   CommonOptions common;
   WakeupOptions options;
   std::vector<double> map_from_truth;
+  ReadingArguments reading;
 
   SimulatedTrackOptions simulated;
   std::vector<std::string> worlds;
@@ -75,6 +77,7 @@ struct TrackFlags
         throw std::invalid_argument(std::string(name) + " is required");
       }
     }
+    options.reading = reading.in();
     options.map_from_truth = poseOfFlag(map_from_truth);
     if (landmarks) options.methods = {"signature"};
     common.passTo(options, command_line);
@@ -154,6 +157,7 @@ std::function<int()> setUpTrack(CLI::App& command, const std::string& command_li
   const auto flags = std::make_shared<TrackFlags>();
   WakeupOptions& options = flags->options;
   command.add_option("--map", options.map, "whatever sigloc-map build takes");
+  flags->reading.declare(command);
   command.add_option("--rawlog", options.rawlog, "the drive");
   command.add_option("--ground-truth", options.ground_truth,
                      "truth of the drive: rows `time x y phi`, 3 or 7 columns, or a simplemap");

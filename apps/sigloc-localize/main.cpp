@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "console.h"
+#include "reading_arguments.h"
 #include "run_app.h"
 #include "sigloc/io/file_output.h"
 #include "sigloc/io/map_files.h"
@@ -34,6 +35,7 @@ struct Arguments
   fs::path config;
   fs::path rawlog;
   fs::path map;
+  sigloc::ReadingArguments reading;
   std::optional<fs::path> output;
   std::optional<std::uint32_t> seed;
   bool quiet = false;
@@ -147,6 +149,7 @@ int runAll(const Arguments& arguments)
   for (const std::string& warning : setup.warnings)
     sigloc::warn(kProgram, arguments.config, warning);
   if (arguments.output) setup.output_folder = *arguments.output;
+  setup.reading = arguments.reading.in(setup.reading);
   if (arguments.seed) setup.matcher.seed = *arguments.seed;
   const std::vector<Experiment> experiments = experimentsOf(setup);
   checkOutputs(setup, experiments);
@@ -190,6 +193,7 @@ int main(int argc, char** argv)
       "map to localize in, instead of map_file: " + sigloc::mapFormatNames() + ". .gz may follow");
   auto* const log = app.add_option("--log", arguments.rawlog, "the same as DATASET.rawlog");
   log->excludes(rawlog);
+  arguments.reading.declare(app);
   app.add_option("--out", arguments.output, "output folder instead of logOutput_dir");
   app.add_option("--seed", arguments.seed, "seed instead of the one in [sigloc.matcher]");
   app.add_flag("--quiet", arguments.quiet, "no progress");

@@ -24,7 +24,7 @@ MapCheck checkOf(const CheckArguments& arguments, const std::shared_ptr<const Fe
 {
   CheckOptions options = arguments.options;
   if (!arguments.at.empty()) options.poses = readPoses(arguments.at);
-  SimulatedLaserOptions laser = laserOfMap(readMapSource(arguments.map));
+  SimulatedLaserOptions laser = laserOfMap(readMapSource(arguments.map, arguments.reading.in()));
   if (!arguments.laser.empty()) laser = readLaser(arguments.laser, laser);
   ProgressLine progress;
   try
@@ -43,6 +43,7 @@ void CheckArguments::declare(CLI::App& command)
 {
   constexpr double kMost = 1e6;
   command.add_option("file", map, "map to check")->required();
+  reading.declare(command);
   command.add_option("--laser", laser,
                      "ini with [laser]; default: that of the map's own scans, else 270 degrees");
   command.add_option("--out", out, "folder for picture, lists and summary");
@@ -61,7 +62,8 @@ void runCheck(const CheckArguments& arguments, const char* program)
   if (!arguments.out.empty()) checkCheckFolder(arguments.out, inputs);
   ProgressLine progress;
   const auto map = std::make_shared<const FeatureMap>(buildMapFromFile(
-      arguments.map, {}, {}, [&](double share) { progress.showBar("building the map", share); }));
+      arguments.map, {}, {}, [&](double share) { progress.showBar("building the map", share); },
+      arguments.reading.in()));
   progress.finish();
   warn(program, arguments.map, warningOfMapSource(arguments.map));
   warn(program, arguments.map, warningOfMap(*map));

@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "map_check.h"
+#include "reading_arguments.h"
 
 namespace sigloc
 {
@@ -17,6 +18,7 @@ struct CheckArguments
   std::filesystem::path laser;
   std::filesystem::path at;
   std::filesystem::path out;
+  ReadingArguments reading;
   CheckOptions options;
 
   /// Declares them.

@@ -13,6 +13,7 @@
 #include "picture_file.h"
 #include "pictures.h"
 #include "progress_line.h"
+#include "reading_arguments.h"
 #include "run_app.h"
 #include "sigloc/config/plural.h"
 #include "sigloc/io/file_output.h"
@@ -60,13 +61,20 @@ ordered_json describe(const sigloc::FeatureMap& map, const std::filesystem::path
 sigloc::FeatureMap anyMap(const std::filesystem::path& path, const sigloc::LocalizationSetup& setup)
 {
   sigloc::ProgressLine progress;
-  sigloc::FeatureMap map =
-      sigloc::buildMapFromFile(path, setup.map, setup.features,
-                               [&](double share) { progress.showBar("building the map", share); });
+  sigloc::FeatureMap map = sigloc::buildMapFromFile(
+      path, setup.map, setup.features,
+      [&](double share) { progress.showBar("building the map", share); }, setup.reading);
   progress.finish();
   sigloc::warn(kProgram, path, sigloc::warningOfMapSource(path));
   sigloc::warn(kProgram, path, sigloc::warningOfMap(map));
   return map;
+}
+
+sigloc::LocalizationSetup setupWith(const sigloc::ReadingArguments& reading)
+{
+  sigloc::LocalizationSetup setup;
+  setup.reading = reading.in();
+  return setup;
 }
 
 /// Throws std::runtime_error where the map would replace its own source, or a file whose name is
@@ -85,11 +93,12 @@ void checkBuildOutput(const std::filesystem::path& input, const std::filesystem:
 }
 
 void build(const std::filesystem::path& input, const std::filesystem::path& output,
-           const std::filesystem::path& config)
+           const std::filesystem::path& config, const sigloc::ReadingArguments& reading)
 {
   checkBuildOutput(input, output, config);
   sigloc::LocalizationSetup setup;
   if (!config.empty()) setup = sigloc::readOptionSections(config);
+  setup.reading = reading.in(setup.reading);
   for (const std::string& warning : setup.warnings) sigloc::warn(kProgram, config, warning);
   const sigloc::FeatureMap map = anyMap(input, setup);
   sigloc::saveSigmap(map, output);
@@ -111,9 +120,9 @@ std::string textOf(const ordered_json& value)
   return text;
 }
 
-void info(const std::filesystem::path& path, bool as_json)
+void info(const std::filesystem::path& path, const sigloc::ReadingArguments& reading, bool as_json)
 {
-  const ordered_json description = describe(anyMap(path, {}), path);
+  const ordered_json description = describe(anyMap(path, setupWith(reading)), path);
   if (as_json)
   {
     std::cout << description.dump(2) << '\n';
@@ -146,13 +155,14 @@ std::vector<std::filesystem::path> filesBehind(const std::filesystem::path& path
   return files;
 }
 
-void draw(const std::filesystem::path& path, const std::filesystem::path& output)
+void draw(const std::filesystem::path& path, const std::filesystem::path& output,
+          const sigloc::ReadingArguments& reading)
 {
   if (output.extension() != ".png")
   {
     throw std::runtime_error(output.string() + ": the name of a picture ends in .png");
   }
-  const sigloc::FeatureMap map = anyMap(path, {});
+  const sigloc::FeatureMap map = anyMap(path, setupWith(reading));
   sigloc::refuseToReplaceInputs(output, filesBehind(path, map));
   sigloc::PictureMaker pictures(map);
   const std::string title =
@@ -170,21 +180,26 @@ int main(int argc, char** argv)
   std::filesystem::path input;
   std::filesystem::path output;
   std::filesystem::path config;
+  sigloc::ReadingArguments reading;
   bool as_json = false;
 
   CLI::App* build_command = app.add_subcommand(
       "build", "Builds a .sigmap from one of: " + sigloc::mapFormatNames() + ". .gz may follow.");
   build_command->add_option("-i,--input", input, "map source")->required();
   build_command->add_option("-o,--output", output, ".sigmap to write")->required();
-  build_command->add_option("--config", config, "ini with [sigloc.map] and [sigloc.features]");
+  build_command->add_option("--config", config,
+                            "ini with [sigloc.map], [sigloc.features] and [sigloc.reading]");
+  reading.declare(*build_command);
 
   CLI::App* info_command = app.add_subcommand("info", "Describes a map of any kind");
   info_command->add_option("file", input, "map to read")->required();
   info_command->add_flag("--json", as_json, "as JSON");
+  reading.declare(*info_command);
 
   CLI::App* draw_command = app.add_subcommand("draw", "Draws a map of any kind");
   draw_command->add_option("file", input, "map to read")->required();
   draw_command->add_option("-o,--output", output, "PNG to write")->required();
+  reading.declare(*draw_command);
 
   sigloc::CheckArguments check;
   CLI::App* check_command =
@@ -193,9 +208,9 @@ int main(int argc, char** argv)
 
   const auto work = [&]
   {
-    if (build_command->parsed()) build(input, output, config);
-    if (info_command->parsed()) info(input, as_json);
-    if (draw_command->parsed()) draw(input, output);
+    if (build_command->parsed()) build(input, output, config, reading);
+    if (info_command->parsed()) info(input, reading, as_json);
+    if (draw_command->parsed()) draw(input, output, reading);
     if (check_command->parsed()) sigloc::runCheck(check, kProgram);
     return 0;
   };

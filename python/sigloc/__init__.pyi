@@ -34,7 +34,7 @@ __version__: str
 
 class Map:
     @staticmethod
-    def load(path: _Path) -> Map: ...
+    def load(path: _Path, *, resolution: float = 0.0) -> Map: ...
     @staticmethod
     def from_grid(
         array: numpy.typing.NDArray[Any], resolution: float, origin: _Numbers = (0.0, 0.0)

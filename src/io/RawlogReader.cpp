@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <map>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -92,7 +93,10 @@ CPose2D interpolated(const OdometryReading& a, const OdometryReading& b, double 
 
 struct RawlogReader::State
 {
-  explicit State(const std::filesystem::path& path) : objects(path) {}
+  State(const std::filesystem::path& path, const ReadingOptions& given)
+      : objects(path), options(given)
+  {
+  }
 
   mrpt::serialization::CSerializable::Ptr readObject();
   void skipFrameBeforeActions(const mrpt::serialization::CSerializable::Ptr& first_object);
@@ -107,8 +111,11 @@ struct RawlogReader::State
   std::optional<MotionIncrement> believed(const mrpt::poses::CPosePDFGaussian& motion,
                                           double seconds);
   double timeOf(const CObservation& observation);
+  void count(const CObservation& observation);
 
   detail::LogObjects objects;
+  ReadingOptions options;
+  std::map<std::string, std::size_t> seen;  // observations by class
   std::deque<mrpt::serialization::CSerializable::Ptr> read_ahead;
   std::size_t objects_taken = 0;
   LeftOutOfLog left_out;
@@ -167,6 +174,13 @@ double RawlogReader::State::timeOf(const CObservation& observation)
   return latest_time;
 }
 
+void RawlogReader::State::count(const CObservation& observation)
+{
+  const std::string name = observation.GetRuntimeClass()->className;
+  const std::size_t colon = name.rfind(':');
+  ++seen[colon == std::string::npos ? name : name.substr(colon + 1)];
+}
+
 std::optional<RawlogStep> RawlogReader::State::take(
     const mrpt::serialization::CSerializable::Ptr& object)
 {
@@ -177,6 +191,7 @@ std::optional<RawlogStep> RawlogReader::State::take(
   }
   if (const auto observation = std::dynamic_pointer_cast<CObservation>(object))
   {
+    count(*observation);
     return takeObservation(observation);
   }
   const auto frame = std::dynamic_pointer_cast<CSensoryFrame>(object);
@@ -184,6 +199,7 @@ std::optional<RawlogStep> RawlogReader::State::take(
   std::optional<double> time;
   for (const auto& observation : *frame)
   {
+    count(*observation);
     const double observed = timeOf(*observation);
     if (!time && isRange(*observation)) time = observed;
     if (const auto reading = std::dynamic_pointer_cast<CObservationOdometry>(observation))
@@ -296,9 +312,13 @@ std::optional<MotionIncrement> RawlogReader::State::believed(
   return std::nullopt;
 }
 
-RawlogReader::RawlogReader(const std::filesystem::path& path)
-    : state_(std::make_unique<State>(path))
+RawlogReader::RawlogReader(const std::filesystem::path& path, const ReadingOptions& reading)
+    : state_(std::make_unique<State>(path, reading))
 {
+  if (!(reading.min_height < reading.max_height))
+  {
+    throw std::invalid_argument("the lowest height of walls is not below the highest");
+  }
   const auto first = state_->readObject();
   if (!first)
     throw std::runtime_error(path.string() + ": truncated or damaged: not one entry could be read");
@@ -328,6 +348,16 @@ bool RawlogReader::truncated() const
 const LeftOutOfLog& RawlogReader::leftOut() const
 {
   return state_->left_out;
+}
+
+std::string RawlogReader::contents() const
+{
+  std::string text;
+  for (const auto& [name, count] : state_->seen)
+  {
+    text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + name;
+  }
+  return text;
 }
 
 double RawlogReader::progress() const

@@ -58,9 +58,11 @@ RawlogStep firstStep(RawlogReader& reader, const LocalizationSetup& setup)
     auto step = reader.next();
     if (!step)
     {
+      const std::string held = reader.contents();
       throw std::runtime_error(setup.rawlog_file.string() +
-                               (skipped == 0 ? ": no usable laser scan in it"
-                                             : ": fewer steps than rawlog_offset skips"));
+                               (skipped > 0    ? ": fewer steps than rawlog_offset skips"
+                                : held.empty() ? ": no usable laser scan in it"
+                                               : ": no usable laser scan in it; it holds " + held));
     }
     if (skipped == setup.rawlog_offset) return std::move(*step);
   }
@@ -74,12 +76,12 @@ CachedMap makeMap(const LocalizationSetup& setup, const fs::path& cache,
   if (cache.empty() || ready)
   {
     const Stopwatch watch;
-    made.map = buildMapFromFile(setup.map_file, setup.map, setup.features, progress);
+    made.map = buildMapFromFile(setup.map_file, setup.map, setup.features, progress, setup.reading);
     made.build_seconds = watch.milliseconds() / 1000;
   }
   else
   {
-    made = mapWithCache(setup.map_file, cache, setup.map, setup.features, progress);
+    made = mapWithCache(setup.map_file, cache, setup.map, setup.features, progress, setup.reading);
   }
   if (made.map.empty())
   {
@@ -132,7 +134,7 @@ bool hasConverged(const StepRecord& step)
 struct LocalizationRun::State
 {
   explicit State(const LocalizationSetup& setup)
-      : reader(setup.rawlog_file), pending(firstStep(reader, setup))
+      : reader(setup.rawlog_file, setup.reading), pending(firstStep(reader, setup))
   {
     if (!setup.ground_truth_file.empty())
     {

@@ -34,9 +34,10 @@ constexpr const char* kTracker = "sigloc.tracker";
 constexpr const char* kParticles = "sigloc.particles";
 constexpr const char* kFeatures = "sigloc.features";
 constexpr const char* kMap = "sigloc.map";
+constexpr const char* kReading = "sigloc.reading";
 constexpr const char* kReport = "sigloc.localize";
-constexpr std::array<const char*, 6> kSections = {kMatcher,  kTracker, kParticles,
-                                                  kFeatures, kMap,     kReport};
+constexpr std::array<const char*, 7> kSections = {kMatcher, kTracker, kParticles, kFeatures,
+                                                  kMap,     kReading, kReport};
 
 /// Returns the text of a file that exists; throws std::runtime_error where it is no file.
 std::string readText(const fs::path& path)
@@ -64,6 +65,7 @@ void readSections(const CConfigFileMemory& ini, LocalizationSetup& setup)
   setup.particles = loadOptions<ParticleOptions>(ini, kParticles);
   setup.features = loadOptions<FeatureExtractorOptions>(ini, kFeatures);
   setup.map = loadOptions<MapBuildingOptions>(ini, kMap);
+  setup.reading = loadOptions<ReadingOptions>(ini, kReading);
   setup.report = loadOptions<ReportOptions>(ini, kReport);
 }
 
@@ -315,6 +317,7 @@ std::string defaultOptionSections()
   saveOptions(setup.particles, ini, kParticles);
   saveOptions(setup.features, ini, kFeatures);
   saveOptions(setup.map, ini, kMap);
+  saveOptions(setup.reading, ini, kReading);
   saveOptions(setup.report, ini, kReport);
   return ini.getContent();
 }

@@ -133,7 +133,9 @@ TEST(MapSources, ReadsARosMapOfRawOccupancies)
 
   writeText(folder / "m.pgm", "no image");
   EXPECT_NE(errorOf(folder / "m.yaml").find("m.pgm: is no PGM or PNG picture"), std::string::npos);
-  EXPECT_NE(errorOf(folder / "m.pgm").find("its .yaml file is"), std::string::npos);
+  EXPECT_NE(errorOf(folder / "m.pgm")
+                .find("give --resolution, or its .yaml file; did you mean 'm.yaml'?"),
+            std::string::npos);
 }
 
 TEST(MapSources, TakesAWholeTurnForNone)
@@ -337,8 +339,9 @@ TEST(MapSources, NamesFileAndReasonForUnusableFilesOfEveryKind)
   const std::string gridmap = readBytes(kDatasets / "uwb_ro-localization_demo_map.gridmap.gz");
   const std::string simplemap = readBytes(kDatasets / "localization_demo.simplemap.gz");
   testing::internal::CaptureStderr();
-  for (const char* extension : {"simplemap", "simplemap.gz", "gridmap", "gridmap.gz", "yaml", "log",
-                                "clf", "carmen", "csv", "txt", "sigmap", "unknown"})
+  for (const char* extension :
+       {"simplemap", "simplemap.gz", "gridmap", "gridmap.gz", "yaml", "log", "clf", "carmen", "csv",
+        "txt", "sigmap", "ply", "pcd.gz", "png", "pgm", "unknown"})
   {
     const auto path = folder / (std::string("m.") + extension);
     const auto expect_refused = [&](const char* what)

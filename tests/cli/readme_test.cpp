@@ -67,6 +67,28 @@ void writeRosMap(const TemporaryFolder& folder)
   writeText(folder / "my_map.yaml", yaml.str());
 }
 
+/// The walls of the office as `my_points.ply`, one point a cell.
+void writePoints(const TemporaryFolder& folder)
+{
+  const auto raster = std::get<OccupancyRaster>(readMapSource(kSources / "maps/office.gridmap.gz"));
+  const RasterFrame& frame = raster.frame;
+  std::ostringstream rows;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < raster.cells.size(); ++i)
+  {
+    if (!isWall(raster.cells[i])) continue;
+    ++count;
+    rows << frame.origin.x + (static_cast<double>(i % frame.width) + 0.5) * frame.resolution << " "
+         << frame.origin.y + (static_cast<double>(i / frame.width) + 0.5) * frame.resolution
+         << " 0.5\n";
+  }
+  writeText(folder / "my_points.ply", "ply\nformat ascii 1.0\nelement vertex " +
+                                          std::to_string(count) +
+                                          "\nproperty float x\nproperty float y\nproperty float z\n"
+                                          "end_header\n" +
+                                          rows.str());
+}
+
 /// Writes the page's code blocks of one kind, which begin with their names: "# my.ini".
 void writeFilesOfPage(const TemporaryFolder& folder, const std::string& kind,
                       const std::string& extension)
@@ -83,6 +105,7 @@ TEST(Readme, itsCommandsDoWhatItSays)
 {
   const TemporaryFolder folder;
   writeRosMap(folder);
+  writePoints(folder);
   fs::copy_file(kSources / "maps/office.simplemap", folder / "my_map.simplemap");
   fs::copy_file(kSources / "rawlogs/office.rawlog", folder / "my_drive.rawlog");
   fs::create_directory(folder / "build");
@@ -92,8 +115,9 @@ TEST(Readme, itsCommandsDoWhatItSays)
   // The module is for the system's Python, and another may come first in the path of this machine.
   std::string commands = "set -e\nexport PATH=/usr/bin:$PATH\n";
   for (const std::string& block : blocksOf("sh")) commands += block;
-  for (const char* const command : {"sigloc-map build", "sigloc-map draw", "sigloc-map check",
-                                    "--map", "my.ini", "rawlog-edit", "LD_PRELOAD", "python3"})
+  for (const char* const command :
+       {"sigloc-map build", "--resolution", "my_points.ply", "sigloc-map draw", "sigloc-map check",
+        "--map", "my.ini", "rawlog-edit", "LD_PRELOAD", "python3"})
   {
     EXPECT_NE(commands.find(command), std::string::npos) << "README.md shows no " << command;
   }

@@ -33,6 +33,7 @@ bool readsSignatures(std::string_view bytes);
 bool readsRosMap(std::string_view bytes);
 bool readsCarmenLog(std::string_view bytes);
 bool readsLandmarks(std::string_view bytes);
+bool readsPoints(std::string_view bytes);
 bool readsGroundTruth(std::string_view bytes);
 bool readsSetup(std::string_view bytes);
 bool readsSummaries(std::string_view bytes);
@@ -47,13 +48,14 @@ struct NamedTarget
   Target run;
 };
 
-constexpr std::array<NamedTarget, 12> kTargets = {{
+constexpr std::array<NamedTarget, 13> kTargets = {{
     {"sigmap", readsSigmap},
     {"signature_map", readsSignatureMap},
     {"signatures", readsSignatures},
     {"ros_map", readsRosMap},
     {"carmen_log", readsCarmenLog},
     {"landmarks", readsLandmarks},
+    {"points", readsPoints},
     {"ground_truth", readsGroundTruth},
     {"ini", readsSetup},
     {"summaries", readsSummaries},

@@ -4,6 +4,7 @@
 // Files of text: maps, truth, settings, and what sigloc-eval wrote.
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "eval/reports/merge.h"
@@ -12,6 +13,7 @@
 #include "fuzz/targets.h"
 #include "io/GroundTruth.h"
 #include "io/maps/map_source_readers.h"
+#include "io/points/points_raster.h"
 #include "sigloc/io/RawlogReader.h"
 #include "sigloc/localize/LocalizationSetup.h"
 
@@ -63,6 +65,28 @@ bool readsLandmarks(std::string_view bytes)
 {
   const auto path = inputFile("landmarks.csv", bytes);
   return accepts([&] { require(!detail::readLandmarks(path).features().empty(), "no landmark"); });
+}
+
+bool readsPoints(std::string_view bytes)
+{
+  const auto usable = [](const detail::PointList& points, const std::filesystem::path& path)
+  {
+    const OccupancyRaster raster = detail::rasterOfPoints(points, {}, path);
+    require(raster.cells.size() == std::size_t{raster.frame.width} * raster.frame.height,
+            "a raster without all its cells");
+  };
+  const auto ply = inputFile("points.ply", bytes);
+  const auto pcd = inputFile("points.pcd", bytes);
+  const auto txt = inputFile("points.txt", bytes);
+  return accepts([&] { usable(detail::readPly(ply), ply); }) ||
+         accepts([&] { usable(detail::readPcd(pcd), pcd); }) ||
+         accepts(
+             [&]
+             {
+               const auto rows = detail::pointRowsOf(txt);
+               if (!rows) throw std::runtime_error(txt.string() + ": no points");
+               usable(*rows, txt);
+             });
 }
 
 bool readsGroundTruth(std::string_view bytes)

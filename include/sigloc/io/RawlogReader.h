@@ -9,8 +9,10 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
+#include "sigloc/config/option_fields.h"
 #include "sigloc/features/Feature.h"
 #include "sigloc/features/LaserScan.h"
 #include "sigloc/features/observe_scans.h"
@@ -18,6 +20,30 @@
 
 namespace sigloc
 {
+/// What files do not tell by themselves, of logs and of maps. Section [sigloc.reading]; units,
+/// ranges and meanings are in `visitFields`.
+struct ReadingOptions
+{
+  double image_resolution = 0;
+  double min_height = 0.2;
+  double max_height = 1.5;
+
+  template <class V>
+  static void visitFields(V&& visit)
+  {
+    using O = ReadingOptions;
+    constexpr double kHighest = 100;
+    visit(
+        OptionField{"image_resolution", &O::image_resolution, 0.0, 1.0,
+                    "[m] a pixel of a map that is an image alone; 0: not told, such are refused"});
+    visit(
+        OptionField{"min_height", &O::min_height, -kHighest, kHighest,
+                    "[m] above the robot's base, or the map's origin, from which 3D points count"});
+    visit(OptionField{"max_height", &O::max_height, -kHighest, kHighest,
+                      "[m] up to which 3D points count as walls"});
+  }
+};
+
 /// One step of a log: the robot's motion since the step before, and its observations then.
 struct RawlogStep
 {
@@ -51,8 +77,9 @@ struct LeftOutOfLog
 class RawlogReader
 {
  public:
-  /// Throws std::runtime_error naming the path and the reason for a missing, empty or foreign file.
-  explicit RawlogReader(const std::filesystem::path& path);
+  /// Throws std::runtime_error naming the path and the reason for a missing, empty or foreign file,
+  /// and std::invalid_argument where `reading` holds no band of heights.
+  explicit RawlogReader(const std::filesystem::path& path, const ReadingOptions& reading = {});
   ~RawlogReader();
   RawlogReader(RawlogReader&&) noexcept;
   RawlogReader& operator=(RawlogReader&&) noexcept;
@@ -65,6 +92,9 @@ class RawlogReader
   bool truncated() const;
   /// Of what was read so far.
   const LeftOutOfLog& leftOut() const;
+  /// Returns the observations read so far by class, for messages: "12 CObservationGPS, 3
+  /// CObservationIMU"; empty for none.
+  std::string contents() const;
   /// Share of the file read so far, in [0, 1].
   double progress() const;
 

@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "sigloc/io/RawlogReader.h"
 #include "sigloc/map/map_building.h"
 
 namespace sigloc
@@ -18,12 +19,13 @@ namespace sigloc
 /// What a map input file holds, in the core's terms.
 using MapSource = std::variant<std::vector<PosedScans>, OccupancyRaster, FeatureMap>;
 
-/// Reads `.simplemap[.gz]`, `.gridmap[.gz]`, a ROS map `.yaml` (pgm/png), a CARMEN log with
-/// corrected poses (`.log`, `.clf`, `.carmen`), a ready `.sigmap`, or a landmark file (`.csv`,
-/// `.txt`) with rows `x y [radius] [sigma]`. Throws std::runtime_error naming the path and the
-/// reason for a missing, empty, truncated, foreign or unusable file. Throws the same for a map that
+/// Reads `.simplemap[.gz]`, `.gridmap[.gz]`, a ROS map `.yaml`, a CARMEN log with corrected poses
+/// (`.log`, `.clf`, `.carmen`), or a ready `.sigmap`. Reads an image alone where `reading` tells
+/// its scale, and points (`.ply`, `.pcd`, `.txt`) within its heights. Reads landmarks (`.csv`,
+/// `.txt`): rows `x y [radius] [sigma]`. Throws std::runtime_error naming the path and the reason
+/// for a missing, empty, truncated, foreign or unusable file. Throws the same for a map that
 /// reaches farther than 100 km from its origin.
-MapSource readMapSource(const std::filesystem::path& path);
+MapSource readMapSource(const std::filesystem::path& path, const ReadingOptions& reading = {});
 
 /// Returns the kinds of map that readMapSource() reads, for messages: "simplemap (.simplemap),
 /// ...".
@@ -46,7 +48,7 @@ std::vector<std::filesystem::path> filesOfMapSource(const std::filesystem::path&
 /// Reads a map source and builds the feature map; a `.sigmap` is returned as it is.
 FeatureMap buildMapFromFile(const std::filesystem::path& path, const MapBuildingOptions& building,
                             const FeatureExtractorOptions& extraction,
-                            const MapProgress& progress = {});
+                            const MapProgress& progress = {}, const ReadingOptions& reading = {});
 
 /// Returns the map of `source`, reusing `cache` (a `.sigmap`) when its provenance shows that
 /// neither the source's bytes nor the options have changed. Otherwise builds it and rewrites
@@ -60,7 +62,8 @@ struct CachedMap
 };
 CachedMap mapWithCache(const std::filesystem::path& source, const std::filesystem::path& cache,
                        const MapBuildingOptions& building,
-                       const FeatureExtractorOptions& extraction, const MapProgress& progress = {});
+                       const FeatureExtractorOptions& extraction, const MapProgress& progress = {},
+                       const ReadingOptions& reading = {});
 
 /// Returns the file in the user's cache folder in which the map of `source` is kept. The folder is
 /// `$XDG_CACHE_HOME/sigloc`, else `$HOME/.cache/sigloc`. Empty where neither variable is an

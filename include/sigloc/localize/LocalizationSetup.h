@@ -12,6 +12,7 @@
 
 #include "sigloc/config/option_fields.h"
 #include "sigloc/features/observe_scans.h"
+#include "sigloc/io/RawlogReader.h"
 #include "sigloc/map/map_building.h"
 #include "sigloc/matching/SignatureMatcher.h"
 #include "sigloc/plugin/SignatureMonteCarlo2D.h"
@@ -75,6 +76,7 @@ struct LocalizationSetup
   ParticleOptions particles;
   FeatureExtractorOptions features;
   MapBuildingOptions map;
+  ReadingOptions reading;
   ReportOptions report;
   /// About the ini: keys of [LocalizationExperiment] that nothing reads, and keys given repeatedly.
   std::vector<std::string> warnings;

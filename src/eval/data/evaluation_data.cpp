@@ -84,7 +84,7 @@ void readRawlogQueries(const EvaluationSources& sources, EvaluationData& data)
     }
     truth = GroundTruth::read(sources.ground_truth, sources.map_from_queries);
   }
-  RawlogReader reader(sources.rawlog);
+  RawlogReader reader(sources.rawlog, sources.reading);
   for (std::size_t step = 0; auto read = reader.next(); ++step)
   {
     if (read->scans.empty()) continue;
@@ -158,11 +158,11 @@ EvaluationMap evaluationMapFromScans(const std::vector<PosedScans>& scans)
   return map;
 }
 
-EvaluationMap readEvaluationMap(const std::filesystem::path& path)
+EvaluationMap readEvaluationMap(const std::filesystem::path& path, const ReadingOptions& reading)
 {
   try
   {
-    EvaluationMap map = evaluationMapOf(readMapSource(path));
+    EvaluationMap map = evaluationMapOf(readMapSource(path, reading));
     requireFeatures(map, path);
     map.file = path;
     return map;
@@ -179,7 +179,8 @@ EvaluationData readEvaluationData(const EvaluationSources& sources)
   EvaluationData data;
   if (sources.interleave > 0)
   {
-    const std::vector<PosedScans> all = scansOf(readMapSource(sources.map), sources.map);
+    const std::vector<PosedScans> all =
+        scansOf(readMapSource(sources.map, sources.reading), sources.map);
     std::vector<PosedScans> mapped;
     std::vector<PosedScans> asked;
     for (std::size_t i = 0; i < all.size(); ++i)
@@ -192,10 +193,11 @@ EvaluationData readEvaluationData(const EvaluationSources& sources)
   }
   else
   {
-    data.map = readEvaluationMap(sources.map);
+    data.map = readEvaluationMap(sources.map, sources.reading);
     if (sources.rawlog.empty())
     {
-      data.queries = queriesOf(scansOf(readMapSource(sources.queries), sources.queries), sources);
+      data.queries = queriesOf(
+          scansOf(readMapSource(sources.queries, sources.reading), sources.queries), sources);
     }
     else
     {

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "sigloc/io/RawlogReader.h"
 #include "sigloc/map/map_building.h"
 
 namespace sigloc
@@ -45,6 +46,7 @@ struct EvaluationSources
   std::uint32_t interleave = 0;  ///< > 0: every k-th scan of the map is a query, the rest map
   mrpt::math::TPose2D map_from_queries;
   bool foreign = false;  ///< the queries are of another building: no truth
+  ReadingOptions reading;
   std::uint32_t max_queries = 0;  ///< evenly spaced ones are kept, 0: all
 };
 
@@ -61,7 +63,8 @@ struct EvaluationData
 EvaluationData readEvaluationData(const EvaluationSources& sources);
 
 /// Reads the map alone. Throws std::runtime_error ("path: reason").
-EvaluationMap readEvaluationMap(const std::filesystem::path& path);
+EvaluationMap readEvaluationMap(const std::filesystem::path& path,
+                                const ReadingOptions& reading = {});
 
 /// Returns the map data of posed scans, as `readEvaluationData` makes it.
 EvaluationMap evaluationMapFromScans(const std::vector<PosedScans>& scans);

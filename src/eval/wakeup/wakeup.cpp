@@ -24,9 +24,9 @@ using mrpt::math::TPose2D;
 
 /// A drive in another building than the map: any step may start, and distance is that of the
 /// odometry.
-WakeupDrive readForeignDrive(const std::filesystem::path& rawlog)
+WakeupDrive readForeignDrive(const std::filesystem::path& rawlog, const ReadingOptions& reading)
 {
-  RawlogReader reader(rawlog);
+  RawlogReader reader(rawlog, reading);
   WakeupDrive drive;
   drive.foreign = true;
   double travelled = 0;
@@ -61,7 +61,7 @@ WakeupDrive readDrive(const WakeupOptions& options, const std::vector<TPose2D>& 
   std::optional<GroundTruth> start_frames;
   if (!options.start_from.empty()) start_frames = GroundTruth::read(options.start_from);
   constexpr double kSameScan = 0.5;  // [s] between the log's scan and the key frame
-  RawlogReader reader(options.rawlog);
+  RawlogReader reader(options.rawlog, options.reading);
   WakeupDrive drive;
   std::optional<TPose2D> last;
   double travelled = 0;
@@ -91,11 +91,11 @@ detail::LoggedDrive readLog(const WakeupOptions& options)
     return detail::readLandmarkDrive(options.landmarks, options.landmark_folder);
   }
   detail::LoggedDrive log;
-  log.map = readEvaluationMap(options.map);
+  log.map = readEvaluationMap(options.map, options.reading);
   log.files = {options.map, options.rawlog};
   if (options.foreign)
   {
-    log.drive = readForeignDrive(options.rawlog);
+    log.drive = readForeignDrive(options.rawlog, options.reading);
     return log;
   }
   log.drive = readDrive(options, log.map.mapped_poses);

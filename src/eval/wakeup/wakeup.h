@@ -15,6 +15,7 @@
 #include "eval/scoring/map_statistics.h"
 #include "eval/scoring/provenance.h"
 #include "eval/scoring/relocation_scoring.h"
+#include "sigloc/io/RawlogReader.h"
 
 namespace sigloc
 {
@@ -31,6 +32,7 @@ struct WakeupOptions
   std::filesystem::path ground_truth;
   std::filesystem::path start_from;  ///< simplemap: starts only at its key frames' times, or empty
   mrpt::math::TPose2D map_from_truth;
+  ReadingOptions reading;
   std::uint32_t starts = 10;  ///< places to wake up at, none twice
   double travel = 20;  ///< [m] driven after a start, and again after a kidnapping
   bool kidnap = false;

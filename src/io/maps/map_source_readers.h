@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "sigloc/io/map_files.h"
 #include "sigloc/map/map_building.h"
 
 namespace sigloc::detail
@@ -22,6 +23,9 @@ void requireWallAndFree(const OccupancyRaster& raster, const std::filesystem::pa
 /// PNG. One difference: shade 205, with which map savers write what was never seen, stays unknown
 /// where the thresholds would make it free.
 OccupancyRaster readRosMap(const std::filesystem::path& path);
+/// The same for an image alone: trinary, with the thresholds that map_saver writes, and its lower
+/// left corner at the map's origin. Throws where `reading` does not tell its scale.
+OccupancyRaster readMapImage(const std::filesystem::path& path, const ReadingOptions& reading);
 /// Returns a line where that difference matters, else an empty one.
 std::string warningOfRosMap(const std::filesystem::path& path);
 /// Returns the image file that a ROS map names, as a path that can be opened.
@@ -31,6 +35,14 @@ std::filesystem::path imageOfRosMap(const std::filesystem::path& path);
 /// n beams covers 180 degrees from -90 in steps of 180/n (n even) or 180/(n-1) degrees (n odd). The
 /// robot frame is the laser's: its mount does not affect a map.
 std::vector<PosedScans> readCarmenLog(const std::filesystem::path& path);
+
+/// A `.ply` or `.pcd` file.
+OccupancyRaster readPointMap(const std::filesystem::path& path, const ReadingOptions& reading);
+
+/// A text of points where it holds such, else of landmarks.
+MapSource readRows(const std::filesystem::path& path, const ReadingOptions& reading);
+/// Returns a line where a text is taken for points, else an empty one.
+std::string warningOfRows(const std::filesystem::path& path);
 
 /// Rows `x y [radius] [sigma]` in metres; a header row, also behind '#', may name the columns
 /// (x, y, radius or r, sigma, label; others are ignored). A radius makes a circle, else a point.

@@ -14,6 +14,7 @@
 #include <stdexcept>
 #include <string>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 
 #include "io/archive/checked_archive.h"
@@ -21,6 +22,7 @@
 #include "io/key_frames.h"
 #include "io/maps/map_reach.h"
 #include "io/maps/map_source_readers.h"
+#include "io/points/points_raster.h"
 #include "io/scan_conversion.h"
 #include "sigloc/config/plural.h"
 
@@ -32,17 +34,25 @@ namespace
 constexpr int kBuildVersion = 8;
 
 template <auto reader>
-MapSource sourceBy(const std::filesystem::path& path)
+MapSource sourceBy(const std::filesystem::path& path, const ReadingOptions& reading)
 {
-  return reader(path);
+  if constexpr (std::is_invocable_v<decltype(reader), const std::filesystem::path&>)
+  {
+    return reader(path);
+  }
+  else
+  {
+    return reader(path, reading);
+  }
 }
+using MapReader = MapSource (*)(const std::filesystem::path& path, const ReadingOptions& reading);
 
 /// A kind of file that maps come in.
 struct MapFormat
 {
   const char* name;  // for messages
   std::vector<std::string> extensions;  // lower case; `.gz` may follow them
-  MapSource (*read)(const std::filesystem::path& path);
+  MapReader read;
 };
 
 /// Every kind of map: a new one is a row here and its reader.
@@ -52,8 +62,11 @@ const std::vector<MapFormat>& mapFormats()
       {"simplemap", {".simplemap"}, sourceBy<detail::readSimplemap>},
       {"grid map", {".gridmap"}, sourceBy<detail::readGridmap>},
       {"ROS map", {".yaml", ".yml"}, sourceBy<detail::readRosMap>},
+      {"image with its resolution", {".pgm", ".png"}, sourceBy<detail::readMapImage>},
       {"CARMEN log", {".log", ".clf", ".carmen"}, sourceBy<detail::readCarmenLog>},
-      {"landmark file", {".csv", ".txt"}, sourceBy<detail::readLandmarks>},
+      {"landmark file", {".csv"}, sourceBy<detail::readLandmarks>},
+      {"landmarks or points", {".txt"}, sourceBy<detail::readRows>},
+      {"points", {".ply", ".pcd"}, sourceBy<detail::readPointMap>},
       {"sigmap", {".sigmap"}, sourceBy<loadSigmap>},
   };
   return kFormats;
@@ -71,17 +84,11 @@ const MapFormat& formatOf(const std::filesystem::path& path)
       known += (known.empty() ? "" : ", ") + own;
     }
   }
-  if (extension == ".pgm" || extension == ".png")
-  {
-    throw std::runtime_error(path.string() +
-                             ": an image alone is no map; its .yaml file is, with 'image', "
-                             "'resolution', 'origin', 'free_thresh' and 'occupied_thresh'");
-  }
   throw std::runtime_error(
       fmt::format("{}: unknown kind of map (known: {})", path.string(), known));
 }
 
-bool isReadBy(MapSource (*reader)(const std::filesystem::path&), const std::filesystem::path& path)
+bool isReadBy(MapReader reader, const std::filesystem::path& path)
 {
   return formatOf(path).read == reader;
 }
@@ -113,10 +120,11 @@ std::string textOf(const Options& options)
   return text;
 }
 
-std::string digestOf(const MapBuildingOptions& building, const FeatureExtractorOptions& extraction)
+std::string digestOf(const MapBuildingOptions& building, const FeatureExtractorOptions& extraction,
+                     const ReadingOptions& reading)
 {
-  return mrpt::system::md5(
-      fmt::format("build {}\n{}{}", kBuildVersion, textOf(building), textOf(extraction)));
+  return mrpt::system::md5(fmt::format("build {}\n{}{}{}", kBuildVersion, textOf(building),
+                                       textOf(extraction), textOf(reading)));
 }
 
 bool isFinite(const mrpt::poses::CPose2D& pose)
@@ -125,10 +133,10 @@ bool isFinite(const mrpt::poses::CPose2D& pose)
 }
 
 MapProvenance provenanceOf(const std::filesystem::path& path, const MapBuildingOptions& building,
-                           const FeatureExtractorOptions& extraction)
+                           const FeatureExtractorOptions& extraction, const ReadingOptions& reading)
 {
   // The name alone: a map tells no one's folders, and equal maps are equal bytes.
-  return {path.filename().string(), checksumOf(path), digestOf(building, extraction)};
+  return {path.filename().string(), checksumOf(path), digestOf(building, extraction, reading)};
 }
 
 /// Saves a map for later runs, which can do without it.
@@ -155,10 +163,10 @@ std::filesystem::path folderNamedBy(const char* variable)
 }
 
 FeatureMap build(const std::filesystem::path& path, const MapBuildingOptions& building,
-                 const FeatureExtractorOptions& extraction, const MapProvenance& provenance,
-                 const MapProgress& progress)
+                 const FeatureExtractorOptions& extraction, const ReadingOptions& reading,
+                 const MapProvenance& provenance, const MapProgress& progress)
 {
-  MapSource source = readMapSource(path);
+  MapSource source = readMapSource(path, reading);
   try
   {
     if (const auto* scans = std::get_if<std::vector<PosedScans>>(&source))
@@ -199,6 +207,8 @@ std::string warningOfMapSource(const std::filesystem::path& path)
 {
   constexpr double kOneFloor = 0.5;  // [m]
   if (isReadBy(sourceBy<detail::readRosMap>, path)) return detail::warningOfRosMap(path);
+  if (isReadBy(sourceBy<detail::readRows>, path)) return detail::warningOfRows(path);
+  if (isReadBy(sourceBy<detail::readPointMap>, path)) return detail::kNoFreeSpace;
   if (!isReadBy(sourceBy<detail::readSimplemap>, path)) return {};
   mrpt::maps::CSimpleMap simplemap;
   detail::readObjectFile(path, simplemap);
@@ -237,10 +247,10 @@ std::vector<PosedScans> readSimplemap(const std::filesystem::path& path)
 }
 }  // namespace detail
 
-MapSource readMapSource(const std::filesystem::path& path)
+MapSource readMapSource(const std::filesystem::path& path, const ReadingOptions& reading)
 {
   detail::requireFile(path);
-  MapSource source = formatOf(path).read(path);
+  MapSource source = formatOf(path).read(path, reading);
   detail::requireWithinReach(source, path);
   return source;
 }
@@ -264,13 +274,14 @@ std::vector<std::filesystem::path> filesOfMapSource(const std::filesystem::path&
 }
 
 FeatureMap buildMapFromFile(const std::filesystem::path& path, const MapBuildingOptions& building,
-                            const FeatureExtractorOptions& extraction, const MapProgress& progress)
+                            const FeatureExtractorOptions& extraction, const MapProgress& progress,
+                            const ReadingOptions& reading)
 {
   detail::requireFile(path);
-  FeatureMap map =
-      isReadBy(sourceBy<loadSigmap>, path)
-          ? loadSigmap(path)
-          : build(path, building, extraction, provenanceOf(path, building, extraction), progress);
+  FeatureMap map = isReadBy(sourceBy<loadSigmap>, path)
+                       ? loadSigmap(path)
+                       : build(path, building, extraction, reading,
+                               provenanceOf(path, building, extraction, reading), progress);
   if (map.empty()) throw std::runtime_error(path.string() + ": no feature found in it");
   return map;
 }
@@ -293,7 +304,8 @@ std::filesystem::path mapCacheFile(const std::filesystem::path& source)
 
 CachedMap mapWithCache(const std::filesystem::path& source, const std::filesystem::path& cache,
                        const MapBuildingOptions& building,
-                       const FeatureExtractorOptions& extraction, const MapProgress& progress)
+                       const FeatureExtractorOptions& extraction, const MapProgress& progress,
+                       const ReadingOptions& reading)
 {
   const auto start = std::chrono::steady_clock::now();
   detail::requireFile(source);
@@ -301,7 +313,7 @@ CachedMap mapWithCache(const std::filesystem::path& source, const std::filesyste
   {
     return {buildMapFromFile(source, building, extraction), true, 0.0};
   }
-  const MapProvenance wanted = provenanceOf(source, building, extraction);
+  const MapProvenance wanted = provenanceOf(source, building, extraction, reading);
   try
   {
     CachedMap cached{loadSigmap(cache), true, 0.0};
@@ -317,7 +329,7 @@ CachedMap mapWithCache(const std::filesystem::path& source, const std::filesyste
     // Missing or unreadable: built and written anew below.
   }
   CachedMap fresh;
-  fresh.map = buildMapFromFile(source, building, extraction, progress);
+  fresh.map = buildMapFromFile(source, building, extraction, progress, reading);
   keepInCache(fresh.map, cache);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   fresh.build_seconds = elapsed.count();

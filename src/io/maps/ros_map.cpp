@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "io/maps/gray_image.h"
 #include "io/maps/map_source_readers.h"
 #include "io/maps/occupancy_grid.h"
 #include "io/maps/ros_map_yaml.h"
+#include "map/map_values.h"
 
 namespace sigloc::detail
 {
@@ -53,6 +56,60 @@ CellState stateOfPixel(int shade, int alpha, bool has_alpha, const RosMapHeader&
   const auto percent = occupancyOf(averaged ? (3.0 * shade + alpha) / 4 : shade, alpha, header);
   return percent ? stateOfOccupancy(*percent / kHundred) : CellState::unknown;
 }
+
+/// Reads the image that a header names; `path` is the file to name where it makes no map.
+OccupancyRaster rasterOfImage(const RosMapHeader& header, const std::filesystem::path& path)
+{
+  const GrayImage image = readGrayImage(header.image);
+  OccupancyRaster raster;
+  raster.frame = {{header.origin.x, header.origin.y}, header.resolution, image.width, image.height};
+  raster.cells.reserve(image.shades.size());
+  for (std::size_t row = image.height; row-- > 0;)  // the image's last row is the map's lowest
+  {
+    for (std::size_t i = row * image.width; i < (row + 1) * image.width; ++i)
+    {
+      const int alpha = image.alphas.empty() ? 255 : image.alphas[i];
+      raster.cells.push_back(stateOfPixel(image.shades[i], alpha, !image.alphas.empty(), header));
+    }
+  }
+  raster = turned(std::move(raster), header.origin.phi);
+  requireWallAndFree(raster, path);
+  return raster;
+}
+
+/// The header that a map server would be given for an image of this scale.
+RosMapHeader headerOfImage(const std::filesystem::path& path, const ReadingOptions& reading)
+{
+  RosMapHeader header;
+  header.image = path;
+  header.resolution = reading.image_resolution;
+  header.free_threshold = 0.196;
+  header.occupied_threshold = 0.65;
+  return header;
+}
+
+/// Throws where the scale of an image is not told; its yaml, if there is one, tells it.
+void requireResolution(const std::filesystem::path& path, const ReadingOptions& reading)
+{
+  if (reading.image_resolution > 0)
+  {
+    if (const auto reason = unusableCells(reading.image_resolution))
+      throw std::runtime_error(path.string() + ": " + *reason);
+    return;
+  }
+  std::string hint;
+  for (const char* const extension : {".yaml", ".yml"})
+  {
+    const auto yaml = std::filesystem::path(path).replace_extension(extension);
+    std::error_code error;
+    if (hint.empty() && std::filesystem::exists(yaml, error))
+      hint = "; did you mean '" + yaml.filename().string() + "'?";
+  }
+  throw std::runtime_error(path.string() +
+                           ": an image alone does not tell how many metres a pixel is; give "
+                           "--resolution, or its .yaml file" +
+                           hint);
+}
 }  // namespace
 
 std::filesystem::path imageOfRosMap(const std::filesystem::path& path)
@@ -73,21 +130,12 @@ std::string warningOfRosMap(const std::filesystem::path& path)
 
 OccupancyRaster readRosMap(const std::filesystem::path& path)
 {
-  const RosMapHeader header = readRosMapHeader(path);
-  const GrayImage image = readGrayImage(header.image);
-  OccupancyRaster raster;
-  raster.frame = {{header.origin.x, header.origin.y}, header.resolution, image.width, image.height};
-  raster.cells.reserve(image.shades.size());
-  for (std::size_t row = image.height; row-- > 0;)  // the image's last row is the map's lowest
-  {
-    for (std::size_t i = row * image.width; i < (row + 1) * image.width; ++i)
-    {
-      const int alpha = image.alphas.empty() ? 255 : image.alphas[i];
-      raster.cells.push_back(stateOfPixel(image.shades[i], alpha, !image.alphas.empty(), header));
-    }
-  }
-  raster = turned(std::move(raster), header.origin.phi);
-  requireWallAndFree(raster, path);
-  return raster;
+  return rasterOfImage(readRosMapHeader(path), path);
+}
+
+OccupancyRaster readMapImage(const std::filesystem::path& path, const ReadingOptions& reading)
+{
+  requireResolution(path, reading);
+  return rasterOfImage(headerOfImage(path, reading), path);
 }
 }  // namespace sigloc::detail

@@ -1,0 +1,206 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/points/points_raster.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "io/points/number_fields.h"
+#include "map/map_values.h"
+#include "map/RayCaster.h"
+
+namespace sigloc::detail
+{
+namespace
+{
+using mrpt::math::TPoint2D;
+
+constexpr double kMargin = 0.5;  // [m] around the walls
+
+/// Returns the points that a planar laser would see, seen from above.
+std::vector<TPoint2D> pointsInBand(const PointList& points, const ReadingOptions& reading,
+                                   const std::filesystem::path& path)
+{
+  constexpr double kFlat = 0.01;  // [m]
+  if (points.empty()) failIn(path, "no point in it");
+  const auto [low, high] = std::minmax_element(
+      points.begin(), points.end(), [](const auto& a, const auto& b) { return a.z < b.z; });
+  const auto lowest = static_cast<double>(low->z);
+  const auto highest = static_cast<double>(high->z);
+  const bool flat = highest - lowest < kFlat;
+  std::vector<TPoint2D> kept;
+  for (const auto& point : points)
+  {
+    const auto z = static_cast<double>(point.z);
+    if (flat || (z >= reading.min_height && z <= reading.max_height))
+      kept.emplace_back(static_cast<double>(point.x), static_cast<double>(point.y));
+  }
+  if (kept.empty())
+  {
+    failIn(path, fmt::format("no point at a height of {:g} to {:g} m; they are at {:.2f} to {:.2f} "
+                             "m, see --heights",
+                             reading.min_height, reading.max_height, lowest, highest));
+  }
+  return kept;
+}
+
+RasterFrame frameAround(const std::vector<TPoint2D>& points, double resolution,
+                        const std::filesystem::path& path)
+{
+  TPoint2D low = points.front();
+  TPoint2D high = points.front();
+  for (const TPoint2D& point : points)
+  {
+    low = {std::min(low.x, point.x), std::min(low.y, point.y)};
+    high = {std::max(high.x, point.x), std::max(high.y, point.y)};
+  }
+  for (const TPoint2D& corner : {low, high})
+  {
+    if (const auto reason = beyondReach(corner.x, corner.y)) failIn(path, *reason);
+  }
+  RasterFrame frame;
+  frame.resolution = resolution;
+  frame.origin = {low.x - kMargin, low.y - kMargin};
+  frame.width = static_cast<std::uint32_t>(std::ceil((high.x - low.x + 2 * kMargin) / resolution));
+  frame.height = static_cast<std::uint32_t>(std::ceil((high.y - low.y + 2 * kMargin) / resolution));
+  if (const auto flaw = flawOf(frame)) failIn(path, *flaw);
+  // So that no memory is taken for a map of a few points that lie far apart.
+  constexpr double kMostOfPoint = 2e4;
+  constexpr double kAlways = 1e6;
+  const double cells = static_cast<double>(frame.width) * frame.height;
+  if (cells > std::max(kAlways, kMostOfPoint * static_cast<double>(points.size())))
+  {
+    failIn(path, fmt::format("{} points are too few for a map of {:.0f} m x {:.0f} m",
+                             points.size(), high.x - low.x, high.y - low.y));
+  }
+  return frame;
+}
+
+/// Returns the raster with its walls; all else is unknown.
+OccupancyRaster wallsOf(const std::vector<TPoint2D>& points, const RasterFrame& frame)
+{
+  struct Hit
+  {
+    std::size_t cell;
+    double x;  // [cells] from its middle
+    double y;
+  };
+  std::vector<Hit> hits;
+  hits.reserve(points.size());
+  for (const TPoint2D& point : points)
+  {
+    const double x = (point.x - frame.origin.x) / frame.resolution;
+    const double y = (point.y - frame.origin.y) / frame.resolution;
+    hits.push_back({static_cast<std::size_t>(y) * frame.width + static_cast<std::size_t>(x),
+                    x - std::floor(x) - 0.5, y - std::floor(y) - 0.5});
+  }
+  std::stable_sort(hits.begin(), hits.end(),
+                   [](const Hit& a, const Hit& b) { return a.cell < b.cell; });
+  const std::size_t size = std::size_t{frame.width} * frame.height;
+  OccupancyRaster raster{frame, std::vector<CellState>(size, CellState::unknown), {}};
+  raster.hits.resize(size);
+  for (auto hit = hits.begin(); hit != hits.end();)
+  {
+    const std::size_t cell = hit->cell;
+    double x = 0;
+    double y = 0;
+    int count = 0;
+    for (; hit != hits.end() && hit->cell == cell; ++hit, ++count)
+    {
+      x += hit->x;
+      y += hit->y;
+    }
+    const auto unit = [count](double sum)
+    { return static_cast<std::int8_t>(std::lround(sum / count / WallHits::kUnit)); };
+    raster.cells[cell] = CellState::solid_wall;
+    raster.hits[cell] = {unit(x), unit(y),
+                         static_cast<std::uint8_t>(std::min<int>(count, WallHits::kMostWeight))};
+  }
+  return raster;
+}
+
+/// Returns whether walls are lines of cells: most wall cells have two others beside them.
+bool areLines(const OccupancyRaster& raster)
+{
+  constexpr double kMost = 0.7;
+  const std::size_t width = raster.frame.width;
+  std::size_t walls = 0;
+  std::size_t linked = 0;
+  // No wall is at the border, because of the margin.
+  for (std::size_t i = width + 1; i + width + 1 < raster.cells.size(); ++i)
+  {
+    if (!isWall(raster.cells[i])) continue;
+    int beside = 0;
+    for (const std::size_t row : {i - width, i, i + width})
+    {
+      for (const std::size_t cell : {row - 1, row, row + 1})
+        beside += isWall(raster.cells[cell]) ? 1 : 0;
+    }
+    ++walls;
+    linked += beside >= 3 ? 1 : 0;  // with itself
+  }
+  return static_cast<double>(linked) >= kMost * static_cast<double>(walls);
+}
+
+/// Returns whether a place is among walls: most rays from it meet one.
+bool isEnclosed(const RayCaster& caster, const TPoint2D& place)
+{
+  constexpr int kRays = 24;
+  constexpr int kMostOpen = 10;
+  constexpr double kRange = 30;  // [m]
+  int open = 0;
+  for (int i = 0; i < kRays && open <= kMostOpen; ++i)
+  {
+    if (!caster.cast(place, 2 * M_PI * i / kRays, kRange)) ++open;
+  }
+  return open <= kMostOpen;
+}
+
+/// Makes free what is guessed to be: by blocks of cells, each by its middle.
+void guessFreeSpace(OccupancyRaster& raster)
+{
+  constexpr double kBlock = 0.4;  // [m]
+  const DenseField field = buildDenseField(raster);
+  const RayCaster caster(field);
+  const RasterFrame& frame = raster.frame;
+  const auto block = static_cast<std::uint32_t>(std::lround(kBlock / frame.resolution));
+  for (std::uint32_t y0 = 0; y0 < frame.height; y0 += block)
+  {
+    for (std::uint32_t x0 = 0; x0 < frame.width; x0 += block)
+    {
+      const TPoint2D middle(frame.origin.x + (x0 + 0.5 * block) * frame.resolution,
+                            frame.origin.y + (y0 + 0.5 * block) * frame.resolution);
+      const DenseCell* const cell = cellAt(field, middle);
+      if (cell == nullptr || isWall(cell->state) || !isEnclosed(caster, middle)) continue;
+      for (std::uint32_t y = y0; y < std::min(y0 + block, frame.height); ++y)
+      {
+        for (std::uint32_t x = x0; x < std::min(x0 + block, frame.width); ++x)
+        {
+          CellState& state = raster.cells[std::size_t{y} * frame.width + x];
+          if (state == CellState::unknown) state = CellState::free;
+        }
+      }
+    }
+  }
+}
+}  // namespace
+
+OccupancyRaster rasterOfPoints(const PointList& points, const ReadingOptions& reading,
+                               const std::filesystem::path& path)
+{
+  const std::vector<TPoint2D> kept = pointsInBand(points, reading, path);
+  OccupancyRaster raster;
+  for (const double resolution : {0.05, 0.1, 0.2})
+  {
+    raster = wallsOf(kept, frameAround(kept, resolution, path));
+    if (areLines(raster)) break;
+  }
+  guessFreeSpace(raster);
+  return raster;
+}
+}  // namespace sigloc::detail
