@@ -7,9 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <unordered_map>
-
-#include "geometry/cell_key.h"
 
 namespace sigloc
 {
@@ -78,43 +75,93 @@ double along(const Symmetric2& covariance, double x, double y)
   return covariance.xx * x * x + 2 * covariance.xy * x * y + covariance.yy * y * y;
 }
 
-/// Calls visit(a, b) for the ordered pairs of points within a range [m] that the index may hold,
-/// where a is every `stride`-th point.
-template <class Visit>
-void forEachPair(const std::vector<KeyPoint>& points, double range, std::size_t stride,
-                 Visit&& visit)
+/// Finds the partners of key points. What it reads to do so lies together in memory.
+class Neighbourhood
 {
-  const auto cell_of = [](double x, double y)
+ public:
+  explicit Neighbourhood(const std::vector<KeyPoint>& points) : points_(points)
   {
-    return cellKey(static_cast<std::int64_t>(std::floor(x / kCell)),
-                   static_cast<std::int64_t>(std::floor(y / kCell)));
-  };
-  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells;
-  for (std::uint32_t k = 0; k < points.size(); ++k)
-  {
-    cells[cell_of(points[k].position.x, points[k].position.y)].push_back(k);
-  }
-  const int reach = static_cast<int>(std::ceil(range / kCell));
-  for (std::size_t i = 0; i < points.size(); i += stride)
-  {
-    const TPoint2D& from = points[i].position;
-    for (int dx = -reach; dx <= reach; ++dx)
+    places_.reserve(points.size());
+    for (std::uint32_t k = 0; k < points.size(); ++k)
     {
-      for (int dy = -reach; dy <= reach; ++dy)
+      const TPoint2D& at = points[k].position;
+      places_.push_back({at.x, at.y, cellOf(at.x), cellOf(at.y), k});
+    }
+    std::sort(places_.begin(), places_.end(),
+              [](const Place& a, const Place& b)
+              {
+                return a.column != b.column ? a.column < b.column
+                       : a.row != b.row     ? a.row < b.row
+                                            : a.index < b.index;
+              });
+  }
+
+  /// Calls visit(a, b) for the ordered pairs of points within a range [m] that the index may hold,
+  /// where a is every `stride`-th point.
+  template <class Visit>
+  void forEachPair(double range, std::size_t stride, Visit&& visit) const
+  {
+    const auto reach = static_cast<std::int64_t>(std::ceil(range / kCell));
+    for (std::size_t i = 0; i < points_.size(); i += stride)
+    {
+      const TPoint2D& from = points_[i].position;
+      const std::int64_t row = cellOf(from.y);
+      for (std::int64_t column = cellOf(from.x) - reach; column <= cellOf(from.x) + reach; ++column)
       {
-        const auto cell = cells.find(cell_of(from.x + dx * kCell, from.y + dy * kCell));
-        if (cell == cells.end()) continue;
-        for (const std::uint32_t j : cell->second)
+        const auto first = std::lower_bound(
+            places_.begin(), places_.end(), row - reach,
+            [&](const Place& place, std::int64_t lowest)
+            { return place.column != column ? place.column < column : place.row < lowest; });
+        for (auto to = first; to != places_.end() && to->column == column && to->row <= row + reach;
+             ++to)
         {
-          if (i == j || points[j].kind < points[i].kind) continue;
-          const TPoint2D between = points[j].position - from;
-          const double squared = square(between.x) + square(between.y);
-          if (squared < square(KeyPairIndex::kMinDistance)) continue;
-          if (squared < square(range)) visit(points[i], points[j]);
+          const double squared = square(to->x - from.x) + square(to->y - from.y);
+          if (squared < square(KeyPairIndex::kMinDistance) || squared >= square(range)) continue;
+          if (i == to->index || points_[to->index].kind < points_[i].kind) continue;
+          visit(points_[i], points_[to->index]);
         }
       }
     }
   }
+
+ private:
+  struct Place
+  {
+    double x, y;  // [m]
+    std::int64_t column, row;  // of kCell
+    std::uint32_t index;
+  };
+
+  static std::int64_t cellOf(double metres)
+  {
+    return static_cast<std::int64_t>(std::floor(metres / kCell));
+  }
+
+  const std::vector<KeyPoint>& points_;
+  std::vector<Place> places_;  // by column, then by row
+};
+
+/// Returns the range [m] of the index. In a sparse map it is longer, because near partners are few,
+/// and the pairs that tell most are those of far ones.
+double chosenRange(const std::vector<KeyPoint>& points, const Neighbourhood& neighbourhood)
+{
+  const std::size_t stride = 1 + points.size() / kRangeSample;
+  std::vector<std::size_t> counts(kRangeSteps, 0);
+  neighbourhood.forEachPair(
+      kMaxRange, stride,
+      [&](const KeyPoint& a, const KeyPoint& b)
+      {
+        const double share = (b.position - a.position).norm() / kMaxRange;
+        ++counts[std::min(kRangeSteps - 1, static_cast<std::size_t>(share * kRangeSteps))];
+      });
+  const std::size_t most = std::max(kPartners * points.size(), kSmallIndex) / stride;
+  std::size_t steps = 0;
+  std::size_t pairs = 0;
+  while (steps < kRangeSteps && (pairs + counts[steps] <= most || steps < kLeastSteps))
+  {
+    pairs += counts[steps++];
+  }
+  return kMaxRange * static_cast<double>(steps) / kRangeSteps;
 }
 }  // namespace
 
@@ -159,49 +206,27 @@ KeyPair keyPair(const KeyPoint& first, const KeyPoint& second)
 KeyPairIndex::KeyPairIndex(const std::vector<KeyPoint>& points, const MapErrorModel& error)
 {
   layOutTables();
-  const std::size_t pairs = chooseRange(points);
+  const Neighbourhood neighbourhood(points);
+  range_ = chosenRange(points, neighbourhood);
+  std::size_t pairs = 0;
+  neighbourhood.forEachPair(range_, 1, [&](const KeyPoint&, const KeyPoint&) { ++pairs; });
   distance_bins_ = static_cast<std::uint32_t>(std::clamp<std::size_t>(
       pairs / (rows_ * kEntriesPerCell), kMinDistanceBins, kMaxDistanceBins));
   // Pairs are counted by cell first, so that the entries are allocated once.
   cells_.assign(std::size_t{rows_} * distance_bins_ + 1, 0);
-  forEachPair(points, range_, 1,
-              [&](const KeyPoint& a, const KeyPoint& b) { ++cells_[cellOf(keyPair(a, b))]; });
+  neighbourhood.forEachPair(
+      range_, 1, [&](const KeyPoint& a, const KeyPoint& b) { ++cells_[cellOf(keyPair(a, b))]; });
   std::exclusive_scan(cells_.begin(), cells_.end(), cells_.begin(), 0U);
   entries_.resize(pairs);
   std::vector<std::uint32_t> next(cells_.begin(), cells_.end() - 1);
-  forEachPair(points, range_, 1,
-              [&](const KeyPoint& a, const KeyPoint& b)
-              {
-                const KeyPair pair = keyPair(a, b);
-                Entry& entry = entries_[next[cellOf(pair)]++];
-                entry = entryOf(pair, error);
-                noteVariances(pair.table, entry);
-              });
-}
-
-/// Sets the range, and returns how many pairs lie within it. In a sparse map it is longer, because
-/// near partners are few, and the pairs that tell most are those of far ones.
-std::size_t KeyPairIndex::chooseRange(const std::vector<KeyPoint>& points)
-{
-  const std::size_t stride = 1 + points.size() / kRangeSample;
-  std::vector<std::size_t> counts(kRangeSteps, 0);
-  forEachPair(points, kMaxRange, stride,
-              [&](const KeyPoint& a, const KeyPoint& b)
-              {
-                const double share = (b.position - a.position).norm() / kMaxRange;
-                ++counts[std::min(kRangeSteps - 1, static_cast<std::size_t>(share * kRangeSteps))];
-              });
-  const std::size_t most = std::max(kPartners * points.size(), kSmallIndex) / stride;
-  std::size_t steps = 0;
-  std::size_t pairs = 0;
-  while (steps < kRangeSteps && (pairs + counts[steps] <= most || steps < kLeastSteps))
-  {
-    pairs += counts[steps++];
-  }
-  range_ = kMaxRange * static_cast<double>(steps) / kRangeSteps;
-  pairs = 0;
-  forEachPair(points, range_, 1, [&](const KeyPoint&, const KeyPoint&) { ++pairs; });
-  return pairs;
+  neighbourhood.forEachPair(range_, 1,
+                            [&](const KeyPoint& a, const KeyPoint& b)
+                            {
+                              const KeyPair pair = keyPair(a, b);
+                              Entry& entry = entries_[next[cellOf(pair)]++];
+                              entry = entryOf(pair, error);
+                              noteVariances(pair.table, entry);
+                            });
 }
 
 /// Gives each table its axes and rows.

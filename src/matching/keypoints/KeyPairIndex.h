@@ -109,7 +109,6 @@ class KeyPairIndex
   };
   static Binned binned(const Axis& axis, double value);
 
-  std::size_t chooseRange(const std::vector<KeyPoint>& points);
   void layOutTables();
   std::uint32_t rowOf(const KeyPair& pair) const;
   std::uint32_t distanceBin(double distance) const;
