@@ -68,8 +68,8 @@ function(sigloc_add_library name)
     PRIVATE "$<BUILD_INTERFACE:${ARG_PRIVATE_LINK};sigloc_flags>")
 endfunction()
 
-# sigloc_add_app(NAME LINK target...): an executable from apps/<NAME>/*.cpp. Its target is called
-# NAME-app where a library has the name already.
+# sigloc_add_app(NAME LINK target...): an executable from apps/<NAME>/*.cpp, with the man page and the
+# completion that it prints. Its target is called NAME-app where a library has the name already.
 function(sigloc_add_app name)
   cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
   set(target ${name})
@@ -77,10 +77,21 @@ function(sigloc_add_app name)
     set(target ${name}-app)
   endif()
   file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/apps/${name}/*.cpp")
-  add_executable(${target} ${sources})
+  add_executable(${target} ${sources} "${PROJECT_SOURCE_DIR}/apps/common/manual.cpp")
   set_target_properties(${target} PROPERTIES OUTPUT_NAME ${name})
   target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/apps/common")
   target_link_libraries(${target} PRIVATE ${ARG_LINK} CLI11::CLI11 fmt::fmt sigloc_flags)
   target_compile_definitions(${target} PRIVATE SIGLOC_VERSION="${PROJECT_VERSION}")
   set_property(GLOBAL APPEND PROPERTY SIGLOC_APPS ${target})
+  set(man_page "${PROJECT_BINARY_DIR}/manual/${name}.1")
+  set(completion "${PROJECT_BINARY_DIR}/manual/completions/${name}")
+  file(MAKE_DIRECTORY "${PROJECT_BINARY_DIR}/manual/completions")
+  add_custom_command(OUTPUT "${man_page}" "${completion}"
+    COMMAND ${target} --print-man-page > "${man_page}"
+    COMMAND ${target} --print-completion > "${completion}"
+    VERBATIM)
+  add_custom_target(${target}-manual ALL DEPENDS "${man_page}" "${completion}")
+  install(FILES "${man_page}" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT tools)
+  install(FILES "${completion}" DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions"
+          COMPONENT tools)
 endfunction()

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "manual.h"
 #include "sigloc/config/option_fields.h"
 #include "sigloc/io/file_output.h"
 
@@ -51,6 +52,16 @@ inline std::string unknownWord(const CLI::App& app)
   return what + word + didYouMean(word.substr(0, word.find('=')), knownWords(app));
 }
 
+/// Prints what the build makes the man page and the completion from, where the only argument asks
+/// for it. Nobody types that, so --help does not show it.
+inline bool printManual(const CLI::App& app, int argc, char** argv)
+{
+  const std::string asked = argc == 2 ? argv[1] : "";
+  if (asked == "--print-man-page") std::cout << manPage(app, "sigloc " SIGLOC_VERSION);
+  if (asked == "--print-completion") std::cout << bashCompletion(app);
+  return asked == "--print-man-page" || asked == "--print-completion";
+}
+
 /// What every program does: parses the command line, runs `work`, and reports an error in one line.
 /// Lost output is an error, too. Returns the exit code: that of `work`, 0 after --help and
 /// --version, else 1.
@@ -62,8 +73,11 @@ inline int runApp(CLI::App& app, int argc, char** argv, const std::function<int(
     app.set_version_flag("--version", app.get_name() + " " + SIGLOC_VERSION);
     try
     {
-      app.parse(argc, argv);
-      code = work();
+      if (!printManual(app, argc, argv))
+      {
+        app.parse(argc, argv);
+        code = work();
+      }
     }
     catch (const CLI::Success& help)
     {
