@@ -55,7 +55,7 @@ MAX_PUBLIC_HEADERS = 30
 # Apps that users run: they never depend on the evaluation library.
 PRODUCT_APPS = {"sigloc-map", "sigloc-localize", "sigloc-align"}
 
-MRPT_CORE = {"core", "math", "config"}
+MRPT_CORE = {"core", "math", "config", "version"}  # the last is a header by itself
 MRPT_BRIDGE = MRPT_CORE | {
     "bayes", "containers", "img", "io", "maps", "obs", "opengl", "poses", "random", "rtti",
     "serialization", "slam", "system", "tfest", "topography", "typemeta",

@@ -4,6 +4,7 @@
 // How MRPT creates, configures and stores a SignatureMap.
 #include <mrpt/config/CConfigFileMemory.h>
 #include <mrpt/serialization/CArchive.h>
+#include <mrpt/version.h>
 
 #include <algorithm>
 #include <utility>
@@ -14,9 +15,14 @@
 #include "sigloc/io/map_files.h"
 #include "sigloc/plugin/SignatureMap.h"
 
-// MRPT ignores the namespace and the case when it searches for `signatureMap_count`. A second name
-// would make a second map.
-MAP_DEFINITION_REGISTER("sigloc::SignatureMap", sigloc::SignatureMap)
+// MRPT 2.5 ignores the namespace and the case when it searches for `signatureMap_count`, so that a
+// second name would make a second map. MRPT 2.14 wants the name letter by letter.
+#if MRPT_VERSION < 0x20E07
+#define SIGLOC_MAP_NAMES "sigloc::SignatureMap"
+#else
+#define SIGLOC_MAP_NAMES "sigloc::SignatureMap,signatureMap"
+#endif
+MAP_DEFINITION_REGISTER(SIGLOC_MAP_NAMES, sigloc::SignatureMap)
 IMPLEMENTS_SERIALIZABLE(SignatureMap, mrpt::maps::CMetricMap, sigloc)
 
 namespace sigloc

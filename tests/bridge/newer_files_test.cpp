@@ -10,6 +10,7 @@
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/maps/COccupancyGridMap2D.h>
 #include <mrpt/maps/CSimpleMap.h>
+#include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 
@@ -147,6 +148,44 @@ TEST(NewerFiles, aLogWithScansOfMrpt215IsReadAsTheOlderOne)
   }
   EXPECT_FALSE(found.next());
   EXPECT_FALSE(found.truncated());
+}
+
+/// A comment as MRPT 2.14 writes it.
+std::string newerComment(const mrpt::obs::CObservationComment& comment, const std::string& label)
+{
+  std::string bytes = bytesOf(comment);
+  const std::size_t name = static_cast<unsigned char>(bytes[0]) & 0x7FU;
+  bytes.resize(name + 2 + sizeof(std::uint32_t) + comment.text.size() + sizeof(std::uint64_t));
+  return inVersion(1, bytes + '\x88',
+                   static_cast<char>(label.size()) + std::string(3, '\0') + label);
+}
+
+TEST(NewerFiles, commentsOfMrpt214StandBetweenScans)
+{
+  mrpt::obs::CObservationComment comment;
+  comment.text = "a comment";
+  const TemporaryFolder folder;
+  const std::string scan = bytesOf(*makeScan(1, 2.5F));
+  const std::string said = newerComment(comment, "sigloc");
+  writeText(folder / "log.rawlog", said + scan + said + bytesOf(*makeScan(2, 3.5F)) + said);
+  RawlogReader log(folder / "log.rawlog");
+  for (const float range : {2.5F, 3.5F})
+  {
+    const auto step = log.next();
+    ASSERT_TRUE(step) << range;
+    EXPECT_EQ(step->scans.front().ranges[7], range);
+  }
+  EXPECT_FALSE(log.next() || log.truncated());
+
+  auto frame = makeFrame(makeScan(3, 4.5F));
+  frame->insert(std::make_shared<mrpt::obs::CObservationComment>(comment));
+  const std::string action = bytesOf(*makeAction({0.5, 0, 0}, mrpt::math::CMatrixDouble33()));
+  writeText(folder / "framed.rawlog", action + replaced(bytesOf(*frame), bytesOf(comment), said));
+  RawlogReader framed(folder / "framed.rawlog");
+  const auto step = framed.next();
+  ASSERT_TRUE(step);
+  EXPECT_EQ(step->scans.front().ranges[7], 4.5F);
+  EXPECT_FALSE(framed.next() || framed.truncated());
 }
 
 TEST(NewerFiles, framesWithScansOfMrpt215AreRead)

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/archive/ArchiveWalk.h"
 
+#include <mrpt/version.h>
+
 #include <algorithm>
 #include <array>
 
@@ -12,6 +14,7 @@ namespace
 constexpr std::size_t kMostItems = 4000000;  // of a list: beams, particles, observations
 constexpr std::uint8_t kEndFlag = 0x88;  // after an object
 constexpr std::size_t kMostKept = 128000000;  // bytes of an object that is read afterwards
+constexpr bool kMrptKnowsLabels = MRPT_VERSION >= 0x20E07;  // of comments; earlier ones may, too
 constexpr std::size_t kAtOnce = 1U << 18U;  // bytes of a file that is consumed
 }  // namespace
 
@@ -29,7 +32,7 @@ const ArchiveWalk::Layout* ArchiveWalk::layoutOf(std::string_view name)
       {"CObservationOdometry", P::observation, 2, &W::odometry},
       {"CObservationBearingRange", P::observation, 3, &W::bearingRange},
       {"CObservationRobotPose", P::observation, 1, &W::robotPose},
-      {"CObservationComment", P::observation, 0, &W::comment},
+      {"CObservationComment", P::observation, kMrptKnowsLabels ? 1 : 0, &W::comment},
       {"ObservationSignatures", P::observation, 0, &W::signatures},
       {"CPose2D", P::pose_2d, 1, &W::pose2D},
       {"CPose3D", P::pose_3d, 3, &W::pose3D},
@@ -54,13 +57,14 @@ const ArchiveWalk::Layout* ArchiveWalk::layoutOf(std::string_view name)
   return found == kLayouts.end() ? nullptr : found;
 }
 
-/// Later versions of MRPT wrote three classes with something more, or nothing more.
+/// Later versions of MRPT wrote four classes with something more, or nothing more.
 bool ArchiveWalk::isKnown(const Layout& layout, int version)
 {
   const bool grew = layout.name == "CObservation2DRangeScan" ||  // 8, by MRPT 2.15
                     layout.name == "CSimpleMap" ||  // 2, by MRPT 2.11.5
                     layout.name == "COccupancyGridMap2D";  // 7, by MRPT 3
-  return version >= 0 && version <= layout.newest + (grew ? 1 : 0);
+  const bool labelled = layout.name == "CObservationComment" && !kMrptKnowsLabels;  // 1, by 2.14
+  return version >= 0 && version <= layout.newest + (grew || labelled ? 1 : 0);
 }
 
 void ArchiveWalk::skipNewer(std::size_t bytes)

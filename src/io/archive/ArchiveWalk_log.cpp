@@ -133,10 +133,15 @@ void ArchiveWalk::robotPose(int version)
   if (version >= 1) object(only(ArchivePart::pose_3d));
 }
 
-void ArchiveWalk::comment(int)
+void ArchiveWalk::comment(int version)
 {
   text();
   skip(sizeof(std::uint64_t));
+  if (version == 0) return;
+  const std::size_t label = at_;
+  text();
+  const bool newer = version > layoutOf("CObservationComment")->newest;
+  if (newer && use_ == Input::kept) edits_.push_back({label, at_ - label, '\0'});
 }
 
 void ArchiveWalk::signatures(int)
