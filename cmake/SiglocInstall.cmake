@@ -12,30 +12,91 @@ endif()
 set(SIGLOC_PYTHON_DIR "lib/${python_folder}/dist-packages" CACHE STRING
     "Folder of the prefix for the module for Python")
 
-# sigloc_install(): install rules for every library and app added so far, the headers, share/sigloc
-# and the package that find_package(sigloc) reads.
-function(sigloc_install)
-  get_property(libraries GLOBAL PROPERTY SIGLOC_LIBRARIES)
-  get_property(apps GLOBAL PROPERTY SIGLOC_APPS)
-  # Installed binaries find their libraries wherever the prefix is moved to.
-  set_target_properties(${libraries} ${apps} PROPERTIES
-    INSTALL_RPATH "$ORIGIN:$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
-
-  set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/sigloc")
-  install(TARGETS ${libraries} EXPORT siglocTargets)
-  if(apps)
-    install(TARGETS ${apps})
+# sigloc_install_libraries(COMPONENT component LIBRARIES target...): each in a component, and its
+# plain-named link, which linking needs, in the component dev.
+function(sigloc_install_libraries)
+  cmake_parse_arguments(ARG "" "COMPONENT" "LIBRARIES" ${ARGN})
+  if(ARG_LIBRARIES)
+    install(TARGETS ${ARG_LIBRARIES} EXPORT siglocTargets
+            LIBRARY COMPONENT ${ARG_COMPONENT} NAMELINK_COMPONENT dev)
   endif()
-  install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/sigloc" TYPE INCLUDE FILES_MATCHING PATTERN *.h)
-  install(DIRECTORY "${PROJECT_SOURCE_DIR}/share/sigloc" TYPE DATA OPTIONAL)
-  install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" TYPE DOC)
-  install(EXPORT siglocTargets NAMESPACE sigloc:: DESTINATION "${package_dir}")
+endfunction()
 
+# The plug-ins by names without a version, for those who do not link: lib/sigloc/libsigloc-mrpt.so.
+function(sigloc_install_plugins)
+  foreach(plugin sigloc-mrpt sigloc-hwdrivers)
+    set(link "${PROJECT_BINARY_DIR}/plugins/lib${plugin}.so")
+    file(MAKE_DIRECTORY "${PROJECT_BINARY_DIR}/plugins")
+    file(CREATE_LINK "../lib${plugin}.so.0" "${link}" SYMBOLIC)
+    install(FILES "${link}" DESTINATION "${CMAKE_INSTALL_LIBDIR}/sigloc" COMPONENT plugins)
+  endforeach()
+endfunction()
+
+# find_package(sigloc), and pkg-config for those without CMake.
+function(sigloc_install_package_files)
+  set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/sigloc")
+  install(EXPORT siglocTargets NAMESPACE sigloc:: DESTINATION "${package_dir}" COMPONENT dev)
   configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/siglocConfig.cmake.in"
     "${PROJECT_BINARY_DIR}/siglocConfig.cmake" INSTALL_DESTINATION "${package_dir}")
   write_basic_package_version_file("${PROJECT_BINARY_DIR}/siglocConfigVersion.cmake"
     COMPATIBILITY SameMinorVersion)
   install(FILES "${PROJECT_BINARY_DIR}/siglocConfig.cmake"
     "${PROJECT_BINARY_DIR}/siglocConfigVersion.cmake"
-    "${PROJECT_SOURCE_DIR}/cmake/SiglocDependencies.cmake" DESTINATION "${package_dir}")
+    "${PROJECT_SOURCE_DIR}/cmake/SiglocDependencies.cmake"
+    DESTINATION "${package_dir}" COMPONENT dev)
+
+  # MRPT has no files for pkg-config: ours names its folders and libraries, too.
+  set(mrpt_folders)
+  foreach(target mrpt::math mrpt::config mrpt::obs mrpt::maps mrpt::slam mrpt::opengl)
+    if(TARGET ${target})
+      list(APPEND mrpt_folders "$<TARGET_PROPERTY:${target},INTERFACE_INCLUDE_DIRECTORIES>")
+    endif()
+  endforeach()
+  set(SIGLOC_CFLAGS "-I$<JOIN:$<REMOVE_DUPLICATES:${mrpt_folders}>, -I>")
+  string(REGEX REPLACE "[^/]+" ".." SIGLOC_TO_PREFIX "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
+  configure_file("${PROJECT_SOURCE_DIR}/cmake/sigloc.pc.in" "${PROJECT_BINARY_DIR}/sigloc.pc.in"
+                 @ONLY)
+  file(GENERATE OUTPUT "${PROJECT_BINARY_DIR}/sigloc.pc" INPUT "${PROJECT_BINARY_DIR}/sigloc.pc.in")
+  install(FILES "${PROJECT_BINARY_DIR}/sigloc.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig"
+          COMPONENT dev)
+endfunction()
+
+# sigloc_install(): install rules for every library and app added so far, the headers, what is in
+# share/sigloc, the demo maps, the examples and the pages.
+function(sigloc_install)
+  get_property(libraries GLOBAL PROPERTY SIGLOC_LIBRARIES)
+  get_property(apps GLOBAL PROPERTY SIGLOC_APPS)
+  # Installed binaries find their libraries wherever the prefix is moved to.
+  set_target_properties(${libraries} ${apps} PROPERTIES
+    INSTALL_RPATH "$ORIGIN:$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
+  set(plugins ${libraries})
+  list(FILTER plugins INCLUDE REGEX "hwdrivers")
+  list(FILTER libraries EXCLUDE REGEX "hwdrivers")
+  sigloc_install_libraries(COMPONENT library LIBRARIES ${libraries})
+  sigloc_install_libraries(COMPONENT plugins LIBRARIES ${plugins})
+  if(NOT SIGLOC_CORE_ONLY)
+    sigloc_install_plugins()
+  endif()
+  foreach(app IN LISTS apps)
+    set(component tools)
+    if(app MATCHES "ros1")
+      set(component ros1)
+    endif()
+    install(TARGETS ${app} COMPONENT ${component})
+  endforeach()
+
+  install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/sigloc" TYPE INCLUDE COMPONENT dev
+          FILES_MATCHING PATTERN *.h)
+  install(DIRECTORY "${PROJECT_SOURCE_DIR}/share/sigloc" TYPE DATA COMPONENT tools)
+  install(DIRECTORY "${PROJECT_SOURCE_DIR}/maps" "${PROJECT_SOURCE_DIR}/rawlogs"
+          DESTINATION "${CMAKE_INSTALL_DATADIR}/sigloc" COMPONENT tools)
+  install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" TYPE DOC COMPONENT license)
+  set(doc "${CMAKE_INSTALL_DATADIR}/doc/sigloc-doc")
+  file(GLOB examples "${PROJECT_SOURCE_DIR}/examples/*.cpp" "${PROJECT_SOURCE_DIR}/examples/*.py")
+  install(FILES ${examples} DESTINATION "${doc}/examples" COMPONENT doc)
+  file(GLOB pages "${PROJECT_SOURCE_DIR}/docs/*.md")
+  install(FILES "${PROJECT_SOURCE_DIR}/README.md" ${pages} DESTINATION "${doc}" COMPONENT doc)
+  # Made by the target sigloc-api, where it was.
+  install(DIRECTORY "${PROJECT_BINARY_DIR}/api/html/" DESTINATION "${doc}/html" COMPONENT doc OPTIONAL)
+  sigloc_install_package_files()
 endfunction()

@@ -4,7 +4,6 @@
 // How MRPT creates, configures and stores a SignatureMap.
 #include <mrpt/config/CConfigFileMemory.h>
 #include <mrpt/serialization/CArchive.h>
-#include <mrpt/version.h>
 
 #include <algorithm>
 #include <utility>
@@ -15,14 +14,9 @@
 #include "sigloc/io/map_files.h"
 #include "sigloc/plugin/SignatureMap.h"
 
-// MRPT 2.5 ignores the namespace and the case when it searches for `signatureMap_count`, so that a
-// second name would make a second map. MRPT 2.14 wants the name letter by letter.
-#if MRPT_VERSION < 0x20E07
-#define SIGLOC_MAP_NAMES "sigloc::SignatureMap"
-#else
-#define SIGLOC_MAP_NAMES "sigloc::SignatureMap,signatureMap"
-#endif
-MAP_DEFINITION_REGISTER(SIGLOC_MAP_NAMES, sigloc::SignatureMap)
+// MRPT 2.5 ignores the namespace and the case when it searches for `SignatureMap_count`. MRPT 2.14
+// wants the name without its namespace, letter by letter. A second name would make a second map.
+MAP_DEFINITION_REGISTER("sigloc::SignatureMap", sigloc::SignatureMap)
 IMPLEMENTS_SERIALIZABLE(SignatureMap, mrpt::maps::CMetricMap, sigloc)
 
 namespace sigloc

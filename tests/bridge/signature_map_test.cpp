@@ -32,11 +32,11 @@ mrpt::config::CConfigFileMemory multiMapIni(const std::string& sigmap_file)
 {
   mrpt::config::CConfigFileMemory ini;
   ini.setContent(
-      "[M]\noccupancyGrid_count=1\nsignatureMap_count=1\n"
-      "[M_signatureMap_00_creationOpts]\nsigmap_file=" +
+      "[M]\noccupancyGrid_count=1\nSignatureMap_count=1\n"
+      "[M_SignatureMap_00_creationOpts]\nsigmap_file=" +
       sigmap_file +
-      "\n[M_signatureMap_00_insertOpts]\nmerge_gap=0.7\nmin_segment_length=0.3\n"
-      "[M_signatureMap_00_likelihoodOpts]\nsigma=0.15\n");
+      "\n[M_SignatureMap_00_insertOpts]\nmerge_gap=0.7\nmin_segment_length=0.3\n"
+      "[M_SignatureMap_00_likelihoodOpts]\nsigma=0.15\n");
   return ini;
 }
 
@@ -301,7 +301,7 @@ TEST(SignatureMap, IsMadeFromAnIniAndDeepCopiedInAMultiMap)
 TEST(SignatureMap, RefusesUnknownKeysAndBadFiles)
 {
   auto ini = multiMapIni("");
-  ini.write("M_signatureMap_00_likelihoodOpts", "sgima", 0.2);
+  ini.write("M_SignatureMap_00_likelihoodOpts", "sgima", 0.2);
   try
   {
     multiMap(ini);
@@ -313,7 +313,7 @@ TEST(SignatureMap, RefusesUnknownKeysAndBadFiles)
     EXPECT_NE(shown.find("likelihoodOpts: unknown key 'sgima'"), std::string::npos) << shown;
   }
   ini = multiMapIni("");
-  ini.write("M_signatureMap_00_insertOpts", "merge_gap", "much");
+  ini.write("M_SignatureMap_00_insertOpts", "merge_gap", "much");
   EXPECT_THROW(multiMap(ini), std::exception);
   EXPECT_THROW(multiMap(multiMapIni("/nonexistent.sigmap")), std::exception);
 }

@@ -19,8 +19,8 @@ namespace sigloc
 /// They use it inside a `CMultiMetricMap`, take the likelihood of any particle filter from it,
 /// store it and show it.
 ///
-/// In an ini file: `signatureMap_count=1` and the sections
-/// `<name>_signatureMap_00_{creationOpts,insertOpts,likelihoodOpts}`, where `creationOpts` may name
+/// In an ini file: `SignatureMap_count=1` and the sections
+/// `<name>_SignatureMap_00_{creationOpts,insertOpts,likelihoodOpts}`, where `creationOpts` may name
 /// a prepared map, `sigmap_file`. Stock programs that read a simplemap clear all maps and insert
 /// its scans. They leave a prepared map as it is when its `enableObservationInsertion` is false.
 ///
