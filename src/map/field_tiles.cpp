@@ -13,9 +13,34 @@ namespace
 {
 constexpr std::uint32_t kSide = DenseField::kTileSide;
 
-bool isBlank(const DenseCell& cell)
+bool isBlankCell(const DenseCell& cell)
 {
   return cell.distance == 255 && cell.state == CellState::unknown;
+}
+
+bool isBlank(const StoredCells& cells)
+{
+  for (std::uint32_t y = 0; y < cells.height; ++y)
+  {
+    if (!std::all_of(cells.row(y), cells.row(y) + cells.width, isBlankCell)) return false;
+  }
+  return true;
+}
+
+/// Returns the tiles that the whole frame of a field falls into, row by row.
+std::vector<StoredCells> tilesOf(const DenseField& field)
+{
+  const RasterFrame& frame = field.frame;
+  std::vector<StoredCells> tiles;
+  for (std::uint32_t y = 0; y < frame.height; y += kSide)
+  {
+    for (std::uint32_t x = 0; x < frame.width; x += kSide)
+    {
+      tiles.push_back({x, y, std::min(kSide, frame.width - x), std::min(kSide, frame.height - y),
+                       &field.at(x, y), frame.width});
+    }
+  }
+  return tiles;
 }
 
 std::size_t cellCount(const RasterFrame& frame)
@@ -55,12 +80,7 @@ DenseField tiledField(const RasterFrame& frame)
 
 void storeTile(DenseField& field, std::size_t tile, const StoredCells& cells)
 {
-  bool is_blank = true;
-  for (std::uint32_t y = 0; y < cells.height && is_blank; ++y)
-  {
-    is_blank = std::all_of(cells.row(y), cells.row(y) + cells.width, isBlank);
-  }
-  if (is_blank) return;
+  if (isBlank(cells)) return;
   const std::size_t first = field.cells.size();
   field.tiles[tile] = static_cast<std::uint32_t>(first / DenseField::kTileCells);
   field.cells.resize(first + DenseField::kTileCells);
@@ -73,28 +93,17 @@ void storeTile(DenseField& field, std::size_t tile, const StoredCells& cells)
 DenseField inTilesWhereSparse(DenseField field, std::size_t most_whole)
 {
   if (field.isTiled() || field.cells.size() <= most_whole) return field;
+  const std::vector<StoredCells> tiles = tilesOf(field);
+  const auto blank = static_cast<std::size_t>(std::count_if(
+      tiles.begin(), tiles.end(), [](const StoredCells& tile) { return isBlank(tile); }));
+  const std::size_t stored = (tiles.size() - blank + 1) * DenseField::kTileCells;
+  if (2 * stored >= cellCount(field.frame)) return field;
   DenseField tiled = tiledField(field.frame);
   tiled.free_area = field.free_area;
   tiled.wall_cells = field.wall_cells;
-  const RasterFrame& frame = field.frame;
-  std::size_t tile = 0;
-  for (std::uint32_t y = 0; y < frame.height; y += kSide)
-  {
-    for (std::uint32_t x = 0; x < frame.width; x += kSide, ++tile)
-    {
-      storeTile(tiled, tile,
-                {x, y, std::min(kSide, frame.width - x), std::min(kSide, frame.height - y),
-                 &field.at(x, y), frame.width});
-      if (!isSparse(tiled)) return field;
-    }
-  }
-  tiled.cells.shrink_to_fit();
+  tiled.cells.reserve(stored);
+  for (std::size_t k = 0; k < tiles.size(); ++k) storeTile(tiled, k, tiles[k]);
   return tiled;
-}
-
-bool isSparse(const DenseField& tiled)
-{
-  return 2 * tiled.cells.size() < cellCount(tiled.frame);
 }
 
 DenseField wholeField(const DenseField& field)

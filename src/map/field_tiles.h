@@ -17,9 +17,6 @@ DenseField tiledField(const RasterFrame& frame);
 /// it is not stored.
 void storeTile(DenseField& field, std::size_t tile, const StoredCells& cells);
 
-/// Whether the tiles take less than half of the memory of the whole frame.
-bool isSparse(const DenseField& tiled);
-
 /// Returns the field with its whole frame stored. Throws std::invalid_argument where that would be
 /// too large.
 DenseField wholeField(const DenseField& field);

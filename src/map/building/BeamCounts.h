@@ -5,6 +5,7 @@
 #include <mrpt/math/TPoint2D.h>
 
 #include <array>
+#include <bitset>
 #include <cstddef>
 #include <cstdint>
 #include <unordered_map>
@@ -63,7 +64,7 @@ class BeamCounts
     std::uint16_t passes(std::size_t cell) const { return passes_[cell]; }
     std::uint16_t scans(std::size_t cell) const
     {
-      return slots_[cell] == 0 ? std::uint16_t{0} : hits_[slots_[cell] - 1U].scans;
+      return isHit(cell) ? hits_[indexOf(cell)].scans : std::uint16_t{0};
     }
 
     bool changed = false;
@@ -80,9 +81,18 @@ class BeamCounts
     /// Returns the hits of a cell; makes them where there were none.
     Hits& hitsAt(std::size_t cell);
 
+    bool isHit(std::size_t cell) const { return (hit_[cell / 64] >> cell % 64 & 1U) != 0; }
+    /// Returns the index in hits_ of a cell, or the one it would get.
+    std::size_t indexOf(std::size_t cell) const
+    {
+      const std::uint64_t before = hit_[cell / 64] & ((std::uint64_t{1} << cell % 64) - 1);
+      return hits_before_[cell / 64] + std::bitset<64>(before).count();
+    }
+
     std::array<std::uint16_t, kCellsOfTile> passes_{};
-    std::array<std::uint16_t, kCellsOfTile> slots_{};  // one more than the index in hits_; 0: none
-    std::vector<Hits> hits_;
+    std::array<std::uint64_t, kCellsOfTile / 64> hit_{};  // a bit for each cell with a hit
+    std::array<std::uint16_t, kCellsOfTile / 64> hits_before_{};  // bits before each 64 of them
+    std::vector<Hits> hits_;  // of the cells with a hit, in their order
   };
   /// Box around all that was counted [m].
   struct Extent

@@ -8,8 +8,8 @@ BeamCounts::Count BeamCounts::Tile::count(std::size_t cell) const
 {
   Count count;
   count.passes = passes_[cell];
-  if (slots_[cell] == 0) return count;
-  const Hits& hits = hits_[slots_[cell] - 1U];
+  if (!isHit(cell)) return count;
+  const Hits& hits = hits_[indexOf(cell)];
   count.last_scan = hits.last_scan;
   count.hits = hits.hits;
   count.scans = hits.scans;
@@ -22,19 +22,21 @@ void BeamCounts::Tile::set(std::size_t cell, const Count& count)
 {
   passes_[cell] = count.passes;
   const bool hit = count.hits != 0 || count.scans != 0 || count.sum_x != 0 || count.sum_y != 0;
-  if (!hit && slots_[cell] == 0) return;
+  if (!hit && !isHit(cell)) return;
   hitsAt(cell) = {count.last_scan, count.sum_x, count.sum_y, count.hits, count.scans};
 }
 
 BeamCounts::Tile::Hits& BeamCounts::Tile::hitsAt(std::size_t cell)
 {
-  if (slots_[cell] == 0)
+  const std::size_t index = indexOf(cell);
+  if (!isHit(cell))
   {
     // Little more than needed: a map has tiles in great number.
     if (hits_.size() == hits_.capacity()) hits_.reserve(hits_.size() + 32);
-    hits_.emplace_back();
-    slots_[cell] = static_cast<std::uint16_t>(hits_.size());
+    hits_.insert(hits_.begin() + static_cast<std::ptrdiff_t>(index), Hits{});
+    hit_[cell / 64] |= std::uint64_t{1} << cell % 64;
+    for (std::size_t k = cell / 64 + 1; k < hits_before_.size(); ++k) ++hits_before_[k];
   }
-  return hits_[slots_[cell] - 1U];
+  return hits_[index];
 }
 }  // namespace sigloc
