@@ -10,7 +10,7 @@ namespace sigloc
 {
 namespace
 {
-constexpr double kNotHere = 0.98;  // least probability of being elsewhere
+constexpr double kNotHere = 0.95;  // least probability of being elsewhere
 constexpr double kMaxOpenSigma = 0.5;  // [m] position sigma from which a pose is a line of poses
 
 /// Returns why the first pose cannot be claimed, or nothing.

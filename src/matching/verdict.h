@@ -26,7 +26,7 @@ enum class VerdictReason
   no_pose,  ///< nothing in the map explains the scan
   no_pose_seen_little,  ///< no pose is left, but the scan shows too little to rule the map out
   one_pose,  ///< one pose is claimed
-  elsewhere,  ///< the probability of being elsewhere is at least 0.98
+  elsewhere,  ///< the probability of being elsewhere is at least 0.95
   open_position,  ///< the pose is a line of poses
   doubtful,  ///< the first pose has stopped explaining the scans
   not_sure,  ///< the probability of the first pose is too low, because it has rivals
@@ -46,7 +46,7 @@ struct VerdictDecision
 
 /// Returns the verdict for the matcher, the tracker and the particle filter alike. A claim requires
 /// the probability `sure` and a largest position sigma below 0.5 m. *Not here* requires no pose, or
-/// a probability of 0.98 of being elsewhere.
+/// a probability of 0.95 of being elsewhere.
 /// \cite algorithm section 7, "The verdict"; section 8, "Publish"
 VerdictDecision decideVerdict(const VerdictGrounds& grounds, double sure = kLocalizedProbability);
 }  // namespace sigloc

@@ -67,6 +67,7 @@ struct HypothesisTracker::State
   std::uint64_t next_id = 1;
   double travel_since_relocation = 0;  // [m]
   double travelled = 0;  // [m] in all
+  double searched = 0;  // [m] driven since the robot was last localized, or since the start
   bool waking_up = true;  // no relocation has given an answer yet
   bool relocated = false;  // in this step
   double reliability = 0;  // of the first hypothesis at the last scan with enough returns
@@ -111,6 +112,7 @@ void HypothesisTracker::State::startAnew()
   set = TrackSet(options);
   past = ScanHistory(options);
   waking_up = true;
+  searched = 0;
   belief = {};
   if (matcher->featureVerifier() == nullptr) return;
   landmark_tracker = std::make_unique<LandmarkTracker>(matcher, options);
@@ -151,8 +153,10 @@ void HypothesisTracker::State::trackDensely(const std::optional<MotionIncrement>
   set.update(scan, *matcher->verifier());
   if (!motion) travel = travelSeen(travel);
   countTravel(travel);
+  const double driven = motion ? motion->mean.norm() : travel;
+  searched += driven;
   past.remember(scan, travelled);
-  set.follow(scan, travelled, travel, motion ? motion->mean.norm() : travel);
+  set.follow(scan, travelled, travel, driven);
   set.weigh(scan, *matcher->verifier(), travelled, travel);
   if (wantsRelocation()) relocate(scene, scan);
   set.mergeAndPrune();
@@ -337,6 +341,7 @@ Track HypothesisTracker::State::startAt(const RelocationResult& result, std::siz
   fresh.evidence = matcher->verifier()->evaluate(scan, candidate.pose.mean);
   fresh.addTrackedLogOdds(kInitialTrackedLogOdds + novelty * trackedLogOdds(fresh.evidence));
   fresh.in_field = true;
+  fresh.searched_distance = searched;
   set.showTo(fresh, scan, *matcher->verifier(), travelled);
   return fresh;
 }
@@ -376,6 +381,7 @@ void HypothesisTracker::State::publish(const ObservedScene& scene)
   }
   if (!landmark_tracker) publishProbabilities();
   setVerdict(belief, grounds, options.localized_probability, fieldOf(matcher->map()));
+  if (belief.verdict == Verdict::localized) searched = 0;
 }
 
 /// The tracks share the probability of being in the map by their weights. The floor of "somewhere

@@ -26,6 +26,8 @@ using testing::office;
 using testing::officeWorld;
 using testing::Outcome;
 
+constexpr std::uint64_t kForeignSeed = 78;
+
 TEST(Tracker, WakesUpInTwentyOffices)
 {
   constexpr std::size_t kOffices = 20;
@@ -194,6 +196,8 @@ TEST(Tracker, NoticesAKidnap)
     }
     noticed += was_noticed;
     EXPECT_EQ(late_wrong, 0) << "seed " << seed;
+    // The way before the kidnap does not make the new pose one that was found late.
+    EXPECT_LT(tracker.evidence().searched, 5) << "seed " << seed;
     right += tracker.belief().verdict == Verdict::localized &&
              isRight(tracker.belief().hypotheses.front().pose.mean, after.back().world_from_robot);
   }
@@ -282,6 +286,26 @@ TEST(Tracker, InAForeignMapItIsSeldomLocalized)
   std::cout << "foreign maps: " << drives << " of 6 drives confident at some step\n";
   // A bare room of one office fits a bare room of another, however many scans are taken.
   EXPECT_LE(drives, 1);
+}
+
+TEST(Tracker, InAForeignMapPosesAreFoundLate)
+{
+  const MappedWorld foreign(officeWorld(kForeignSeed), kForeignSeed);
+  HypothesisTracker tracker(foreign.matcher());
+  double driven = 0;
+  double most_searched = 0;
+  bool localized = false;
+  for (const DriveStep& step : driveThrough(office().world(), 25, kForeignSeed))
+  {
+    driven += step.motion.mean.norm();
+    const Belief& belief = tracker.step(step.motion, observeScene({*step.scan}));
+    localized |= belief.verdict == Verdict::localized;
+    const InMapEvidence evidence = tracker.evidence();
+    EXPECT_LE(evidence.searched + evidence.followed, driven + 1e-9);
+    most_searched = std::max(most_searched, evidence.searched);
+  }
+  ASSERT_FALSE(localized);
+  EXPECT_GT(most_searched, 5) << "poses come and go";
 }
 
 TEST(Tracker, OffTheMappedAreaItIsNotConfidentlyWrong)

@@ -58,6 +58,19 @@ TEST(TrackInMap, LastingIsEvidenceWhereWhatIsSeenIsExplained)
   EXPECT_NEAR(logOddsAfter(20, 5), logOddsAfter(0, 5), 1e-9) << "a quarter is unexplained";
 }
 
+TEST(TrackInMap, APoseFoundLateIsLessSure)
+{
+  Track late = tracked();
+  late.searched_distance = 10;
+  EXPECT_LT(late.inMapLogOdds(), tracked().inMapLogOdds() - 0.5);
+  Track later = late;
+  later.searched_distance = 20;
+  EXPECT_LT(later.inMapLogOdds(), late.inMapLogOdds() - 0.5);
+  Track latest = later;
+  latest.searched_distance = 200;
+  EXPECT_EQ(latest.inMapLogOdds(), later.inMapLogOdds()) << "twenty metres tell all";
+}
+
 TEST(TrackInMap, WhatIsUnexplainedSpeaksAgainstIt)
 {
   for (const double way : {0.0, 20.0})

@@ -28,6 +28,7 @@ struct InMapEvidence
   double unexplained = 0;  ///< share of the mapped area seen that is off all walls, in [0, 1]
   double cells = 0;  ///< mapped area seen [cells of 0.5 m]
   double followed = 0;  ///< [m] driven since it was proposed
+  double searched = 0;  ///< [m] driven unlocalized before it was proposed
   double score = 0;  ///< of the last scan, in about [-1, 1]
 };
 

@@ -113,6 +113,7 @@ const Columns<WakeupStep>& stepColumns()
         "share of the mapped area that the heaviest hypothesis leaves unexplained", 4),
       C("cells", ofEvidence(&InMapEvidence::cells), "mapped area that it has seen, of 0.5 m", 1),
       C("followed_m", ofEvidence(&InMapEvidence::followed), "driven since it was proposed"),
+      C("searched_m", ofEvidence(&InMapEvidence::searched), "driven unlocalized before that"),
       C("score", ofEvidence(&InMapEvidence::score), "of it at the last scan", 4),
       C("tracked", &S::tracked, "one of the four heaviest hypotheses is right"),
       C(

@@ -7,14 +7,15 @@ namespace sigloc
 namespace
 {
 // In the map or not, eq. (8.22): a logistic regression by scripts/fit_evidence.
-constexpr double kOffset = -0.7;  // log-odds without the prior
-constexpr double kRelocationSlope = 0.91;  // per unit of kappa
-constexpr double kWaySlope = 0.25;  // per unit of gamma
-constexpr double kUnexplainedSlope = 3.4;  // per unexplained share of the mapped area seen
-constexpr double kFollowedSlope = 2.6;  // for kFullWay followed with nothing unexplained
+constexpr double kOffset = -0.85;  // log-odds without the prior
+constexpr double kRelocationSlope = 0.97;  // per unit of kappa
+constexpr double kWaySlope = 0.18;  // per unit of gamma
+constexpr double kUnexplainedSlope = 2.9;  // per unexplained share of the mapped area seen
+constexpr double kFollowedSlope = 4.0;  // for kFullWay followed with nothing unexplained
 constexpr double kFullWay = 20.0;  // [m]
+constexpr double kSearchedSlope = 1.6;  // for kFullWay driven unlocalized before
 constexpr double kMostUnexplained = 0.2;  // unexplained share from which the way does not count
-constexpr double kPriorHere = 2.0;  // log-odds of being in the map, of a robot that is tracked
+constexpr double kPriorHere = 1.5;  // log-odds of being in the map, of a robot that is tracked
 
 // The way driven, eq. (8.21): bounds of its log-odds.
 constexpr double kMinTracked = -8.0;
@@ -33,6 +34,7 @@ void Track::inherit(const Track& parent)
   tracked_log_odds = std::max(tracked_log_odds, parent.tracked_log_odds);
   seen_while_tracked = parent.seen_while_tracked;
   tracked_distance = parent.tracked_distance;
+  searched_distance = parent.searched_distance;
   explained = parent.explained;
 }
 
@@ -41,8 +43,9 @@ double Track::inMapLogOdds() const
   if (!in_field) return confirmed;
   const double unexplained = explained.offWallShare();
   const double way = std::min(1.0, tracked_distance / kFullWay);
+  const double searched = std::min(1.0, searched_distance / kFullWay);
   const double fit = std::max(0.0, 1.0 - unexplained / kMostUnexplained);
   return kPriorHere + kOffset + kRelocationSlope * confirmed + kWaySlope * tracked_log_odds -
-         kUnexplainedSlope * unexplained + kFollowedSlope * way * fit;
+         kUnexplainedSlope * unexplained + kFollowedSlope * way * fit - kSearchedSlope * searched;
 }
 }  // namespace sigloc

@@ -62,6 +62,7 @@ struct Track
   double tracked_log_odds = 0;  // log-odds from the way driven: gamma of eq. (8.21)
   VisitedCells seen_while_tracked;  // cells seen on the way
   double tracked_distance = 0;  // [m] driven since the track began
+  double searched_distance = 0;  // [m] driven unlocalized before the track began
   CellEvidence explained;  // how it explains the observed cells, each once
   LogLikelihoodDeficit deficit;  // against its rivals
   bool in_field = false;  // tracked in a dense field
@@ -83,7 +84,7 @@ struct Track
   InMapEvidence summary() const
   {
     return {confirmed,         tracked_log_odds, explained.offWallShare(),
-            explained.known(), tracked_distance, score};
+            explained.known(), tracked_distance, searched_distance, score};
   }
 
   /// True when the log-odds are so high that the track is not given up because of look-alikes.

@@ -289,6 +289,7 @@ void TrackSet::mergeAndPrune()
       same->confirmed = std::max(same->confirmed, track.confirmed);
       same->tracked_log_odds = std::max(same->tracked_log_odds, track.tracked_log_odds);
       same->tracked_distance = std::max(same->tracked_distance, track.tracked_distance);
+      same->searched_distance = std::min(same->searched_distance, track.searched_distance);
       into.age = std::max(into.age, track.hypothesis.age);
       same->found = same->found || track.found;
     }
