@@ -46,7 +46,7 @@ double rivalScore(const RelocationResult& result, std::size_t k)
 }
 
 /// Returns the share of the returns that remain when those in free space count as occlusions: the
-/// denominator of eq. (8.11) and (8.23).
+/// denominator of eq. (8.11).
 double unhiddenShare(const DenseEvidence& evidence)
 {
   constexpr double kLeastSeen = 0.25;

@@ -19,7 +19,7 @@ double logLikelihoodOfScore(double score);
 double reliabilityOf(const DenseEvidence& evidence);
 
 /// Returns the score (6.8) without the returns in free space, in [-2, 1], as if nothing unmapped
-/// had hidden the walls. \cite algorithm eq. (8.23)
+/// had hidden the walls. \cite algorithm section 8, "Publish"
 double scoreOfUnhidden(const DenseEvidence& evidence);
 
 /// Returns the share, in [0, 1], of the returns in known cells that the map does not explain.

@@ -116,7 +116,7 @@ double SignatureMonteCarlo2D::travelSeen(double assumed)
   return moved;
 }
 
-/// "Somewhere else" gains where the heaviest mode does not explain what is seen. Eq. (8.6)
+/// "Somewhere else" gains where the heaviest mode does not explain what is seen. Eq. (9.4)
 void SignatureMonteCarlo2D::weighElsewhere(const ObservedScene& scene, double travel)
 {
   const DenseVerifier* const verifier = matcher_->verifier();

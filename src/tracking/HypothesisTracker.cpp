@@ -52,7 +52,7 @@ struct HypothesisTracker::State
   bool wantsRelocation() const;
   void relocate(const ObservedScene& scene, const DenseScan& scan);
   void confirm(const RelocationResult& result, const DenseScan& scan, double fresh_share);
-  void weighElsewhere(const RelocationResult& result, double fresh_share);
+  bool isBeaten(const RelocationResult& result);
   Track startAt(const RelocationResult& result, std::size_t k, const DenseScan& scan);
   void rateFirst(const DenseScan& scan);
   void publish(const ObservedScene& scene);
@@ -262,7 +262,7 @@ void HypothesisTracker::State::relocate(const ObservedScene& scene, const DenseS
 
   set.noteFound(result);
   confirm(result, scan, fresh_share);
-  weighElsewhere(result, fresh_share);
+  set.overrule(result, isBeaten(result));
   set.dealOut(result, [&](std::size_t k) { return startAt(result, k, scan); });
   set.weighFirstScan();
   past.weighNewcomers(set, scan, *matcher->verifier(), travelled);
@@ -300,11 +300,9 @@ void HypothesisTracker::State::confirm(const RelocationResult& result, const Den
   }
 }
 
-/// "Somewhere else" gains where a relocation finds poses without a track that score as well as the
-/// tracks. Eq. (8.8)
-void HypothesisTracker::State::weighElsewhere(const RelocationResult& result, double fresh_share)
+/// True where a pose without a track scores better than all tracks by far.
+bool HypothesisTracker::State::isBeaten(const RelocationResult& result)
 {
-  if (set.tracks.empty()) return;
   double best_tracked = -1;
   for (const Track& track : set.tracks) best_tracked = std::max(best_tracked, track.score);
   double best_untracked = options.lost_score;
@@ -315,11 +313,7 @@ void HypothesisTracker::State::weighElsewhere(const RelocationResult& result, do
       best_untracked = std::max(best_untracked, candidate.score);
     }
   }
-  const double fit =
-      result.candidates.empty() ? 0 : fitLogOdds(result.candidates.front()) + kPriorHereLogOdds;
-  const bool beaten =
-      logLikelihoodOfScore(best_untracked) - logLikelihoodOfScore(best_tracked) > kFarBetter;
-  set.weighElsewhere(result, fit + leadLogOdds(best_tracked, best_untracked), beaten, fresh_share);
+  return logLikelihoodOfScore(best_untracked) - logLikelihoodOfScore(best_tracked) > kFarBetter;
 }
 
 /// Returns a new track at candidate `k`.

@@ -20,7 +20,7 @@ struct TrackedHypothesis
   std::uint32_t age = 0;  ///< steps since it was proposed
 };
 
-/// What speaks for a hypothesis being in this map at all. \cite algorithm section 8, "Confirm"
+/// What speaks for a hypothesis being in this map at all. \cite algorithm section 8, "Publish"
 struct InMapEvidence
 {
   double relocations = 0;  ///< kappa, log-odds from relocations, eq. (8.7)

@@ -29,7 +29,7 @@ struct FeatureAssociation
 
 /// Pairs the features of one step with the map, at one predicted pose after another. Each feature
 /// takes its nearest compatible partner, and an EKF update follows each pairing. Joint
-/// compatibility costs one addition a pairing. \cite algorithm section 8, "Without a dense field"
+/// compatibility costs one addition a pairing. \cite algorithm section 10
 class FeatureAssociator
 {
  public:

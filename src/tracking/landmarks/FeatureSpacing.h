@@ -12,7 +12,7 @@ namespace sigloc
 {
 /// How far mapped points and circles are apart. They are rarely spread evenly over the area of a
 /// map: marks stand along corridors, trees along paths. Other types have no spacing.
-/// \cite algorithm section 8, "Without a dense field"
+/// \cite algorithm section 10
 class FeatureSpacing
 {
  public:

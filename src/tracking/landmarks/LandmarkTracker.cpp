@@ -216,7 +216,11 @@ void LandmarkTracker::weighElsewhere(TrackSet& set, const RelocationResult& resu
     best = std::max(best, candidate.score);
   }
   const double lead = kFeatureTempering * (best_tracked - best_untracked);
-  set.weighElsewhere(result, lead, lead < -kFarBetter, fresh_share);
+  const bool beaten = lead < -kFarBetter;
+  const double least = set.holdsAgainst(beaten) ? 0.0 : -kMaxLost;
+  set.elsewhere *= std::exp(-fresh_share * std::clamp(lead, least, kMaxLost));
+  set.overrule(result, beaten);
+  set.normalise();
 }
 
 /// Returns a new track at a candidate. The features share the errors of the odometry that gathered

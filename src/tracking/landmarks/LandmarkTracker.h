@@ -16,7 +16,7 @@ namespace sigloc
 {
 /// Updates, weighs and proposes tracks by features alone, in a map without a dense field. Works on
 /// the tracks of a `HypothesisTracker`, which calls it.
-/// \cite algorithm section 8, "Without a dense field"
+/// \cite algorithm section 10
 class LandmarkTracker
 {
  public:

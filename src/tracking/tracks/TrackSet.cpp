@@ -104,8 +104,6 @@ void TrackSet::follow(const DenseScan& scan, double travelled, double travel, do
   }
 }
 
-/// "Somewhere else" is weighed against the best track by its score alone. For a retained track,
-/// returns that end before mapped walls do not count, because something may hide the walls.
 void TrackSet::weigh(const DenseScan& scan, const DenseVerifier& verifier, double travelled,
                      double travel)
 {
@@ -117,15 +115,6 @@ void TrackSet::weigh(const DenseScan& scan, const DenseVerifier& verifier, doubl
           ->score;
   unexplained_ += fresh * (std::max(0.0, 1.0 - best_score) - unexplained_);
   weighRivals(scan, verifier, travelled, travel, best_score);
-  const double lost = std::min(1.0, travel / options_.lost_distance);
-  double most = -1;
-  for (const Track& track : tracks)
-  {
-    most = std::max(most, track.retained() ? scoreOfUnhidden(track.evidence) : track.score);
-  }
-  const double for_lost = std::clamp(
-      logLikelihoodOfScore(options_.lost_score) - logLikelihoodOfScore(most), -kMaxLost, kMaxLost);
-  elsewhere *= std::exp(lost * for_lost);
   normalise();
 }
 
@@ -233,17 +222,17 @@ void TrackSet::noteFound(const RelocationResult& result)
   for (Track& track : tracks) track.found = &track == best;
 }
 
-void TrackSet::weighElsewhere(const RelocationResult& result, double here, bool beaten,
-                              double fresh_share)
+bool TrackSet::holdsAgainst(bool beaten) const
 {
-  const bool firm = !beaten && std::any_of(tracks.begin(), tracks.end(),
-                                           [](const Track& track) { return track.retained(); });
-  const double log_odds = std::clamp(here, firm ? 0.0 : -kMaxLost, kMaxLost);
-  elsewhere *= std::exp(-fresh_share * log_odds);
-  const bool overruled = !firm && !result.candidates.empty() &&
-                         result.candidates.front().probability >= kSure &&
-                         trackAt(result.candidates.front().pose.mean) == nullptr;
-  if (overruled) elsewhere = std::max(elsewhere, options_.suspicion);
+  return !beaten && std::any_of(tracks.begin(), tracks.end(), std::mem_fn(&Track::retained));
+}
+
+void TrackSet::overrule(const RelocationResult& result, bool beaten)
+{
+  if (tracks.empty() || result.candidates.empty() || holdsAgainst(beaten)) return;
+  const Candidate& first = result.candidates.front();
+  if (first.probability < kSure || trackAt(first.pose.mean) != nullptr) return;
+  elsewhere = std::max(elsewhere, options_.suspicion);
   normalise();
 }
 

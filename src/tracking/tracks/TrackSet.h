@@ -39,7 +39,7 @@ class TrackSet
 
   /// Weighs tracks against each other and the best one against "somewhere else". The scan is taken
   /// after `travelled` [m] in all, `travel` [m] after the one before. Where there are tracks, also
-  /// updates the mean share that the best one leaves unexplained. Eq. (8.5), (8.6), (8.26)
+  /// updates the mean share that the best one leaves unexplained. Eq. (8.5), (8.26)
   void weigh(const DenseScan& scan, const DenseVerifier& verifier, double travelled, double travel);
 
   /// Adds the last scan to the observed cells of a track that starts with it.
@@ -67,10 +67,12 @@ class TrackSet
   /// Notes which track the relocation has found best of the whole map.
   void noteFound(const RelocationResult& result);
 
-  /// Changes the weight of "somewhere else" by the log-odds `here` for the tracks. They count by
-  /// the share `fresh_share` of new evidence. Where a track is retained and not `beaten` by a pose
-  /// without a track, negative log-odds do not count. Eq. (8.8)
-  void weighElsewhere(const RelocationResult& result, double here, bool beaten, double fresh_share);
+  /// True where a track is retained and not `beaten` by far by a pose without a track.
+  bool holdsAgainst(bool beaten) const;
+
+  /// Raises the weight of "somewhere else" where a relocation is sure of a pose without a track and
+  /// no track holds against it. Section 8, "Relocate"
+  void overrule(const RelocationResult& result, bool beaten);
 
   /// Deals the weight of "somewhere else" out by the probabilities of a relocation: to the tracks
   /// at its candidates, and to new ones that `start` makes of candidate k. The rest stays. Eq.
