@@ -205,7 +205,8 @@ std::string withoutTemporaryEnding(const std::string& name)
 
 void finishOutput(std::ostream& out)
 {
-  errno = 0;
+  // Where writing has failed already, the code of that error is still there, and flush() sets none.
+  if (out) errno = 0;
   if (!out.flush()) fail("standard output", lastError());
 }
 
