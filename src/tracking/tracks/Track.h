@@ -83,8 +83,13 @@ struct Track
   /// What speaks for the track being in this map, in numbers.
   InMapEvidence summary() const
   {
-    return {confirmed,         tracked_log_odds, explained.offWallShare(),
-            explained.known(), tracked_distance, searched_distance, score};
+    return {confirmed,
+            tracked_log_odds,
+            explained.offWallShare(),
+            explained.known(),
+            tracked_distance,
+            searched_distance,
+            score};
   }
 
   /// True when the log-odds are so high that the track is not given up because of look-alikes.
