@@ -27,7 +27,7 @@ CORE = [
     "matching/dense", "matching/keypoints", "matching/features", "matching/generation", "matching",
     "tracking/evidence", "tracking/tracks", "tracking/landmarks", "tracking",
 ]  # fmt: skip
-BRIDGE = CORE + ["io/archive", "io", "io/points", "io/maps", "plugin", "localize"]
+BRIDGE = CORE + ["io/archive", "io/solid", "io", "io/points", "io/maps", "plugin", "localize"]
 EVAL = BRIDGE + [
     "eval/process", "eval/data", "eval/worlds", "eval/worlds/buildings", "eval/methods/lattice",
     "eval/methods/features", "eval/methods/particles", "eval/methods", "eval/scoring",

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sigloc/io/RawlogReader.h"
 
-#include <mrpt/obs/CObservationBearingRange.h>
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/serialization/CArchive.h>
 
@@ -16,10 +15,11 @@
 #include <utility>
 
 #include "io/archive/UnreadObservation.h"
+#include "io/frame_contents.h"
 #include "io/LogObjects.h"
 #include "io/motion_conversion.h"
 #include "io/scan_conversion.h"
-#include "io/sensor_mount.h"
+#include "io/solid/SolidView.h"
 
 namespace sigloc
 {
@@ -53,34 +53,6 @@ struct Group
   std::size_t entry = 0;  // index of the last scan or landmark observation
 };
 
-bool isRange(const CObservation& observation)
-{
-  return dynamic_cast<const mrpt::obs::CObservation2DRangeScan*>(&observation) != nullptr ||
-         dynamic_cast<const mrpt::obs::CObservationBearingRange*>(&observation) != nullptr;
-}
-
-/// Returns how many scans and landmark observations there are in a frame.
-std::size_t countRanges(const CSensoryFrame& frame)
-{
-  return static_cast<std::size_t>(std::count_if(frame.begin(), frame.end(),
-                                                [](const CObservation::Ptr& observation)
-                                                { return isRange(*observation); }));
-}
-
-/// Returns how many landmark observations of a frame are from a sensor with a valid pose on the
-/// robot.
-std::size_t countUsableLandmarkScans(const CSensoryFrame& frame)
-{
-  return static_cast<std::size_t>(std::count_if(
-      frame.begin(), frame.end(),
-      [](const CObservation::Ptr& observation)
-      {
-        const auto* const seen =
-            dynamic_cast<const mrpt::obs::CObservationBearingRange*>(observation.get());
-        return seen != nullptr && detail::isSensorMount(seen->sensorLocationOnRobot);
-      }));
-}
-
 CPose2D interpolated(const OdometryReading& a, const OdometryReading& b, double time)
 {
   const double span = b.time - a.time;
@@ -111,11 +83,13 @@ struct RawlogReader::State
   std::optional<MotionIncrement> believed(const mrpt::poses::CPosePDFGaussian& motion,
                                           double seconds);
   double timeOf(const CObservation& observation);
-  void count(const CObservation& observation);
+  void look(CObservation& observation);
+  bool isSeen(const CObservation& observation) const;
 
   detail::LogObjects objects;
   ReadingOptions options;
   std::map<std::string, std::size_t> seen;  // observations by class
+  bool has_laser = false;  // a usable scan of a planar laser was seen
   std::deque<mrpt::serialization::CSerializable::Ptr> read_ahead;
   std::size_t objects_taken = 0;
   LeftOutOfLog left_out;
@@ -174,11 +148,29 @@ double RawlogReader::State::timeOf(const CObservation& observation)
   return latest_time;
 }
 
-void RawlogReader::State::count(const CObservation& observation)
+/// Counts an observation by its class, and cuts one of points in space in the plane of a laser. A
+/// log with a laser has no need of that.
+void RawlogReader::State::look(CObservation& observation)
 {
-  const std::string name = observation.GetRuntimeClass()->className;
+  std::string name = observation.GetRuntimeClass()->className;
   const std::size_t colon = name.rfind(':');
-  ++seen[colon == std::string::npos ? name : name.substr(colon + 1)];
+  if (colon != std::string::npos) name.erase(0, colon + 1);
+  const auto* const scan = dynamic_cast<mrpt::obs::CObservation2DRangeScan*>(&observation);
+  has_laser = has_laser || (scan != nullptr && toLaserScan(*scan));
+  auto* const unread = dynamic_cast<detail::UnreadObservation*>(&observation);
+  if (unread != nullptr && detail::isSolid(*unread) && !has_laser)
+  {
+    const std::string reason = detail::cutPlanar(*unread, {options.min_height, options.max_height});
+    if (!reason.empty()) name += " (" + reason + ")";
+  }
+  ++seen[name];
+}
+
+/// True for what makes a step.
+bool RawlogReader::State::isSeen(const CObservation& observation) const
+{
+  const auto* const unread = dynamic_cast<const detail::UnreadObservation*>(&observation);
+  return detail::isRange(observation) || (unread != nullptr && unread->cut && !has_laser);
 }
 
 std::optional<RawlogStep> RawlogReader::State::take(
@@ -191,7 +183,7 @@ std::optional<RawlogStep> RawlogReader::State::take(
   }
   if (const auto observation = std::dynamic_pointer_cast<CObservation>(object))
   {
-    count(*observation);
+    look(*observation);
     return takeObservation(observation);
   }
   const auto frame = std::dynamic_pointer_cast<CSensoryFrame>(object);
@@ -199,9 +191,9 @@ std::optional<RawlogStep> RawlogReader::State::take(
   std::optional<double> time;
   for (const auto& observation : *frame)
   {
-    count(*observation);
+    look(*observation);
     const double observed = timeOf(*observation);
-    if (!time && isRange(*observation)) time = observed;
+    if (!time && isSeen(*observation)) time = observed;
     if (const auto reading = std::dynamic_pointer_cast<CObservationOdometry>(observation))
     {
       takeOdometry(*reading);
@@ -237,9 +229,15 @@ void RawlogReader::State::takeOdometry(const CObservationOdometry& reading)
 
 std::optional<RawlogStep> RawlogReader::State::takeObservation(const CObservation::Ptr& observation)
 {
-  if (std::dynamic_pointer_cast<detail::UnreadObservation>(observation)) return std::nullopt;
+  const auto unread = std::dynamic_pointer_cast<detail::UnreadObservation>(observation);
+  if (unread && !detail::isSolid(*unread)) return std::nullopt;
+  if (unread && !unread->cut)
+  {
+    if (!has_laser) ++left_out.observations;
+    return std::nullopt;
+  }
   const double time = timeOf(*observation);
-  const bool range = isRange(*observation);
+  const bool range = isSeen(*observation);
   std::optional<RawlogStep> step;
   const bool group_over =
       group.time && (std::abs(time - *group.time) > kGroupWindow ||
@@ -278,7 +276,12 @@ std::optional<RawlogStep> RawlogReader::State::makeStep(const CSensoryFrame::Ptr
   step.scans = laserScansOf(*frame);
   step.landmarks = landmarksOf(*frame);
   left_out.observations +=
-      countRanges(*frame) - step.scans.size() - countUsableLandmarkScans(*frame);
+      detail::countRanges(*frame) - step.scans.size() - detail::countUsableLandmarkScans(*frame);
+  if (!has_laser)
+  {
+    step.scans = planarCutsOf(*frame);
+    left_out.observations += detail::countSolids(*frame) - step.scans.size();
+  }
   if (step.scans.empty() && step.landmarks.empty()) return std::nullopt;
   step.time = time.value_or(latest_time);
   step.motion = takeMotion(odometry_now, step.time);

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "io/scan_conversion.h"
-#include "io/sensor_mount.h"
+#include "io/solid/sensor_mount.h"
 
 namespace sigloc
 {

@@ -8,7 +8,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "io/sensor_mount.h"
+#include "io/archive/UnreadObservation.h"
+#include "io/solid/sensor_mount.h"
 
 namespace sigloc
 {
@@ -164,6 +165,17 @@ std::vector<LaserScan> laserScansOf(const mrpt::obs::CSensoryFrame& frame)
         std::dynamic_pointer_cast<const mrpt::obs::CObservation2DRangeScan>(observation);
     if (!range_scan) continue;
     if (auto scan = toLaserScan(*range_scan)) scans.push_back(std::move(*scan));
+  }
+  return scans;
+}
+
+std::vector<LaserScan> planarCutsOf(const mrpt::obs::CSensoryFrame& frame)
+{
+  std::vector<LaserScan> scans;
+  for (const auto& entry : frame)
+  {
+    const auto solid = std::dynamic_pointer_cast<const detail::UnreadObservation>(entry);
+    if (solid && solid->cut) scans.push_back(*solid->cut);
   }
   return scans;
 }

@@ -48,6 +48,9 @@ mrpt::obs::CObservation2DRangeScan::Ptr toRangeScan(const LaserScan& scan, doubl
 /// Returns all usable 2D scans of a sensory frame.
 std::vector<LaserScan> laserScansOf(const mrpt::obs::CSensoryFrame& frame);
 
+/// Returns the planar cuts that the observations of points in space of a frame were given.
+std::vector<LaserScan> planarCutsOf(const mrpt::obs::CSensoryFrame& frame);
+
 /// Returns the landmarks of an observation as points in the robot frame with their covariances,
 /// without identities. Non-finite and non-positive ranges and those beyond kFarthestReturn are
 /// skipped. So is a whole observation with a sensor pose that toLaserScan() refuses.

@@ -16,7 +16,7 @@
 #include "io/archive_values.h"
 #include "io/maps/feature_archive.h"
 #include "io/scan_conversion.h"
-#include "io/sensor_mount.h"
+#include "io/solid/sensor_mount.h"
 #include "sigloc/plugin/map_drawing.h"
 
 IMPLEMENTS_SERIALIZABLE(ObservationSignatures, mrpt::obs::CObservation, sigloc)

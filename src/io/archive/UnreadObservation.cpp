@@ -21,6 +21,9 @@ UnreadObservation::UnreadObservation(std::string name, std::uint8_t version, std
 UnreadObservation::UnreadObservation(const UnreadObservation& other)
     : UnreadObservation(other.name_, other.version_, other.content_)
 {
+  timestamp = other.timestamp;
+  sensorLabel = other.sensorLabel;
+  cut = other.cut;
 }
 
 void UnreadObservation::getSensorPose(mrpt::poses::CPose3D& pose) const

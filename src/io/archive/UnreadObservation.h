@@ -5,12 +5,16 @@
 #include <mrpt/obs/CObservation.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
+
+#include "sigloc/features/LaserScan.h"
 
 namespace sigloc::detail
 {
-/// An observation of a log that sigloc does not use, kept as the bytes it is stored as. It goes by
-/// its class's name, so that it is written as it was read. It has no time and no label.
+/// An observation of a log that MRPT does not read, kept as the bytes it is stored as. It goes by
+/// its class's name, so that it is written as it was read. It has no time and no label, unless
+/// cutPlanar() gives it both.
 class UnreadObservation final : public mrpt::obs::CObservation
 {
  public:
@@ -22,6 +26,13 @@ class UnreadObservation final : public mrpt::obs::CObservation
 
   const mrpt::rtti::TRuntimeClassId* GetRuntimeClass() const override { return &class_; }
   mrpt::rtti::CObject* clone() const override { return new UnreadObservation(*this); }
+  const std::string& name() const { return name_; }
+  std::uint8_t version() const { return version_; }
+  const std::string& content() const { return content_; }
+
+  /// What a planar laser would see in its place, of an observation of points in space.
+  std::optional<LaserScan> cut;
+
   void getSensorPose(mrpt::poses::CPose3D& pose) const override;
   void setSensorPose(const mrpt::poses::CPose3D&) override {}
 

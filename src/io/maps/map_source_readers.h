@@ -13,7 +13,8 @@ namespace sigloc::detail
 {
 // One reader a file format; all throw std::runtime_error "path: reason".
 
-std::vector<PosedScans> readSimplemap(const std::filesystem::path& path);
+std::vector<PosedScans> readSimplemap(const std::filesystem::path& path,
+                                      const ReadingOptions& reading = {});
 OccupancyRaster readGridmap(const std::filesystem::path& path);
 
 /// Throws for a raster without a wall or a free cell, or with cells of an unusable size.

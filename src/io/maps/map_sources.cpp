@@ -19,11 +19,13 @@
 
 #include "io/archive/checked_archive.h"
 #include "io/archive/gzip_input.h"
+#include "io/archive/UnreadObservation.h"
 #include "io/key_frames.h"
 #include "io/maps/map_reach.h"
 #include "io/maps/map_source_readers.h"
 #include "io/points/points_raster.h"
 #include "io/scan_conversion.h"
+#include "io/solid/SolidView.h"
 #include "sigloc/config/plural.h"
 
 namespace sigloc
@@ -198,6 +200,7 @@ std::vector<PosedScans> posedScansOf(const mrpt::maps::CSimpleMap& simplemap)
     PosedScans posed;
     posed.map_from_robot = mean.asTPose();
     posed.scans = laserScansOf(*frame);
+    if (posed.scans.empty()) posed.scans = planarCutsOf(*frame);
     if (isFinite(mean) && !posed.scans.empty()) posed_scans.push_back(std::move(posed));
   }
   return posed_scans;
@@ -237,10 +240,21 @@ std::string warningOfMapSource(const std::filesystem::path& path)
 
 namespace detail
 {
-std::vector<PosedScans> readSimplemap(const std::filesystem::path& path)
+std::vector<PosedScans> readSimplemap(const std::filesystem::path& path,
+                                      const ReadingOptions& reading)
 {
   mrpt::maps::CSimpleMap simplemap;
   readObjectFile(path, simplemap);
+  for (std::size_t i = 0; i < simplemap.size(); ++i)
+  {
+    const auto frame = keyFrameOf(simplemap, i).frame;
+    if (!frame) continue;
+    for (const auto& observation : *frame)
+    {
+      if (auto unread = std::dynamic_pointer_cast<UnreadObservation>(observation))
+        cutPlanar(*unread, {reading.min_height, reading.max_height});
+    }
+  }
   std::vector<PosedScans> scans = posedScansOf(simplemap);
   if (scans.empty()) throw std::runtime_error(path.string() + ": no usable 2D laser scan in it");
   return scans;
