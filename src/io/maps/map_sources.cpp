@@ -63,6 +63,7 @@ const std::vector<MapFormat>& mapFormats()
   static const std::vector<MapFormat> kFormats = {
       {"simplemap", {".simplemap"}, sourceBy<detail::readSimplemap>},
       {"grid map", {".gridmap"}, sourceBy<detail::readGridmap>},
+      {"metric map", {".metricmap"}, sourceBy<detail::readMetricMap>},
       {"ROS map", {".yaml", ".yml"}, sourceBy<detail::readRosMap>},
       {"image with its resolution", {".pgm", ".png"}, sourceBy<detail::readMapImage>},
       {"CARMEN log", {".log", ".clf", ".carmen"}, sourceBy<detail::readCarmenLog>},
@@ -210,6 +211,9 @@ std::string warningOfMapSource(const std::filesystem::path& path)
 {
   constexpr double kOneFloor = 0.5;  // [m]
   if (isReadBy(sourceBy<detail::readRosMap>, path)) return detail::warningOfRosMap(path);
+  if (isReadBy(sourceBy<detail::readMetricMap>, path)) return detail::warningOfMetricMap(path);
+  if (isReadBy(sourceBy<detail::readGridmap>, path))
+    return detail::isMultiMap(path) ? detail::warningOfMetricMap(path) : "";
   if (isReadBy(sourceBy<detail::readRows>, path)) return detail::warningOfRows(path);
   if (isReadBy(sourceBy<detail::readPointMap>, path)) return detail::kNoFreeSpace;
   if (!isReadBy(sourceBy<detail::readSimplemap>, path)) return {};

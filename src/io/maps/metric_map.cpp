@@ -1,0 +1,162 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <mrpt/maps/COccupancyGridMap2D.h>
+#include <mrpt/serialization/CArchive.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/archive/ArchiveWalk.h"
+#include "io/archive/checked_archive.h"
+#include "io/archive/gzip_input.h"
+#include "io/maps/map_source_readers.h"
+#include "io/maps/occupancy_grid.h"
+#include "io/points/number_fields.h"
+#include "io/points/points_raster.h"
+
+namespace sigloc::detail
+{
+namespace
+{
+constexpr std::string_view kMulti = "CMultiMetricMap";
+constexpr std::string_view kGrid = "COccupancyGridMap2D";
+constexpr std::array<std::string_view, 5> kPoints = {"CSimplePointsMap", "CColouredPointsMap",
+                                                     "CWeightedPointsMap", "CPointsMapXYZIRT",
+                                                     "CPointsMapXYZI"};
+
+std::string_view withoutNamespace(std::string_view name)
+{
+  const std::size_t colon = name.rfind(':');
+  return colon == std::string_view::npos ? name : name.substr(colon + 1);
+}
+
+/// Returns where an object of a class begins at `from` or later. An object's length is not told, so
+/// its head is searched for.
+std::optional<std::size_t> findObject(std::string_view bytes, std::size_t from,
+                                      std::string_view name)
+{
+  constexpr std::string_view kNamespace = "mrpt::maps::";
+  for (std::size_t at = bytes.find(name, from); at != std::string_view::npos;
+       at = bytes.find(name, at + 1))
+  {
+    for (const std::size_t before : {std::size_t{1}, kNamespace.size() + 1})
+    {
+      if (at < from + before) continue;
+      const auto header = objectHeaderIn(bytes.substr(at - before, kLongestObjectHeader));
+      if (header && !header->old && withoutNamespace(header->name) == name) return at - before;
+    }
+  }
+  return std::nullopt;
+}
+
+/// Returns the grid map that begins at a place of the file, or nullopt for one that is damaged or
+/// makes no map.
+std::optional<OccupancyRaster> gridAt(const std::filesystem::path& path, std::size_t at)
+{
+  GzipInput input(path);
+  std::vector<char> before(at);
+  input.Read(before.data(), before.size());
+  if (soundnessOfNext(input, only(ArchivePart::grid_map)) != Soundness::sound) return std::nullopt;
+  mrpt::maps::COccupancyGridMap2D grid;
+  try
+  {
+    auto archive = mrpt::serialization::archiveFrom(input);
+    archive.ReadObject(&grid);
+  }
+  catch (const std::exception&)
+  {
+    return std::nullopt;
+  }
+  OccupancyRaster raster = rasterOf(grid);
+  return unusableGrid(raster) ? std::nullopt : std::optional(std::move(raster));
+}
+
+/// Returns the points of a map of points whose head is at a place: all of MRPT's begin alike.
+std::optional<PointList> pointsAt(std::string_view bytes, std::size_t at)
+{
+  const auto header = objectHeaderIn(bytes.substr(at, kLongestObjectHeader));
+  std::string_view rest = bytes.substr(std::min(at + header->size + 1, bytes.size()));
+  std::uint32_t count = 0;
+  if (rest.size() < sizeof(count)) return std::nullopt;
+  std::memcpy(&count, rest.data(), sizeof(count));
+  rest.remove_prefix(sizeof(count));
+  const std::size_t axis = count * sizeof(float);
+  if (count == 0 || rest.size() / 3 < axis) return std::nullopt;
+  PointList points;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    std::array<float, 3> at_axis{};
+    for (std::size_t k = 0; k < at_axis.size(); ++k)
+      std::memcpy(&at_axis[k], rest.data() + k * axis + i * sizeof(float), sizeof(float));
+    addPoint(points, static_cast<double>(at_axis[0]), static_cast<double>(at_axis[1]),
+             static_cast<double>(at_axis[2]));
+  }
+  return points;
+}
+
+struct Found
+{
+  std::optional<OccupancyRaster> grid;
+  std::optional<PointList> points;
+};
+
+/// Looks for the grid map in a file, else for the first map of points.
+Found lookIn(const std::filesystem::path& path)
+{
+  requireFile(path);
+  requireIntact(path);
+  const std::string all = readAllBytes(path);
+  const std::string_view bytes = all;
+  const auto header = objectHeaderIn(bytes.substr(0, kLongestObjectHeader));
+  if (!header || header->old) failIn(path, "not an MRPT file");
+  const std::string_view name = withoutNamespace(header->name);
+  const bool single =
+      name == kGrid || std::find(kPoints.begin(), kPoints.end(), name) != kPoints.end();
+  if (!single && name != kMulti)
+    failIn(path, "holds a '" + std::string(header->name) + "', not a map of a grid or of points");
+  const std::size_t from = single ? 0 : header->size + 1;
+  Found found;
+  for (auto at = findObject(bytes, from, kGrid); at && !found.grid;
+       at = findObject(bytes, *at + 2, kGrid))
+  {
+    found.grid = gridAt(path, *at);
+  }
+  if (found.grid) return found;
+  for (const std::string_view of_points : kPoints)
+  {
+    const auto at = findObject(bytes, from, of_points);
+    if (at && !found.points) found.points = pointsAt(bytes, *at);
+  }
+  return found;
+}
+}  // namespace
+
+bool isMultiMap(const std::filesystem::path& path)
+{
+  requireFile(path);
+  GzipInput input(path);
+  return withoutNamespace(input.nextClassName()) == kMulti;
+}
+
+OccupancyRaster readMetricMap(const std::filesystem::path& path, const ReadingOptions& reading)
+{
+  Found found = lookIn(path);
+  if (found.grid) return std::move(*found.grid);
+  if (!found.points)
+    failIn(path, "holds neither a grid map with walls and free cells nor a map of points");
+  OccupancyRaster raster = rasterOfPoints(*found.points, reading, path);
+  requireWallAndFree(raster, path);
+  return raster;
+}
+
+std::string warningOfMetricMap(const std::filesystem::path& path)
+{
+  return lookIn(path).grid ? "" : kNoFreeSpace;
+}
+}  // namespace sigloc::detail

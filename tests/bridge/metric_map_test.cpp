@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Files of a CMultiMetricMap: the grid is taken, else the points.
+#include <gtest/gtest.h>
+#include <mrpt/maps/CBeaconMap.h>
+#include <mrpt/maps/CColouredPointsMap.h>
+#include <mrpt/maps/CMultiMetricMap.h>
+#include <mrpt/maps/COccupancyGridMap2D.h>
+#include <mrpt/maps/CSimplePointsMap.h>
+
+#include <variant>
+
+#include "bridge/rawlog_files.h"
+#include "io/archive/gzip_input.h"
+#include "sigloc/io/map_files.h"
+
+using namespace sigloc;
+using namespace sigloc::test;
+
+namespace
+{
+const std::filesystem::path kOfficeGrid =
+    std::filesystem::path(SIGLOC_GOLDEN_FOLDER) / "../../maps/office.gridmap.gz";
+
+mrpt::maps::COccupancyGridMap2D::Ptr officeGrid()
+{
+  detail::GzipInput input(kOfficeGrid);
+  auto archive = mrpt::serialization::archiveFrom(input);
+  return std::dynamic_pointer_cast<mrpt::maps::COccupancyGridMap2D>(archive.ReadObject());
+}
+
+template <class Map>
+typename Map::Ptr officePoints()
+{
+  const auto raster = std::get<OccupancyRaster>(readMapSource(kOfficeGrid));
+  const RasterFrame& frame = raster.frame;
+  auto points = Map::Create();
+  for (std::size_t i = 0; i < raster.cells.size(); ++i)
+  {
+    if (!isWall(raster.cells[i])) continue;
+    const double x = static_cast<double>(i % frame.width) + 0.5;
+    const double y = static_cast<double>(i / frame.width) + 0.5;
+    points->insertPoint(static_cast<float>(frame.origin.x + x * frame.resolution),
+                        static_cast<float>(frame.origin.y + y * frame.resolution), 0);
+  }
+  return points;
+}
+
+std::string errorOf(const std::filesystem::path& path)
+{
+  return messageOf<std::runtime_error>([&] { readMapSource(path); });
+}
+}  // namespace
+
+TEST(MetricMaps, OfSeveralTheGridIsTaken)
+{
+  const TemporaryFolder folder;
+  auto map = mrpt::maps::CMultiMetricMap::Create();
+  map->maps.push_back(officePoints<mrpt::maps::CSimplePointsMap>());
+  map->maps.push_back(mrpt::maps::CBeaconMap::Create());
+  map->maps.push_back(mrpt::maps::COccupancyGridMap2D::Create());  // nothing is in it
+  map->maps.push_back(officeGrid());
+  writeObjects(folder / "m.metricmap", {map});
+  const auto expected = std::get<OccupancyRaster>(readMapSource(kOfficeGrid));
+  for (const char* const name : {"m.metricmap", "m.gridmap"})
+  {
+    if (!std::filesystem::exists(folder / name))
+      std::filesystem::copy_file(folder / "m.metricmap", folder / name);
+    const auto found = std::get<OccupancyRaster>(readMapSource(folder / name));
+    EXPECT_EQ(found.cells, expected.cells) << name;
+    EXPECT_EQ(found.frame.origin, expected.frame.origin);
+    EXPECT_EQ(warningOfMapSource(folder / name), "");
+  }
+}
+
+TEST(MetricMaps, WithoutAGridThePointsAreTaken)
+{
+  const TemporaryFolder folder;
+  auto map = mrpt::maps::CMultiMetricMap::Create();
+  map->maps.push_back(mrpt::maps::CBeaconMap::Create());
+  map->maps.push_back(officePoints<mrpt::maps::CColouredPointsMap>());
+  writeObjects(folder / "multi.metricmap", {map});
+  writeObjects(folder / "single.metricmap", {officePoints<mrpt::maps::CSimplePointsMap>()});
+  for (const char* const name : {"multi.metricmap", "single.metricmap"})
+  {
+    const auto raster = std::get<OccupancyRaster>(readMapSource(folder / name));
+    EXPECT_GT(std::count(raster.cells.begin(), raster.cells.end(), CellState::solid_wall), 500);
+    EXPECT_NE(warningOfMapSource(folder / name).find("no free space"), std::string::npos) << name;
+  }
+}
+
+TEST(MetricMaps, OfNoUseAreRefusedInOneLine)
+{
+  const TemporaryFolder folder;
+  const auto path = folder / "m.metricmap";
+  const auto expectRefused = [&](const char* reason)
+  {
+    const std::string message = errorOf(path);
+    EXPECT_EQ(message.rfind(path.string() + ": ", 0), 0U) << message;
+    EXPECT_NE(message.find(reason), std::string::npos) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  };
+  expectRefused("no such file");
+  writeText(path, "");
+  expectRefused("empty");
+  writeText(path, "%PDF-1.4\nnothing\n");
+  expectRefused("not an MRPT file");
+  writeObjects(path, {makeScan(1)});
+  expectRefused("holds a 'mrpt::obs::CObservation2DRangeScan'");
+  auto map = mrpt::maps::CMultiMetricMap::Create();
+  map->maps.push_back(mrpt::maps::CBeaconMap::Create());
+  writeObjects(path, {map});
+  expectRefused("neither a grid map");
+  map->maps.push_back(officePoints<mrpt::maps::CSimplePointsMap>());
+  writeObjects(path, {map});
+  detail::GzipInput input(path);
+  std::string bytes(1U << 22U, '\0');
+  bytes.resize(input.Read(bytes.data(), bytes.size()));
+  const std::string whole = readBytes(path);
+  writeText(path, whole.substr(0, whole.size() / 2));
+  EXPECT_FALSE(errorOf(path).empty());
+  // A count of points that is not there.
+  const std::size_t head = bytes.find("CSimplePointsMap") + 17;
+  for (std::size_t i = head; i < head + 4; ++i) bytes[i] = '\xFF';
+  writeText(path, bytes);
+  expectRefused("neither a grid map");
+}
