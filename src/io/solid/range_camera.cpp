@@ -61,6 +61,10 @@ mrpt::img::TCamera camera(ContentReader& in)
   const auto fy = in.value<double>();
   const auto cx = in.value<double>();
   const auto cy = in.value<double>();
+  // MRPT keeps a table for each camera that it has met, and never meets one with a NaN again.
+  double sum = fx + fy + cx + cy + camera.focalLengthMeters;
+  for (const double term : camera.dist) sum += term;
+  if (!std::isfinite(sum)) throw Unusable("its camera is no camera");
   camera.setIntrinsicParamsFromValues(fx, fy, cx, cy);
   camera.nrows = in.value<std::uint32_t>();
   camera.ncols = in.value<std::uint32_t>();
