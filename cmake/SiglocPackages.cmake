@@ -63,6 +63,8 @@ if(SIGLOC_PYTHON AND NOT SIGLOC_CORE_ONLY)
     NEEDS library
     DEPENDS "python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next_python}), python3-numpy"
     RECOMMENDS "python3-lz4")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
+      "${PROJECT_SOURCE_DIR}/cmake/debian/python/postinst" "${PROJECT_SOURCE_DIR}/cmake/debian/python/prerm")
 endif()
 if(SIGLOC_ROS1 AND NOT SIGLOC_CORE_ONLY)
   sigloc_package(ros1 sigloc-ros1 science "the node for ROS 1"
