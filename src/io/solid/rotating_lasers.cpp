@@ -54,6 +54,7 @@ void takeCalibration(ContentReader& in, Velodyne& scan)
   const std::size_t count = in.value<std::uint32_t>();
   if (count > kMostLasers) throw Unusable("damaged");
   const std::string_view lasers = in.items(count, sizeof(Laser));
+  scan.calibration.laser_corrections.reserve(count);
   for (std::size_t i = 0; i < count; ++i)
     scan.calibration.laser_corrections.push_back(itemOf<Laser>(lasers, i));
 }
