@@ -69,6 +69,7 @@ std::vector<double> rowAngles(std::string_view model, std::size_t rows)
   if (name.empty() || lasers.size() != rows)
     throw Unusable("the angles of its " + std::to_string(rows) + " rows are not known");
   std::vector<double> angles;
+  angles.reserve(rows);
   for (const auto& laser : lasers) angles.push_back(laser.verticalCorrection);
   return angles;
 }
