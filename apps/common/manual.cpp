@@ -101,7 +101,7 @@ std::string typedOptions(const CLI::App& command)
 
 std::string manPage(const CLI::App& app, const std::string& source)
 {
-  const std::string name = app.get_name();
+  const std::string& name = app.get_name();
   std::string title = name;
   std::transform(title.begin(), title.end(), title.begin(),
                  [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
@@ -124,7 +124,7 @@ std::string manPage(const CLI::App& app, const std::string& source)
 
 std::string bashCompletion(const CLI::App& app)
 {
-  const std::string name = app.get_name();
+  const std::string& name = app.get_name();
   std::string function = "_" + name;
   std::replace(function.begin(), function.end(), '-', '_');
   const auto commands = commandsOf(app);

@@ -116,7 +116,7 @@ std::set<std::vector<std::uint32_t>> linkedByDefinition(const std::vector<Featur
 
 TEST(LinkWalls, FollowsItsDefinition)
 {
-  for (const std::uint64_t seed : {1, 2, 3, 4, 5})
+  for (const std::uint64_t seed : {1U, 2U, 3U, 4U, 5U})
   {
     const std::vector<Feature> walls = randomWalls(150, seed);
     const auto linked = membersOf(linkWalls(walls));

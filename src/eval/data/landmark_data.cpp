@@ -162,7 +162,8 @@ std::vector<LandmarkStep> readCircles(const std::filesystem::path& path)
     if (cells.empty()) continue;
     if (cells[0] == "STEP")
     {
-      cells.erase(cells.begin(), cells.begin() + std::min<std::ptrdiff_t>(2, cells.size()));
+      const auto header = static_cast<std::ptrdiff_t>(std::min<std::size_t>(2, cells.size()));
+      cells.erase(cells.begin(), cells.begin() + header);
       const Row row = numbersOf(cells, 9, path, i);
       // Here the covariance is xx, xy, yy, xt, yt, tt.
       steps.emplace_back();

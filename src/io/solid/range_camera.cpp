@@ -98,7 +98,7 @@ void takeRanges(ContentReader& in, int version, mrpt::obs::CObservation3DRangeSc
   const std::size_t count = rows * columns;
   const bool in_metres = version < kInUnits;
   const std::string_view data = in.items(count, in_metres ? sizeof(float) : sizeof(std::uint16_t));
-  scan.rangeImage.resize(static_cast<int>(rows), static_cast<int>(columns));
+  scan.rangeImage.resize(rows, columns);
   for (std::size_t i = 0; i < count; ++i)
   {
     constexpr double kMost = 65535;
@@ -106,7 +106,7 @@ void takeRanges(ContentReader& in, int version, mrpt::obs::CObservation3DRangeSc
                                          static_cast<double>(scan.rangeUnits)
                                    : itemOf<std::uint16_t>(data, i);
     const bool valid = units > 0 && units <= kMost;
-    scan.rangeImage(static_cast<int>(i / columns), static_cast<int>(i % columns)) =
+    scan.rangeImage(i / columns, i % columns) =
         valid ? static_cast<std::uint16_t>(std::lround(units)) : std::uint16_t{0};
   }
   if (in_metres) in.end();
