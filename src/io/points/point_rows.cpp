@@ -41,7 +41,7 @@ std::optional<mrpt::math::TPoint3Df> pointOf(const Row& row)
 /// Returns whether most points have another near them.
 bool areDense(const PointList& points)
 {
-  const auto keyOf = [](double x, double y)
+  const auto key_of = [](double x, double y)
   {
     const auto column = static_cast<std::int32_t>(std::floor(x / kApart));
     const auto row = static_cast<std::int32_t>(std::floor(y / kApart));
@@ -50,8 +50,8 @@ bool areDense(const PointList& points)
   };
   std::unordered_map<std::uint64_t, std::vector<std::size_t>> cells;
   for (std::size_t i = 0; i < points.size(); ++i)
-    cells[keyOf(static_cast<double>(points[i].x), static_cast<double>(points[i].y))].push_back(i);
-  const auto hasNeighbour = [&](std::size_t i)
+    cells[key_of(static_cast<double>(points[i].x), static_cast<double>(points[i].y))].push_back(i);
+  const auto has_neighbour = [&](std::size_t i)
   {
     const auto x = static_cast<double>(points[i].x);
     const auto y = static_cast<double>(points[i].y);
@@ -59,7 +59,7 @@ bool areDense(const PointList& points)
     {
       for (const double dy : {-kApart, 0.0, kApart})
       {
-        const auto cell = cells.find(keyOf(x + dx, y + dy));
+        const auto cell = cells.find(key_of(x + dx, y + dy));
         if (cell == cells.end()) continue;
         // Of a cell with several points one is near enough: not all need to be looked at.
         const std::size_t other =
@@ -72,7 +72,7 @@ bool areDense(const PointList& points)
     return false;
   };
   std::size_t near = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) near += hasNeighbour(i) ? 1 : 0;
+  for (std::size_t i = 0; i < points.size(); ++i) near += has_neighbour(i) ? 1 : 0;
   return 2 * near > points.size();
 }
 }  // namespace
