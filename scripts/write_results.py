@@ -16,7 +16,7 @@ from results import drives, growth, integrity, plots, scans, shortcomings, simul
 from results.page import bullets, paragraph
 from results.runs import BadInput, Bench
 
-MAX_LINES = 240
+MAX_LINES = 260
 
 
 def introduction(bench):

@@ -156,7 +156,7 @@ class ResultsTest(unittest.TestCase):
 
     def test_page_keeps_to_its_style(self):
         lines = self.page().splitlines()
-        self.assertLessEqual(len(lines), 240)
+        self.assertLessEqual(len(lines), 260)
         text = " ".join(line for line in lines if line and line[0] not in "|#!")
         for sentence in re.split(r"[.?] |\* \*\*", text):
             self.assertLessEqual(len(sentence.split()), 30, sentence)
