@@ -251,8 +251,8 @@ bool HypothesisTracker::State::wantsRelocation() const
          (retained ? options.confirmation_distance : options.relocation_distance);
 }
 
-/// A relocation does not depend on the tracks. So it is evidence for a track, for "somewhere else",
-/// and for poses without a track. Eq. (8.7) to (8.9)
+/// A relocation does not depend on the tracks. So it is evidence for a track, may overrule all of
+/// them, and starts tracks at poses without one. Eq. (8.7), (8.9)
 void HypothesisTracker::State::relocate(const ObservedScene& scene, const DenseScan& scan)
 {
   const RelocationResult result = matcher->localize(scene, waking_up ? region : std::nullopt);

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "command_line.h"
-#include "sigloc/io/map_files.h"
+#include "office_image.h"
 
 namespace sigloc
 {
@@ -15,21 +15,10 @@ using namespace sigloc::test;
 
 constexpr const char* kResolution = "0.05";
 
-/// The office's grid as `office.png`'s plainer brother, `office.pgm`, with walls black.
+/// The office's grid as `office.pgm`, and the `office.yaml` that goes with it.
 void writeImage(const TemporaryFolder& folder)
 {
-  const auto raster = std::get<OccupancyRaster>(readMapSource(kSources / "maps/office.gridmap.gz"));
-  std::string image = "P5\n" + std::to_string(raster.frame.width) + " " +
-                      std::to_string(raster.frame.height) + "\n255\n";
-  for (std::uint32_t row = raster.frame.height; row-- > 0;)
-  {
-    for (std::uint32_t x = 0; x < raster.frame.width; ++x)
-    {
-      const CellState state = raster.cells[std::size_t{row} * raster.frame.width + x];
-      image.push_back(static_cast<char>(isWall(state) ? 0 : state == CellState::free ? 254 : 205));
-    }
-  }
-  writeText(folder / "office.pgm", image);
+  writeText(folder / "office.pgm", imageOf(officeRaster()));
   writeText(folder / "office.yaml", "image: office.pgm\nresolution: " + std::string(kResolution) +
                                         "\norigin: [0, 0, 0]\nnegate: 0\n"
                                         "occupied_thresh: 0.65\nfree_thresh: 0.196\n");

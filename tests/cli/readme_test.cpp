@@ -7,10 +7,9 @@
 
 #include <nlohmann/json.hpp>
 #include <sstream>
-#include <variant>
 
 #include "command_line.h"
-#include "sigloc/io/map_files.h"
+#include "office_image.h"
 
 namespace sigloc
 {
@@ -47,19 +46,8 @@ std::vector<std::string> blocksOf(const std::string& kind)
 /// The office's grid as `my_map.yaml` with its image.
 void writeRosMap(const TemporaryFolder& folder)
 {
-  const auto raster = std::get<OccupancyRaster>(readMapSource(kSources / "maps/office.gridmap.gz"));
-  std::string image = "P5\n" + std::to_string(raster.frame.width) + " " +
-                      std::to_string(raster.frame.height) + "\n255\n";
-  for (std::uint32_t row = raster.frame.height; row-- > 0;)
-  {
-    for (std::uint32_t column = 0; column < raster.frame.width; ++column)
-    {
-      const CellState state = raster.cells[std::size_t{row} * raster.frame.width + column];
-      const int grey = isWall(state) ? 0 : state == CellState::free ? 254 : 205;
-      image.push_back(static_cast<char>(grey));
-    }
-  }
-  writeText(folder / "my_map.pgm", image);
+  const OccupancyRaster raster = officeRaster();
+  writeText(folder / "my_map.pgm", imageOf(raster));
   std::ostringstream yaml;
   yaml << "image: my_map.pgm\nresolution: " << raster.frame.resolution << "\norigin: ["
        << raster.frame.origin.x << ", " << raster.frame.origin.y
@@ -70,7 +58,7 @@ void writeRosMap(const TemporaryFolder& folder)
 /// The walls of the office as `my_points.ply`, one point a cell.
 void writePoints(const TemporaryFolder& folder)
 {
-  const auto raster = std::get<OccupancyRaster>(readMapSource(kSources / "maps/office.gridmap.gz"));
+  const OccupancyRaster raster = officeRaster();
   const RasterFrame& frame = raster.frame;
   std::ostringstream rows;
   std::size_t count = 0;

@@ -37,9 +37,9 @@ class TrackSet
   /// Eq. (8.3), (8.4)
   void update(const DenseScan& scan, const DenseVerifier& verifier);
 
-  /// Weighs tracks against each other and the best one against "somewhere else". The scan is taken
-  /// after `travelled` [m] in all, `travel` [m] after the one before. Where there are tracks, also
-  /// updates the mean share that the best one leaves unexplained. Eq. (8.5), (8.26)
+  /// Weighs tracks against each other. The scan is taken after `travelled` [m] in all, `travel` [m]
+  /// after the one before. Where there are tracks, also updates the mean share that the best one
+  /// leaves unexplained. Eq. (8.5), (8.26)
   void weigh(const DenseScan& scan, const DenseVerifier& verifier, double travelled, double travel);
 
   /// Adds the last scan to the observed cells of a track that starts with it.
