@@ -146,10 +146,13 @@ RelocationResult SignatureMatcher::localize(const ObservedScene& scene,
     concludeDensely(scene, scan, verified, hypotheses, result);
     return result;
   }
+  // Log-odds do not tie as scores in a field do.
+  const std::size_t most =
+      std::min<std::size_t>(options_.max_candidates, DenseVerifier::kUsuallyRanked);
   std::optional<double> place_background;
   for (FeatureHypothesis& hypothesis : hypotheses)
   {
-    if (result.candidates.size() == options_.max_candidates) break;
+    if (result.candidates.size() == most) break;
     if (region && !region->contains(hypothesis.pose.mean)) continue;
     Candidate candidate;
     candidate.pose = hypothesis.pose;

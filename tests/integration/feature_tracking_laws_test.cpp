@@ -213,6 +213,18 @@ MotionIncrement drift()
   return motion;
 }
 
+TEST(FeatureMatching, ListsTenOfTwentyCopiesOfAPattern)
+{
+  constexpr double kApart = 60;  // [m]
+  std::vector<Feature> map;
+  for (int copy = 0; copy < 20; ++copy)
+  {
+    for (const TPoint2D& p : kPattern) map.push_back(landmarkAt({copy * kApart + p.x, p.y}, 0.01));
+  }
+  const SignatureMatcher matcher(std::make_shared<const FeatureMap>(map));
+  EXPECT_EQ(matcher.localize(sceneOf(kPattern)).candidates.size(), 10U);
+}
+
 TEST(FeatureTracking, SplitsWhereTwoPairingsAreAsGoodAndJoinsAgain)
 {
   TrackerOptions options;

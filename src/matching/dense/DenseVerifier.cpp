@@ -42,7 +42,6 @@ constexpr std::size_t kFinallyRefined = 4;  // poses that are refined
 constexpr int kLastSteps = 12;  // of refinement on all returns
 constexpr double kLastLoss = 0.01;  // of the score that it may cost
 // All stages:
-constexpr std::size_t kUsuallyRanked = 10;  // distinct poses; more only where they tie
 constexpr double kTie = 0.03;  // of the score behind the best, up to which poses tie
 constexpr double kApartDistance = 0.08;  // [m] between distinct poses after stage 2
 

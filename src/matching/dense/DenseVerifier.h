@@ -29,6 +29,9 @@ class DenseVerifier
   /// A pose may still win, or be the best rival, if it scores less than this below the best.
   static constexpr double kContender = 0.2;
 
+  /// Distinct poses that are listed; more only where their scores tie.
+  static constexpr std::size_t kUsuallyRanked = 10;
+
   /// Keeps a reference to the field, which must outlive the verifier. `wall_blur` [m] is how far
   /// the field's ridges lie from the walls. Throws std::invalid_argument for a field without cells.
   explicit DenseVerifier(const DenseField& field, double wall_blur = 0);
