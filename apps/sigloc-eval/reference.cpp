@@ -5,6 +5,7 @@
 #include "commands.h"
 #include "eval/data/reference_path.h"
 #include "eval/reports/report_files.h"
+#include "reading_arguments.h"
 #include "sigloc/io/file_output.h"
 
 namespace sigloc
@@ -16,6 +17,7 @@ struct ReferenceFlags
   std::filesystem::path map;
   std::filesystem::path rawlog;
   std::vector<double> last;
+  ReadingArguments reading;
   std::filesystem::path out;
 
   int run() const
@@ -23,7 +25,7 @@ struct ReferenceFlags
     checkWritableFolder(out.has_parent_path() ? out.parent_path() : ".");
     refuseToReplaceInputs(out, inputFiles(map, {rawlog}));
     checkReferenceFile(out);
-    const ReferencePath reference = referencePath(map, rawlog, poseOfFlag(last));
+    const ReferencePath reference = referencePath(map, rawlog, poseOfFlag(last), reading.in());
     writeReferencePath(reference, out);
     std::cout << reference.poses.size() << " poses; the worst scan has "
               << static_cast<int>(100 * reference.worst_goodness) << " % of its points paired\n";
@@ -38,6 +40,7 @@ std::function<int()> setUpReference(CLI::App& command, const std::string& /*comm
   command.add_option("--map", flags->map, "a map of scans, as sigloc-map build takes")->required();
   command.add_option("--rawlog", flags->rawlog, "with odometry")->required();
   addPoseOption(command, "--last", flags->last, "the known pose at the end of the log")->required();
+  flags->reading.declare(command);
   command.add_option("--out", flags->out, "file for the rows `time x y phi`")->required();
   return [flags] { return flags->run(); };
 }

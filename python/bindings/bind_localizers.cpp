@@ -12,6 +12,7 @@
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
 #include "bindings/observations.h"
+#include "bindings/options.h"
 #include "bindings/results.h"
 #include "io/motion_conversion.h"
 #include "sigloc/matching/SignatureMatcher.h"
@@ -23,51 +24,6 @@ namespace py = pybind11;
 
 namespace
 {
-/// The options that keywords set. Raises TypeError for a keyword that is no option or a value of
-/// another type.
-template <class Options>
-Options optionsOf(const py::kwargs& keywords)
-{
-  Options options;
-  py::dict left(keywords.attr("copy")());
-  Options::visitFields(
-      [&](const auto& field)
-      {
-        if (!left.contains(field.key)) return;
-        using T = std::decay_t<decltype(options.*(field.member))>;
-        try
-        {
-          options.*(field.member) = left[field.key].template cast<T>();
-        }
-        catch (const py::cast_error&)
-        {
-          throw py::type_error(std::string("option '") + field.key + "' is of another type");
-        }
-        left.attr("pop")(field.key);
-      });
-  for (const auto& [key, value] : left)
-  {
-    const auto name = key.template cast<std::string>();
-    throw py::type_error("no such option: '" + name + "'" +
-                         didYouMean(name, optionKeys<Options>()));
-  }
-  return options;
-}
-
-/// A line an option, for a docstring.
-template <class Options>
-std::string describeOptions(const char* before)
-{
-  std::string text = before;
-  Options::visitFields(
-      [&](const auto& field)
-      {
-        text += std::string("\n") + field.key + " = " +
-                detail::formatValue(Options{}.*(field.member)) + ": " + field.description;
-      });
-  return text;
-}
-
 using SharedMatcher = std::shared_ptr<SignatureMatcher>;
 
 SharedMatcher makeLocalizer(const std::shared_ptr<FeatureMap>& map, const py::kwargs& keywords)

@@ -10,6 +10,8 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <tuple>
+#include <utility>
 
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
@@ -27,10 +29,12 @@ using SharedMap = std::shared_ptr<FeatureMap>;
 constexpr int kPercentOfWall = 100;
 constexpr int kPercentUnknown = -1;
 
-SharedMap loadMap(const std::filesystem::path& path, double resolution)
+SharedMap loadMap(const std::filesystem::path& path, double resolution,
+                  const std::pair<double, double>& heights)
 {
   ReadingOptions reading;
   reading.image_resolution = resolution;
+  std::tie(reading.min_height, reading.max_height) = heights;
   SharedMap map;
   withFile([&]
            { map = std::make_shared<FeatureMap>(buildMapFromFile(path, {}, {}, {}, reading)); });
@@ -145,12 +149,15 @@ void bindMaps(py::module_& module)
       "The known map: walls, corners, pillars and landmarks, and where "
       "there is one the grid that scans are compared with. It never "
       "changes, and threads may share it.")
-      .def_static("load", &loadMap, py::arg("path"), py::kw_only(), py::arg("resolution") = 0.0,
-                  "Reads a map of any kind that sigloc-map takes: a ROS map (.yaml), .simplemap, "
-                  ".gridmap, CARMEN log, landmark table (.csv) or .sigmap. All but the last are "
-                  "built now, which takes seconds; save() keeps the result.\n\n"
-                  "resolution: [m] a pixel, for a map that is an image alone (.pgm, .png).\n\n"
-                  "Raises OSError for a file that is missing, damaged or no map.")
+      .def_static(
+          "load", &loadMap, py::arg("path"), py::kw_only(), py::arg("resolution") = 0.0,
+          py::arg("heights") = std::pair(ReadingOptions().min_height, ReadingOptions().max_height),
+          "Reads a map of any kind that sigloc-map takes: a ROS map (.yaml), .simplemap, "
+          ".gridmap, CARMEN log, landmark table (.csv) or .sigmap. All but the last are "
+          "built now, which takes seconds; save() keeps the result.\n\n"
+          "resolution: [m] a pixel, for a map that is an image alone (.pgm, .png).\n"
+          "heights: (low, high) [m] above the map's origin: which 3D points are walls.\n\n"
+          "Raises OSError for a file that is missing, damaged or no map.")
       .def_static("from_grid", &mapFromGrid, py::arg("array"), py::arg("resolution"),
                   py::arg("origin") = py::make_tuple(0.0, 0.0),
                   "Builds the map of an occupancy grid.\n\n"

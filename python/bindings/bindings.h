@@ -13,4 +13,5 @@ void bindObservations(pybind11::module_& module);
 void bindLogWriting(pybind11::module_& module);
 void bindResults(pybind11::module_& module);
 void bindLocalizers(pybind11::module_& module);
+void bindPolicy(pybind11::module_& module);
 }  // namespace sigloc::python

@@ -12,4 +12,5 @@ PYBIND11_MODULE(_sigloc, module)
   sigloc::python::bindLogWriting(module);
   sigloc::python::bindResults(module);
   sigloc::python::bindLocalizers(module);
+  sigloc::python::bindPolicy(module);
 }

@@ -8,17 +8,19 @@
     if answer.verdict == sigloc.Verdict.LOCALIZED:
         x, y, heading = answer.hypotheses[0].pose
 
-A Tracker does the same over time. Angles are in radians and counter-clockwise, everything else is in
+A Tracker does the same over time, and a Policy says when a robot may use its pose. Angles are in radians and counter-clockwise, everything else is in
 SI units. Poses are those of the robot in the map's frame. Same input, same answer. Bad values raise
 ValueError and files that cannot be used OSError, with the reason in one line. Nothing is printed.
 """
 from ._sigloc import (
     Answer,
+    Decision,
     Hypothesis,
     Landmarks,
     Localizer,
     Log,
     Map,
+    Policy,
     Region,
     Scan,
     Step,
@@ -30,11 +32,13 @@ from ._sigloc import (
 
 __all__ = [
     "Answer",
+    "Decision",
     "Hypothesis",
     "Landmarks",
     "Localizer",
     "Log",
     "Map",
+    "Policy",
     "Region",
     "Scan",
     "Step",

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Types; what arguments and values mean is in the docstrings, help(sigloc) shows them.
 import os
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any, Optional, Union
 
 import numpy
@@ -16,11 +16,13 @@ _Numbers = numpy.typing.ArrayLike
 
 __all__ = [
     "Answer",
+    "Decision",
     "Hypothesis",
     "Landmarks",
     "Localizer",
     "Log",
     "Map",
+    "Policy",
     "Region",
     "Scan",
     "Step",
@@ -34,7 +36,9 @@ __version__: str
 
 class Map:
     @staticmethod
-    def load(path: _Path, *, resolution: float = 0.0) -> Map: ...
+    def load(
+        path: _Path, *, resolution: float = 0.0, heights: tuple[float, float] = (0.2, 1.5)
+    ) -> Map: ...
     @staticmethod
     def from_grid(
         array: numpy.typing.NDArray[Any], resolution: float, origin: _Numbers = (0.0, 0.0)
@@ -226,3 +230,43 @@ class Tracker:
     @property
     def relocated(self) -> bool: ...
     def reset(self, region: Optional[Region] = None) -> None: ...
+
+class Decision:
+    @property
+    def state(self) -> str: ...
+    @property
+    def pose(self) -> Optional[_Float64]: ...  # (3,)
+    @property
+    def covariance(self) -> Optional[_Float64]: ...  # (3, 3)
+    @property
+    def announce(self) -> bool: ...
+    @property
+    def restart(self) -> bool: ...
+    @property
+    def alarm(self) -> bool: ...
+    @property
+    def message(self) -> str: ...
+
+class Policy:
+    def __init__(
+        self,
+        *,
+        confirm_steps: int = ...,
+        confirm_time: float = ...,
+        agree_distance: float = ...,
+        agree_turn: float = ...,
+        lost_time: float = ...,
+        disagree_time: float = ...,
+        settle_time: float = ...,
+        attempt_time: float = ...,
+        max_attempts: int = ...,
+    ) -> None: ...
+    def update(
+        self,
+        time: float,
+        answer: Answer,
+        motion: Optional[_Numbers] = None,  # (3,)
+        filter_pose: Optional[_Numbers] = None,  # (3,)
+        localize_alone: Optional[Callable[[], Answer]] = None,
+    ) -> Decision: ...
+    def request_restart(self) -> None: ...

@@ -29,7 +29,8 @@ TPose2D planar(const mrpt::poses::CPose3D& pose)
 LocalizationNode::LocalizationNode(const NodeParameters& parameters)
     : parameters_(parameters), policy_(parameters.policy), listener_(transforms_)
 {
-  if (!parameters_.map_file.empty()) useMap(buildMapFromFile(parameters_.map_file, {}, {}));
+  if (!parameters_.map_file.empty())
+    useMap(buildMapFromFile(parameters_.map_file, {}, {}, {}, parameters_.reading));
   initial_pose_ = node_.advertise<geometry_msgs::PoseWithCovarianceStamped>("initialpose", 1);
   pose_ = node_.advertise<geometry_msgs::PoseWithCovarianceStamped>("sigloc_pose", 10);
   hypotheses_ = node_.advertise<geometry_msgs::PoseArray>("hypotheses", 10);

@@ -18,6 +18,7 @@
 
 #include "localize/RelocalizationPolicy.h"
 #include "ros1/OdometryTrack.h"
+#include "sigloc/io/RawlogReader.h"
 #include "sigloc/matching/SignatureMatcher.h"
 #include "sigloc/tracking/HypothesisTracker.h"
 
@@ -27,6 +28,7 @@ namespace sigloc::ros1
 struct NodeParameters
 {
   std::string map_file;  ///< empty: the topic `map`
+  ReadingOptions reading;  ///< reading/KEY, of map_file
   std::string map_frame = "map";
   std::string odom_frame = "odom";
   std::string base_frame = "base_link";

@@ -59,6 +59,7 @@ NodeParameters readParameters(const ros::NodeHandle& parameters)
   {
     throw std::invalid_argument("parameter transform_tolerance is not within [0, 10] s");
   }
+  readOptions(parameters, "reading", read_ones.reading);
   readOptions(parameters, "tracker", read_ones.tracker);
   readOptions(parameters, "policy", read_ones.policy);
   return read_ones;

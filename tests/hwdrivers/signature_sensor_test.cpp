@@ -14,6 +14,7 @@
 #include <cmath>
 
 #include "bridge/rawlog_files.h"
+#include "hwdrivers/RawlogReplay.h"
 #include "sigloc/plugin/ObservationSignatures.h"
 
 using namespace sigloc;
@@ -135,6 +136,31 @@ TEST(SignatureSensor, TurnsTheMotionOfPairsIntoOdometry)
   EXPECT_EQ(last->timestamp, all[4]->timestamp);
 }
 
+TEST(SignatureSensor, PlaysALogAtThePaceAskedFor)
+{
+  const TemporaryFolder folder;
+  const auto path = folder / "in.rawlog";
+  constexpr double kHour = 3600;
+  writeObjects(path, {makeScan(1), makeScan(1), makeScan(1 + kHour)});
+  EXPECT_EQ(playAll(*sensorWith(config(path.string(), "pace=1\n"))).size(), 4U)
+      << "the last is due in an hour, with its features";
+  EXPECT_EQ(playAll(*sensorWith(config(path.string(), "pace=0\n"))).size(), 6U);
+  const std::string refused =
+      messageOf<std::exception>([&] { sensorWith(config(path.string(), "pace=-1\n")); });
+  EXPECT_NE(refused.find("pace must be in"), std::string::npos) << refused;
+}
+
+TEST(ReplayPace, EntriesAreDueWhenTheyWereRecorded)
+{
+  ReplayPace twice(2);
+  EXPECT_TRUE(twice.isDue(1e9, 50)) << "the first, whatever the clocks show";
+  EXPECT_FALSE(twice.isDue(1e9 + 4, 51.9));
+  EXPECT_TRUE(twice.isDue(std::nullopt, 51.9)) << "what has no time waits for nothing";
+  EXPECT_TRUE(twice.isDue(1e9 + 4, 52.1));
+  EXPECT_TRUE(twice.isDue(1e9 - 100, 52.1)) << "a time that jumps back is past";
+  EXPECT_TRUE(ReplayPace(0).isDue(1e9, 0));
+}
+
 TEST(SignatureSensor, RefusesWhatItDoesNotKnow)
 {
   const auto message = [](const mrpt::config::CConfigFileMemory& ini)
@@ -153,7 +179,8 @@ TEST(SignatureSensor, RefusesWhatItDoesNotKnow)
 
 TEST(SignatureSensor, TakesTheShippedFilesOfEveryLaser)
 {
-  for (const char* const name : {"rawlog-grabber.ini", "rawlog-sick.ini", "rawlog-rplidar.ini"})
+  for (const char* const name :
+       {"rawlog-grabber.ini", "rawlog-sick.ini", "rawlog-rplidar.ini", "rawlog-replay.ini"})
   {
     const mrpt::config::CConfigFile ini(std::string(SIGLOC_SHARE_FOLDER) + "/" + name);
     const auto sensor =

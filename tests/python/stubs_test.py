@@ -30,7 +30,7 @@ def test_stubs_are_those_of_the_module(tmp_path):
     # nobody makes a constructor that only refuses. typing.NamedTuple is a function.
     allowed = tmp_path / "allowed"
     allowed.write_text("sigloc._sigloc\nsigloc\\.[A-Z]\\w+\n"
-                       "sigloc\\.(Answer|Hypothesis|Map|Step)\\.__init__\n"
+                       "sigloc\\.(Answer|Decision|Hypothesis|Map|Step)\\.__init__\n"
                        "sigloc\\.\\w+\\.NamedTuple\n")  # fmt: skip
     mypy(tmp_path, "mypy.stubtest", "sigloc", "--allowlist", str(allowed), "--ignore-unused-allowlist")
 

@@ -315,6 +315,7 @@ def test_leaves_out_what_cannot_be_used(start, bag):
         ({"policy/confirm_steps": 0}, "confirm_steps"),
         ({"policy/confirm_steps": -3}, "confirm_steps"),
         ({"tracker/suspicion": 7.0}, "suspicion"),
+        ({"reading/min_height": 500.0}, "min_height"),
     ],
 )
 def test_ends_at_once_with_parameters_that_cannot_be_used(master, parameters, reason):

@@ -36,9 +36,10 @@ void addPoints(const LaserScan& scan, const TPose2D& frame, mrpt::maps::CSimpleP
   }
 }
 
-mrpt::maps::CSimplePointsMap mapPoints(const std::filesystem::path& path)
+mrpt::maps::CSimplePointsMap mapPoints(const std::filesystem::path& path,
+                                       const ReadingOptions& reading)
 {
-  const MapSource source = readMapSource(path);
+  const MapSource source = readMapSource(path, reading);
   const auto* scans = std::get_if<std::vector<PosedScans>>(&source);
   if (!scans) throw std::runtime_error(path.string() + ": holds no scans with poses");
   mrpt::maps::CSimplePointsMap points;
@@ -49,10 +50,10 @@ mrpt::maps::CSimplePointsMap mapPoints(const std::filesystem::path& path)
   return points;
 }
 
-std::vector<RawlogStep> readSteps(const std::filesystem::path& path)
+std::vector<RawlogStep> readSteps(const std::filesystem::path& path, const ReadingOptions& reading)
 {
   std::vector<RawlogStep> steps;
-  RawlogReader reader(path);
+  RawlogReader reader(path, reading);
   while (auto step = reader.next())
   {
     if (step->scans.empty()) continue;
@@ -83,10 +84,10 @@ mrpt::slam::CICP alignment()
 }  // namespace
 
 ReferencePath referencePath(const std::filesystem::path& map, const std::filesystem::path& rawlog,
-                            const TPose2D& last)
+                            const TPose2D& last, const ReadingOptions& reading)
 {
-  const mrpt::maps::CSimplePointsMap map_points = mapPoints(map);
-  const std::vector<RawlogStep> steps = readSteps(rawlog);
+  const mrpt::maps::CSimplePointsMap map_points = mapPoints(map, reading);
+  const std::vector<RawlogStep> steps = readSteps(rawlog, reading);
   mrpt::slam::CICP icp = alignment();
   ReferencePath reference;
   reference.poses.resize(steps.size());

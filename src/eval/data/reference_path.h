@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <vector>
 
+#include "sigloc/io/RawlogReader.h"
+
 namespace sigloc
 {
 /// A pose that a log's robot had.
@@ -31,7 +33,7 @@ struct ReferencePath
 /// and a log without odometry. Throws the same where ICP pairs less than 0.3 of a scan's points
 /// with the map.
 ReferencePath referencePath(const std::filesystem::path& map, const std::filesystem::path& rawlog,
-                            const mrpt::math::TPose2D& last);
+                            const mrpt::math::TPose2D& last, const ReadingOptions& reading = {});
 
 /// Throws std::runtime_error ("path: reason") where writeReferencePath() would replace any file but
 /// one that it wrote earlier. The first line of a file shows that.
