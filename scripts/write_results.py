@@ -16,7 +16,7 @@ from results import drives, growth, integrity, plots, scans, shortcomings, simul
 from results.page import bullets, paragraph
 from results.runs import BadInput, Bench
 
-MAX_LINES = 260
+MAX_LINES = 300
 
 
 def introduction(bench):
@@ -40,7 +40,7 @@ def introduction(bench):
 
 def page(bench, drawn):
     makers = (scans.data, scans.one_scan, scans.foreign, drives.wake_ups, drives.particle_filter,
-              integrity.misleading, integrity.coverage, integrity.reliability,
+              integrity.misleading, integrity.apart, integrity.coverage, integrity.reliability,
               drives.landmarks, simulated.wake_ups, simulated.foreign, simulated.sweeps,
               growth.growth, growth.area, growth.lost)  # fmt: skip
     sections = [maker(bench) for maker in makers]

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iostream>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include "commands.h"
@@ -31,8 +32,9 @@ struct TrackFlags
 
   int run(const std::string& command_line)
   {
-    checkReportFolder(common.out, inputFiles(options.map, {options.rawlog, options.ground_truth,
-                                                           options.start_from}));
+    checkReportFolder(common.out,
+                      inputFiles(options.map, {options.frames, options.rawlog, options.ground_truth,
+                                               options.start_from}));
     const WakeupReport report =
         simulated.drives > 0 ? runSimulated(command_line) : runLog(command_line);
     writeWakeupReport(report, common.out);
@@ -67,12 +69,14 @@ struct TrackFlags
     {
       options.gates.right_distance = 1.0;  // its truth is itself off by up to 0.3 m
     }
-    for (const auto& [path, name] :
-         {std::pair{options.map, "--map"}, std::pair{options.rawlog, "--rawlog"},
-          std::pair{options.ground_truth, "--ground-truth"}})
+    const bool own_frames = !options.frames.empty();
+    const bool drives_frames = own_frames && options.rawlog.empty();
+    for (const auto& [path, name, spared] :
+         {std::tuple{options.map, "--map", own_frames},
+          std::tuple{options.rawlog, "--rawlog", own_frames},
+          std::tuple{options.ground_truth, "--ground-truth", options.foreign || drives_frames}})
     {
-      const bool needed = !landmarks && !(options.foreign && name == std::string("--ground-truth"));
-      if (path.empty() && needed)
+      if (path.empty() && !landmarks && !spared)
       {
         throw std::invalid_argument(std::string(name) + " is required");
       }
@@ -115,8 +119,9 @@ void declareSimulation(CLI::App& command, TrackFlags& flags)
           .add_option("--simulate", options.drives,
                       "drives in simulated worlds, instead of --map, --rawlog, --ground-truth")
           ->check(numberFrom(1, 1e7));
-  for (const char* of_logs : {"--map", "--rawlog", "--ground-truth", "--start-from",
-                              "--map-from-truth", "--starts", "--landmarks", "--landmark-folder"})
+  for (const char* of_logs :
+       {"--map", "--frames", "--rawlog", "--ground-truth", "--start-from", "--map-from-truth",
+        "--starts", "--apart", "--landmarks", "--landmark-folder"})
   {
     simulate->excludes(command.get_option(of_logs));
   }
@@ -125,7 +130,7 @@ void declareSimulation(CLI::App& command, TrackFlags& flags)
     command.get_option("--foreign")->excludes(command.get_option(of_truth));
   }
   for (const char* of_scans :
-       {"--map", "--rawlog", "--ground-truth", "--start-from", "--map-from-truth"})
+       {"--map", "--frames", "--rawlog", "--ground-truth", "--start-from", "--map-from-truth"})
   {
     command.get_option("--landmarks")->excludes(command.get_option(of_scans));
   }
@@ -161,6 +166,14 @@ std::function<int()> setUpTrack(CLI::App& command, const std::string& command_li
   command.add_option("--rawlog", options.rawlog, "the drive");
   command.add_option("--ground-truth", options.ground_truth,
                      "truth of the drive: rows `time x y phi`, 3 or 7 columns, or a simplemap");
+  CLI::Option* const frames =
+      command
+          .add_option("--frames", options.frames,
+                      "simplemap of a whole drive: its first 60 % are the map, robots wake up in "
+                      "the rest, on mapped area; without --rawlog its odometry is made")
+          ->excludes("--map");
+  command.add_flag("--reversed", options.reversed, "the last 60 % of --frames are the map")
+      ->needs(frames);
   command.add_option("--landmarks", options.landmarks,
                      "dlr or victoria-park: a landmark log in place of these");
   command.add_option("--landmark-folder", options.landmark_folder, "where it is");
@@ -168,6 +181,9 @@ std::function<int()> setUpTrack(CLI::App& command, const std::string& command_li
       .add_option("--starts", options.starts,
                   "places to wake up at, spaced along the drive; more than it has are refused")
       ->capture_default_str();
+  command
+      .add_flag("--apart", options.apart, "as many starts as there are whose drives do not overlap")
+      ->excludes("--starts");
   addNumber(command, "--travel", options.travel, "[m] driven after each", 0, 1e6);
   command.add_option("--start-from", options.start_from,
                      "simplemap: wake up only where its key frames were taken");
@@ -178,6 +194,10 @@ std::function<int()> setUpTrack(CLI::App& command, const std::string& command_li
   command.add_flag("--kidnap", options.kidnap, "half-way, carry the robot to another start");
   addPoseOption(command, "--map-from-truth", flags->map_from_truth,
                 "frame of the truth in the map");
+  for (const char* of_two_files : {"--start-from", "--foreign", "--map-from-truth"})
+  {
+    frames->excludes(command.get_option(of_two_files));
+  }
   declareSimulation(command, *flags);
   flags->common.declare(command, trackingMethodNames());
   return [flags, command_line] { return flags->run(command_line); };

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Intervals and fits, and how they are written."""
 import math
+import random
 
 Z = 1.959964
 # 97.5 % points of Student's t, from one degree of freedom on.
@@ -35,6 +36,17 @@ def upper_bound(count, cases, confidence=0.95):
         middle = (low + high) / 2
         low, high = (low, middle) if seldom(middle) else (middle, high)
     return high
+
+
+def bootstrap(blocks, draws=10000):
+    """The 95 % interval of a share whose cases hang together in blocks of (count, cases)."""
+    chance = random.Random(1)
+    shares = []
+    for _ in range(draws):
+        drawn = chance.choices(blocks, k=len(blocks))
+        shares.append(sum(count for count, _ in drawn) / sum(cases for _, cases in drawn))
+    shares.sort()
+    return shares[int(0.025 * draws)], shares[int(0.975 * draws) - 1]
 
 
 def share(count, cases):

@@ -166,6 +166,32 @@ TEST(Track, AsksNoPlaceTwice)
   EXPECT_EQ(starts.size(), places);
 }
 
+TEST(Track, DrivesApartShareNoStepAndLeaveNoRoomForOneMore)
+{
+  WakeupOptions options = officeOptions();
+  options.methods = {"signature"};
+  options.apart = true;
+  options.travel = 5;
+  const WakeupReport report = runWakeups(options);
+  const auto& runs = report.methods.front().runs;
+  ASSERT_GE(runs.size(), 5U);
+  std::size_t free_from = 0;
+  double driven = 0;
+  for (const Wakeup& run : runs)
+  {
+    EXPECT_EQ(run.start, free_from) << "all of the office is mapped: no step is left out";
+    EXPECT_GT(run.steps.back().travelled, 4.0);
+    EXPECT_LE(run.steps.back().travelled, 5.0 + 1e-6);
+    free_from = run.steps.back().step + 1;
+    driven += run.steps.back().travelled;
+  }
+  options.travel = driven;
+  EXPECT_EQ(runWakeups(options).methods.front().runs.size(), 1U);
+  options.kidnap = true;
+  options.starts = 2;
+  EXPECT_THROW(runWakeups(options), std::invalid_argument) << "carried onto another's steps";
+}
+
 TEST(Track, GivesTheSameStepsOnOneAndTwoThreads)
 {
   WakeupOptions options = officeOptions();

@@ -10,7 +10,6 @@
 
 #include "eval/process/cpu_time.h"
 #include "eval/wakeup/wakeup_drive.h"
-#include "io/GroundTruth.h"
 #include "sigloc/config/plural.h"
 
 namespace sigloc
@@ -20,90 +19,6 @@ namespace
 using detail::WakeupDrive;
 using detail::WakeupDriveStep;
 using detail::WakeupLeg;
-using mrpt::math::TPose2D;
-
-/// A drive in another building than the map: any step may start, and distance is that of the
-/// odometry.
-WakeupDrive readForeignDrive(const std::filesystem::path& rawlog, const ReadingOptions& reading)
-{
-  RawlogReader reader(rawlog, reading);
-  WakeupDrive drive;
-  drive.foreign = true;
-  double travelled = 0;
-  while (auto step = reader.next())
-  {
-    if (step->motion) travelled += std::hypot(step->motion->mean.x, step->motion->mean.y);
-    if (step->scans.empty()) continue;
-    WakeupDriveStep out;
-    out.travelled = travelled;
-    out.may_start = true;
-    out.step = std::move(*step);
-    drive.steps.push_back(std::move(out));
-  }
-  drive.complete = !reader.truncated();
-  return drive;
-}
-
-// Whether a step's time is earlier than that of a step before it. Then steps were delayed, and the
-// truth of its time is that of another step. A time that is far earlier means that the clock was
-// set anew.
-bool isStampedLate(double time, double& latest)
-{
-  constexpr double kClockSet = 10.0;  // [s]
-  const bool is_late = time < latest && latest - time < kClockSet;
-  if (!is_late) latest = time;
-  return is_late;
-}
-
-WakeupDrive readDrive(const WakeupOptions& options, const std::vector<TPose2D>& mapped_poses)
-{
-  const auto truth = GroundTruth::read(options.ground_truth, options.map_from_truth);
-  std::optional<GroundTruth> start_frames;
-  if (!options.start_from.empty()) start_frames = GroundTruth::read(options.start_from);
-  constexpr double kSameScan = 0.5;  // [s] between the log's scan and the key frame
-  RawlogReader reader(options.rawlog, options.reading);
-  WakeupDrive drive;
-  std::optional<TPose2D> last;
-  double travelled = 0;
-  double latest = 0;  // [s]
-  for (std::size_t i = 0; auto step = reader.next(); ++i)
-  {
-    if (step->scans.empty()) continue;
-    WakeupDriveStep out;
-    if (!isStampedLate(step->time, latest)) out.truth = truth.at(i, step->time);
-    if (out.truth && last) travelled += std::hypot(out.truth->x - last->x, out.truth->y - last->y);
-    if (out.truth) last = out.truth;
-    out.travelled = travelled;
-    out.mapped = !out.truth || detail::isMapped(*out.truth, mapped_poses);
-    out.may_start = out.truth.has_value() &&
-                    (!start_frames || start_frames->at(i, step->time, kSameScan).has_value());
-    out.step = std::move(*step);
-    drive.steps.push_back(std::move(out));
-  }
-  drive.complete = !reader.truncated();
-  return drive;
-}
-
-detail::LoggedDrive readLog(const WakeupOptions& options)
-{
-  if (!options.landmarks.empty())
-  {
-    return detail::readLandmarkDrive(options.landmarks, options.landmark_folder);
-  }
-  detail::LoggedDrive log;
-  log.map = readEvaluationMap(options.map, options.reading);
-  log.files = {options.map, options.rawlog};
-  if (options.foreign)
-  {
-    log.drive = readForeignDrive(options.rawlog, options.reading);
-    return log;
-  }
-  log.drive = readDrive(options, log.map.mapped_poses);
-  log.files.push_back(options.ground_truth);
-  if (!options.start_from.empty()) log.files.push_back(options.start_from);
-  return log;
-}
-
 // Summed in another order, the same distance may differ in its last digit.
 constexpr double kRounding = 1e-6;  // [m]
 
@@ -157,24 +72,6 @@ std::vector<std::size_t> spacedStarts(const std::vector<Place>& places, std::siz
   return starts;
 }
 
-std::vector<std::size_t> startsOf(const WakeupDrive& drive, const WakeupOptions& options)
-{
-  const std::vector<Place> places = placesOf(drive, options.travel);
-  const auto& path = options.landmarks.empty() ? options.rawlog : options.landmark_folder;
-  const std::string after = fmt::format("{:.1f} m of drive after it", options.travel);
-  if (places.empty())
-  {
-    throw std::runtime_error(fmt::format("{}: no step{} has {}", path.string(),
-                                         options.foreign ? "" : " with truth", after));
-  }
-  if (options.starts > places.size())
-  {
-    throw std::runtime_error(fmt::format("--starts {}: {} has only {} with {}", options.starts,
-                                         path.string(), counted(places.size(), "place"), after));
-  }
-  return spacedStarts(places, options.starts);
-}
-
 WakeupLeg legFrom(const WakeupDrive& drive, std::size_t start, double travel)
 {
   std::size_t last = start;
@@ -184,6 +81,42 @@ WakeupLeg legFrom(const WakeupDrive& drive, std::size_t start, double travel)
     ++last;
   }
   return {&drive, start, last};
+}
+
+// The earliest allowed start, then the earliest behind its drive, and so on: no method is favoured.
+std::vector<std::size_t> startsApart(const WakeupDrive& drive, const std::vector<Place>& places,
+                                     double travel)
+{
+  std::vector<std::size_t> starts;
+  std::size_t free_from = 0;
+  for (const Place& place : places)
+  {
+    if (place.step < free_from) continue;
+    starts.push_back(place.step);
+    free_from = legFrom(drive, place.step, travel).last;
+  }
+  return starts;
+}
+
+std::vector<std::size_t> startsOf(const WakeupDrive& drive, const WakeupOptions& options)
+{
+  const std::vector<Place> places = placesOf(drive, options.travel);
+  const auto& path = !options.landmarks.empty() ? options.landmark_folder
+                     : options.rawlog.empty()   ? options.frames
+                                                : options.rawlog;
+  const std::string after = fmt::format("{:.1f} m of drive after it", options.travel);
+  if (places.empty())
+  {
+    throw std::runtime_error(fmt::format("{}: no step{} has {}", path.string(),
+                                         options.foreign ? "" : " with truth", after));
+  }
+  if (options.apart) return startsApart(drive, places, options.travel);
+  if (options.starts > places.size())
+  {
+    throw std::runtime_error(fmt::format("--starts {}: {} has only {} with {}", options.starts,
+                                         path.string(), counted(places.size(), "place"), after));
+  }
+  return spacedStarts(places, options.starts);
 }
 
 /// The legs of one wake-up. With `kidnap`, half-way the robot is carried to the start half the list
@@ -215,7 +148,17 @@ void check(const WakeupOptions& options)
   {
     throw std::invalid_argument("--kidnap: in a foreign map there is nothing to notice");
   }
+  if (options.apart && options.kidnap)
+  {
+    throw std::invalid_argument("--apart: a kidnapped robot drives where another one wakes up");
+  }
   checkTrackingMethods(options.methods);
+  const bool filters = std::any_of(options.methods.begin(), options.methods.end(),
+                                   [](const std::string& name) { return name != "signature"; });
+  if (filters && !options.frames.empty() && options.rawlog.empty())
+  {
+    throw std::invalid_argument("--frames: MRPT's filter needs --rawlog, the log's observations");
+  }
 }
 
 /// All wake-ups of one method, in the order of the starts.
@@ -249,7 +192,7 @@ WakeupMethodReport runMethod(const std::string& name, const detail::LoggedDrive&
 WakeupReport runWakeups(const WakeupOptions& options)
 {
   check(options);
-  const detail::LoggedDrive log = readLog(options);
+  const detail::LoggedDrive log = detail::readLoggedDrive(options);
   const std::vector<std::size_t> starts = startsOf(log.drive, options);
   WakeupReport report;
   report.map.add(*log.map.features, log.map.build_seconds);

@@ -28,12 +28,18 @@ struct WakeupOptions
   std::string landmarks;  ///< "dlr" or "victoria-park": a landmark log in place of what follows
   std::filesystem::path landmark_folder;
   std::filesystem::path map;
+  /// A simplemap of a whole drive in place of `map`: its first 60 % are the map, robots wake up in
+  /// the rest, on mapped area. Without `rawlog` the odometry is made: the increments of the key
+  /// frames' poses with noise. With it the drive is what the log holds outside of the map's time.
+  std::filesystem::path frames;
+  bool reversed = false;  ///< the last 60 % of `frames` are the map
   std::filesystem::path rawlog;
   std::filesystem::path ground_truth;
   std::filesystem::path start_from;  ///< simplemap: starts only at its key frames' times, or empty
   mrpt::math::TPose2D map_from_truth;
   ReadingOptions reading;
   std::uint32_t starts = 10;  ///< places to wake up at, none twice
+  bool apart = false;  ///< as many starts as there are whose drives share no step, in place of that
   double travel = 20;  ///< [m] driven after a start, and again after a kidnapping
   bool kidnap = false;
   bool foreign = false;

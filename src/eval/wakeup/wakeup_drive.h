@@ -46,6 +46,9 @@ struct LoggedDrive
 /// another name and std::runtime_error ("path: reason").
 LoggedDrive readLandmarkDrive(const std::string& dataset, const std::filesystem::path& folder);
 
+/// Reads the map and the drive that the options name. Throws std::runtime_error ("path: reason").
+LoggedDrive readLoggedDrive(const WakeupOptions& options);
+
 /// Steps [first, last) of a drive.
 struct WakeupLeg
 {
