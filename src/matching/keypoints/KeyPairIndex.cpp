@@ -378,11 +378,13 @@ void KeyPairIndex::collect(const KeyPair& observed, const Run& run,
     const float distance = entry.distance * unit - seen;
     const float first = first_low + first_step * entry.first;
     const float second = second_low + second_step * entry.second;
-    const bool fits =
-        (distance * distance <= gate * (of_distance + variances[entry.deviations & 31U])) &
-        (first * first <= gate * (of_first + variances[entry.deviations >> 5U & 31U])) &
-        (second * second <= gate * (of_second + variances[entry.deviations >> 10U & 31U]));
-    if (!fits) continue;
+    const bool distance_fits =
+        distance * distance <= gate * (of_distance + variances[entry.deviations & 31U]);
+    const bool first_fits =
+        first * first <= gate * (of_first + variances[entry.deviations >> 5U & 31U]);
+    const bool second_fits =
+        second * second <= gate * (of_second + variances[entry.deviations >> 10U & 31U]);
+    if (!(distance_fits & first_fits & second_fits)) continue;
     const auto bearing =
         static_cast<float>(static_cast<std::int16_t>(entry.bearing) * (2 * M_PI / kFullTurn));
     matches.push_back({entry.x, entry.y, bearing, first, second});
