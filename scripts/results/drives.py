@@ -127,7 +127,7 @@ def landmarks(bench):
         "Asked: where is a local map of landmarks in the map, from one answer?",
         "*Firm* answers are significant and far ahead of the second; that is not the product's verdict.",
         "On dlr only places with more than half of their discs mapped are asked.",
-        "`jcbb` completes greedily; it is no full branch and bound.",
+        "`jcbb` draws as if half of what is seen were mapped, and completes by branch and bound.",
         landmarks_said(table),
     )
     return Section(LANDMARKS, table, text)

@@ -210,7 +210,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "mcl-tuned, mcl-stock"},
         Refusal{"UnknownFeatureMethod",
                 {"scale", "--method", "best", "--out", "out"},
-                "jcbb, interpretation-tree, clique"},
+                "jcbb-greedy, interpretation-tree, clique"},
         Refusal{"MethodTwice",
                 {"track", "--simulate", "1", "--method", "mcl,mcl", "--out", "out"},
                 "mcl: given twice"},

@@ -197,6 +197,25 @@ TEST_P(FeatureOpponents, EveryAnswerIsJointlyCompatibleByDefinition)
   EXPECT_GE(right, answers * 8 / 10);
 }
 
+TEST_P(FeatureOpponents, BranchAndBoundPairsAtLeastAsMuchAsNearestNeighbours)
+{
+  int found = 0;
+  for (std::uint64_t seed = 300; seed < 330; ++seed)
+  {
+    SCOPED_TRACE(seed);
+    const SmallCase small = smallCase(seed, GetParam());
+    const FeatureMap map(small.world.mapped);
+    MatchingCounters counters;
+    const auto whole = JcbbRelocation(map, {}, {0.25, false}).generate(small.observed, counters);
+    const auto greedy = JcbbRelocation(map, {}, {0.25, true}).generate(small.observed, counters);
+    if (greedy.empty()) continue;
+    ASSERT_FALSE(whole.empty());
+    EXPECT_GE(whole.front().support, greedy.front().support);
+    ++found;
+  }
+  EXPECT_GE(found, 20);
+}
+
 TEST(FeatureOpponentBudgets, ABudgetEndsTheSearchAndIsReported)
 {
   FeatureWorldOptions options;
@@ -205,7 +224,7 @@ TEST(FeatureOpponentBudgets, ABudgetEndsTheSearchAndIsReported)
   const FeatureMap map(world.mapped);
   const auto observed = observeFeatures(world, randomPose(world, options, random), options, random);
   constexpr std::uint64_t kSmallBudget = 5000;
-  const JcbbRelocation jcbb(map, {}, kSmallBudget);
+  const JcbbRelocation jcbb(map, {}, {}, kSmallBudget);
   const InterpretationTree tree(map, {}, kSmallBudget);
   const CliqueAssociation clique(map, {}, kSmallBudget);
   for (const FeatureHypothesisGenerator* method :

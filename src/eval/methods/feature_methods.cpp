@@ -8,14 +8,27 @@
 #include "eval/methods/features/JcbbRelocation.h"
 #include "matching/generators.h"
 
+#include <utility>
+
 namespace sigloc
 {
+namespace
+{
+// Its authors leave P_good to the user: what he expects to be mapped.
+constexpr std::pair<const char*, JcbbOptions> kJcbbVariants[] = {
+    {"jcbb", {0.5, false}},
+    {"jcbb-0.35", {0.35, false}},
+    {"jcbb-0.25", {0.25, false}},
+    {"jcbb-greedy", {0.5, true}},
+};
+}  // namespace
+
 std::vector<std::string> featureMethodNames()
 {
-  return {"signature",           "signature-plain",
-          "signature-anchors",   "signature-pairs",
-          "signature-patterns",  "jcbb",
-          "interpretation-tree", "clique"};
+  return {
+      "signature", "signature-plain", "signature-anchors", "signature-pairs", "signature-patterns",
+      "jcbb",      "jcbb-0.35",       "jcbb-0.25",         "jcbb-greedy",     "interpretation-tree",
+      "clique"};
 }
 
 void checkFeatureMethods(const std::vector<std::string>& names)
@@ -32,7 +45,10 @@ std::unique_ptr<FeatureHypothesisGenerator> makeFeatureMethod(const std::string&
   if (name == "signature-anchors") return makeGenerator(GenerationMode::anchors, map, options);
   if (name == "signature-pairs") return makeGenerator(GenerationMode::pairs, map, options);
   if (name == "signature-patterns") return makeGenerator(GenerationMode::patterns, map, options);
-  if (name == "jcbb") return std::make_unique<JcbbRelocation>(map, options);
+  for (const auto& [known, jcbb] : kJcbbVariants)
+  {
+    if (name == known) return std::make_unique<JcbbRelocation>(map, options, jcbb);
+  }
   if (name == "interpretation-tree") return std::make_unique<InterpretationTree>(map, options);
   if (name == "clique") return std::make_unique<CliqueAssociation>(map, options);
   refuseMethod(name, featureMethodNames());

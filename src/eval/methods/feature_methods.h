@@ -13,8 +13,9 @@
 namespace sigloc
 {
 /// Returns the feature-only method of a name: "signature" (the default mode), "signature-plain",
-/// "-anchors", "-pairs", "-patterns", or an opponent: "jcbb", "interpretation-tree", "clique". The
-/// map must outlive it. Throws std::invalid_argument for another name.
+/// "-anchors", "-pairs", "-patterns", or an opponent: "jcbb" and its variants,
+/// "interpretation-tree", "clique". The map must outlive it. Throws std::invalid_argument for
+/// another name.
 std::unique_ptr<FeatureHypothesisGenerator> makeFeatureMethod(const std::string& name,
                                                               const FeatureMap& map,
                                                               const GeneratorOptions& options);

@@ -55,22 +55,33 @@ class SignatureRelocation : public RelocationMethod
   std::optional<PoseRegion> region_;
 };
 
-DenseSearchSpace searchSpaceOf(const EvaluationMap& map, const RelocationMethodOptions& options)
+/// What the dense searches differ in.
+struct DenseVariant
+{
+  bool pruned = false;  ///< by branch and bound
+  bool own_raster = false;  ///< the raster that signatures use, of 5 cm where scans made the map
+  std::uint32_t refined = DenseSearchOptions().refined;
+};
+
+DenseSearchSpace searchSpaceOf(const EvaluationMap& map, const RelocationMethodOptions& options,
+                               const DenseVariant& variant)
 {
   if (!map.raster) throw std::invalid_argument("a dense search needs a map with a grid or scans");
   DenseSearchOptions search;
   search.region = options.region;
-  return DenseSearchSpace(*map.raster, search);
+  search.refined = variant.refined;
+  return {variant.own_raster ? rasterOf(*map.features->field()) : *map.raster, search};
 }
 
-/// The reference search and its pruned form share all but the search itself.
+/// The reference search and its other forms share all but the search itself, and the raster.
 class DenseRelocation : public RelocationMethod
 {
  public:
-  DenseRelocation(const EvaluationMap& map, const RelocationMethodOptions& options, bool pruned)
-      : space_(searchSpaceOf(map, options))
+  DenseRelocation(const EvaluationMap& map, const RelocationMethodOptions& options,
+                  const DenseVariant& variant)
+      : space_(searchSpaceOf(map, options, variant))
   {
-    if (pruned) pruned_search_.emplace(space_);
+    if (variant.pruned) pruned_search_.emplace(space_);
   }
 
   RelocationResult localize(const std::vector<LaserScan>& scans) const override
@@ -246,11 +257,16 @@ const std::vector<MethodEntry>& methodTable()
       entry<SignatureRelocation>("signature-pairs", GenerationMode::pairs),
       entry<SignatureRelocation>("signature-patterns", GenerationMode::patterns),
       entry<SignatureRelocation>("signature-bases", GenerationMode::minimal_sets),
-      entry<DenseRelocation>("exhaustive", false),
-      entry<DenseRelocation>("branch-and-bound", true),
+      entry<DenseRelocation>("exhaustive", DenseVariant{}),
+      entry<DenseRelocation>("exhaustive-fine", DenseVariant{false, true}),
+      entry<DenseRelocation>("branch-and-bound", DenseVariant{true, false, 10}),
+      entry<DenseRelocation>("branch-and-bound-1", DenseVariant{true, false, 1}),
       entry<LatticeRelocation>("lattice"),
       entry<VotingRelocation>("voting"),
       entry<FeatureOpponentRelocation>("jcbb", "jcbb"),
+      entry<FeatureOpponentRelocation>("jcbb-0.35", "jcbb-0.35"),
+      entry<FeatureOpponentRelocation>("jcbb-0.25", "jcbb-0.25"),
+      entry<FeatureOpponentRelocation>("jcbb-greedy", "jcbb-greedy"),
       entry<FeatureOpponentRelocation>("interpretation-tree", "interpretation-tree"),
       entry<FeatureOpponentRelocation>("clique", "clique"),
       monteCarlo("mcl"),

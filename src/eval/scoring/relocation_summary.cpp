@@ -17,7 +17,10 @@ Confident: the verdict is `localized`, P(first) >= 0.99. Methods without a verdi
 Shares are over queries that saw something (10 valid beams or more); intervals are Wilson's, 95 %.
 
 * `jcbb`, `clique` and `interpretation-tree` look at features alone, share the constraints of the
-  signatures and none of our search, and end after 10^8 operations.
+  signatures and none of our search, and end after 10^8 operations. `jcbb-0.35` and `jcbb-0.25`
+  expect less of what is seen to be mapped; `jcbb-greedy` pairs nearest neighbours at the end.
+* `branch-and-bound` keeps the best 10 poses of the lattice, `branch-and-bound-1` one, where
+  `exhaustive` refines 400. `exhaustive-fine` searches the raster that signatures use.
 * `mcl`, `mcl-tuned`: MRPT's filter at its first scan: 40 000 particles drawn over the free cells of
   the map (tuned: 200 a square metre, at least 40 000, at most 200 000) and weighed by the scan, with
   pf-localization's likelihood; candidates are the heaviest clusters of 0.5 m and 10 degrees. It

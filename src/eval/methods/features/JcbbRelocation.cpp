@@ -17,7 +17,6 @@ namespace sigloc
 namespace
 {
 constexpr std::uint32_t kSampleSize = 4;  // p
-constexpr double kGoodShare = 0.5;  // P_good, before anything is found
 constexpr double kFailure = 0.05;  // P_fail
 
 bool holds(const std::vector<FeaturePairing>& pairings, const FeaturePairing& other, bool wall)
@@ -37,9 +36,104 @@ struct JcbbRelocation::Draw
   std::array<std::vector<std::uint32_t>, kSampleSize> candidates;
 };
 
+/// The features still to be paired after a base, and the pairings of the branch being followed.
+/// With a known map the joint distance is the running sum of the normalised innovations.
+struct JcbbRelocation::Completion
+{
+  struct Open
+  {
+    std::uint32_t observed;
+    std::vector<std::uint32_t> mapped;
+  };
+  std::vector<Open> open;
+  PoseEstimate pose;
+  double distance = 0;
+  int degrees = 0;
+  std::vector<FeaturePairing> pairings;
+  std::vector<FeaturePairing> best;
+  double best_distance = std::numeric_limits<double>::infinity();
+};
+
+JcbbRelocation::JcbbRelocation(const FeatureMap& map, const GeneratorOptions& options,
+                               const JcbbOptions& jcbb, std::uint64_t budget)
+    : FeatureOpponent(map, options, budget), jcbb_(jcbb)
+{
+}
+
 std::uint32_t JcbbRelocation::baseSize() const
 {
   return kSampleSize;
+}
+
+std::vector<std::uint32_t> JcbbRelocation::compatible(Query& query, const Completion& completion,
+                                                      const FeaturePairing& anchor,
+                                                      std::uint32_t observed) const
+{
+  const PreparedScene& scene = query.scene;
+  std::vector<std::uint32_t> near;
+  gather(query, anchor, observed, near);
+  std::vector<std::pair<double, std::uint32_t>> ranked;
+  for (const std::uint32_t l : near)
+  {
+    if (holds(completion.pairings, {observed, l}, isSegment(scene.views[observed].type())))
+      continue;
+    ++query.counters.checks;
+    const PlanarMeasurement m = placeMeasurement(completion.pose, scene.views[observed],
+                                                 map().view(l), scene.relative_sigma);
+    const double distance =
+        squaredInnovation(m, innovationCovariance(completion.pose.covariance, m));
+    if (distance <= gates().planar) ranked.emplace_back(distance, l);
+  }
+  std::sort(ranked.begin(), ranked.end());
+  std::vector<std::uint32_t> mapped;
+  mapped.reserve(ranked.size());
+  for (const auto& [distance, l] : ranked) mapped.push_back(l);
+  return mapped;
+}
+
+void JcbbRelocation::branch(Query& query, Completion& completion, std::size_t level) const
+{
+  if (query.exhausted()) return;
+  const std::size_t most = completion.pairings.size() + completion.open.size() - level;
+  const bool promises =
+      most > completion.best.size() ||
+      (most == completion.best.size() && completion.distance < completion.best_distance);
+  if (!promises) return;
+  if (level == completion.open.size())
+  {
+    completion.best = completion.pairings;
+    completion.best_distance = completion.distance;
+    return;
+  }
+  constexpr int kPlanar = 2;
+  const PreparedScene& scene = query.scene;
+  const std::uint32_t q = completion.open[level].observed;
+  const DirectedFeature& observed = scene.views[q];
+  const PoseEstimate pose = completion.pose;
+  const double before = completion.distance;
+  bool paired = false;
+  for (const std::uint32_t l : completion.open[level].mapped)
+  {
+    if (holds(completion.pairings, {q, l}, isSegment(observed.type()))) continue;
+    ++query.counters.checks;
+    const PlanarMeasurement m =
+        placeMeasurement(pose, observed, map().view(l), scene.relative_sigma);
+    const double distance = squaredInnovation(m, innovationCovariance(pose.covariance, m));
+    if (!jointlyCompatible(before + distance, completion.degrees + kPlanar)) continue;
+    update(completion.pose, m);
+    completion.distance = before + distance;
+    completion.degrees += kPlanar;
+    completion.pairings.push_back({q, l});
+    branch(query, completion, level + 1);
+    completion.pairings.pop_back();
+    completion.degrees -= kPlanar;
+    completion.distance = before;
+    completion.pose = pose;
+    paired = true;
+    if (jcbb_.greedy) break;
+  }
+  // The star branch: the feature is spurious.
+  if (!paired || !jcbb_.greedy) branch(query, completion, level + 1);
 }
 
 void JcbbRelocation::complete(Query& query, const Draw& draw) const
@@ -48,46 +142,28 @@ void JcbbRelocation::complete(Query& query, const Draw& draw) const
   const auto base = fit(query, draw.pairings);
   if (!base || !jointlyCompatible(base->distance, base->degrees)) return;
 
-  // With a known map the joint distance is the running sum of the normalised innovations.
+  Completion completion;
+  completion.pose = base->pose;
+  completion.distance = base->distance;
+  completion.degrees = base->degrees;
+  completion.pairings = completion.best = draw.pairings;
   const PreparedScene& scene = query.scene;
-  PoseEstimate pose = base->pose;
-  double joint_distance = base->distance;
-  int joint_degrees = base->degrees;
-  std::vector<FeaturePairing> pairings = draw.pairings;
-  std::vector<std::uint32_t> candidates;
   const std::uint32_t* order = scene.orderFrom(draw.observed.front());
   for (std::size_t step = 0; step < scene.size(); ++step)
   {
     const std::uint32_t q = order[step];
-    const DirectedFeature& observed = scene.views[q];
-    const bool wall = isSegment(observed.type());
     const bool drawn = std::any_of(draw.pairings.begin(), draw.pairings.end(),
                                    [&](const FeaturePairing& p) { return p.observed == q; });
     if (drawn) continue;
-    gather(query, draw.pairings.front(), q, candidates);
-    double nearest = std::numeric_limits<double>::infinity();
-    std::uint32_t best = 0;
-    for (const std::uint32_t l : candidates)
-    {
-      if (holds(pairings, {q, l}, wall)) continue;
-      ++query.counters.checks;
-      const PlanarMeasurement m =
-          placeMeasurement(pose, observed, map().view(l), scene.relative_sigma);
-      const double distance = squaredInnovation(m, innovationCovariance(pose.covariance, m));
-      if (distance > gates().planar || distance >= nearest) continue;
-      nearest = distance;
-      best = l;
-    }
-    if (!std::isfinite(nearest)) continue;
-    constexpr int kPlanar = 2;
-    if (!jointlyCompatible(joint_distance + nearest, joint_degrees + kPlanar)) continue;
-    joint_distance += nearest;
-    joint_degrees += kPlanar;
-    update(pose, placeMeasurement(pose, observed, map().view(best), scene.relative_sigma));
-    pairings.push_back({q, best});
+    auto mapped = compatible(query, completion, draw.pairings.front(), q);
+    if (!mapped.empty()) completion.open.push_back({q, std::move(mapped)});
   }
-  const auto whole = fit(query, pairings);
-  if (whole && jointlyCompatible(whole->distance, whole->degrees)) add(query, pairings, *whole);
+  branch(query, completion, 0);
+  const auto whole = fit(query, completion.best);
+  if (whole && jointlyCompatible(whole->distance, whole->degrees))
+  {
+    add(query, completion.best, *whole);
+  }
 }
 
 void JcbbRelocation::extend(Query& query, Draw& draw, std::size_t level) const
@@ -114,7 +190,7 @@ void JcbbRelocation::search(Query& query) const
   SplitMix random(options().seed);
   std::vector<std::uint32_t> order(n);
   std::iota(order.begin(), order.end(), 0U);
-  double good = kGoodShare;
+  double good = jcbb_.good_share;
   std::uint32_t draws = drawsNeeded(kFailure, std::pow(good, size));
   Draw draw;
   for (std::uint32_t d = 0; d < draws; ++d)
