@@ -125,8 +125,8 @@ void describeOptions(CLI::App& app, Settings& settings)
   const auto unscanned = [](const std::string& /*key*/)
   { return [](sigloc::WorldKind kind) { return !isScanned(kind); }; };
 
-  app.add_option("--world", settings.world, "office, corridor, hall, park or points")
-      ->check(CLI::IsMember({"office", "corridor", "hall", "park", "points"}))
+  app.add_option("--world", settings.world, "office, corridor, hall, park, points or round")
+      ->check(CLI::IsMember({"office", "corridor", "hall", "park", "points", "round"}))
       ->capture_default_str();
   const auto is_seed =
       sigloc::numberFrom<std::uint64_t>(0, std::numeric_limits<std::uint64_t>::max());

@@ -28,7 +28,7 @@ int simulate(const test::TemporaryFolder& folder, const std::string& arguments,
 
 TEST(SimulateApp, WritesEveryWorldTheSameTwice)
 {
-  for (const char* world : {"office", "corridor", "hall", "park", "points"})
+  for (const char* world : {"office", "corridor", "hall", "park", "points", "round"})
   {
     const test::TemporaryFolder folder;
     const bool scanned = std::string(world) != "points";

@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "eval/worlds/FreeSpace.h"
 #include "eval/worlds/LaserSimulator.h"
 #include "eval/worlds/world_generators.h"
 
@@ -34,7 +36,7 @@ bool sameSurfaces(const World& a, const World& b)
 TEST(World, SameSeedSameWorldOtherSeedOtherWorld)
 {
   for (const WorldKind kind : {WorldKind::office, WorldKind::corridor, WorldKind::hall,
-                               WorldKind::park, WorldKind::points})
+                               WorldKind::park, WorldKind::points, WorldKind::round})
   {
     EXPECT_TRUE(sameSurfaces(makeWorld(kind, {}, 4), makeWorld(kind, {}, 4))) << toString(kind);
     EXPECT_FALSE(sameSurfaces(makeWorld(kind, {}, 4), makeWorld(kind, {}, 5))) << toString(kind);
@@ -71,6 +73,34 @@ TEST(World, CopiesOfARoomAreExactUnlessJittered)
     EXPECT_LT(largest, 1e-4) << "copy " << k;
     EXPECT_GT(largest_jittered, 0.02) << "copy " << k;
   }
+}
+
+TEST(World, RobotsOfRoundWorldsAreIndoors)
+{
+  const World world = makeWorld(WorldKind::round, {}, 6);
+  const FreeSpace space(world, 0.35);
+  const double side = world.bounds.x_max - world.bounds.x_min;
+  ASSERT_GE(world.doors.size(), 6U);
+  EXPECT_EQ(world.furniture.size(), 2 * (world.doors.size() + 1));  // and the corridor
+  EXPECT_FALSE(space.contains({0.5, 0.5}));
+  EXPECT_FALSE(space.contains({side - 0.5, side - 0.5}));
+  // Every door lets the robot through.
+  for (const Door& door : world.doors)
+  {
+    EXPECT_TRUE(space.contains((door.leaf.start + door.leaf.end) * 0.5));
+  }
+  // Surfaces surround the robot everywhere.
+  const LaserSimulator simulator(world, {});
+  Random random(6, 1);
+  for (int k = 0; k < 50; ++k)
+  {
+    const auto place = space.randomPlace(random);
+    const LaserScan scan = simulator.exactScan({place.x, place.y, 0});
+    EXPECT_EQ(std::count(scan.valid.begin(), scan.valid.end(), 0), 0) << place.x << " " << place.y;
+  }
+  WorldOptions small;
+  small.width = 10;
+  EXPECT_THROW(makeWorld(WorldKind::round, small, 6), std::invalid_argument);
 }
 
 TEST(World, StandardPointWorldHasItsDensity)

@@ -44,7 +44,7 @@ FreeSpace::FreeSpace(const World& world, double clearance, double cell_size)
   free_.assign(static_cast<std::size_t>(columns_ * rows_), 1);
   for (const WallSegment& segment : visibleSegments(world)) blockNearSegment(segment, clearance);
   for (const Disc& disc : world.discs) blockNearDisc(disc, clearance);
-  keepLargestComponent();
+  keepComponent(world.inside);
 }
 
 void FreeSpace::blockNearSegment(const WallSegment& segment, double clearance)
@@ -79,14 +79,17 @@ void FreeSpace::blockNearDisc(const Disc& disc, double clearance)
   blockNearSegment({disc.centre, disc.centre}, disc.radius + clearance);
 }
 
-void FreeSpace::keepLargestComponent()
+/// Keeps the cells connected with a place, or else the largest set of connected cells.
+void FreeSpace::keepComponent(const std::optional<TPoint2D>& inside)
 {
+  const std::size_t first = inside ? cellAt(*inside) : 0;
+  const std::size_t last = inside ? std::min(first + 1, free_.size()) : free_.size();
   std::vector<std::uint32_t> label(free_.size(), 0);
   std::vector<std::uint32_t> stack;
   std::uint32_t labels = 0;
   std::uint32_t best_label = 0;
   std::size_t best_size = 0;
-  for (std::size_t seed = 0; seed < free_.size(); ++seed)
+  for (std::size_t seed = first; seed < last; ++seed)
   {
     if (free_[seed] == 0 || label[seed] != 0) continue;
     label[seed] = ++labels;

@@ -5,6 +5,7 @@
 #include <mrpt/math/TPoint2D.h>
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "eval/worlds/Random.h"
@@ -15,8 +16,8 @@ namespace sigloc
 /// Returns the distance of a point to a surface [m].
 double distanceTo(const WallSegment& segment, const mrpt::math::TPoint2D& p);
 
-/// Where a round robot can go in a world: the largest connected set of cells whose centres keep a
-/// clearance from every surface. Plans paths in it.
+/// Where a round robot can go in a world: connected cells whose centres keep a clearance from every
+/// surface. They are those around World::inside, or the largest such set. Plans paths in it.
 class FreeSpace
 {
  public:
@@ -52,7 +53,7 @@ class FreeSpace
  private:
   void blockNearSegment(const WallSegment& segment, double clearance);
   void blockNearDisc(const Disc& disc, double clearance);
-  void keepLargestComponent();
+  void keepComponent(const std::optional<mrpt::math::TPoint2D>& inside);
   std::size_t cellAt(const mrpt::math::TPoint2D& p) const;
   mrpt::math::TPoint2D centreOf(std::size_t cell) const;
   bool lineIsFree(const mrpt::math::TPoint2D& from, const mrpt::math::TPoint2D& to) const;

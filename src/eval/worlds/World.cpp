@@ -59,6 +59,7 @@ World mirrored(World world)
     flip(door.leaf.end);
   }
   for (mrpt::math::TPoint2D& point : world.points) flip(point);
+  if (world.inside) flip(*world.inside);
   return world;
 }
 

@@ -6,6 +6,7 @@
 #include <mrpt/math/TPose2D.h>
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "sigloc/config/option_fields.h"
@@ -64,6 +65,8 @@ struct World
   std::vector<Furniture> furniture;
   std::vector<Door> doors;
   std::vector<mrpt::math::TPoint2D> points;  ///< landmarks, which no laser sees
+  /// Where a robot can be, if the largest free space is not where it is.
+  std::optional<mrpt::math::TPoint2D> inside;
 };
 
 /// A world, and where its origin lies in the map [m].

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "eval/worlds/Random.h"
 #include "eval/worlds/World.h"
 #include "sigloc/config/option_fields.h"
 
@@ -18,9 +19,10 @@ enum class WorldKind : std::uint8_t
   hall = 2,  ///< a large room with pillars
   park = 3,  ///< trunks, no walls
   points = 4,  ///< point landmarks only: the standard world of the growth study
+  round = 5,  ///< round rooms with doors along a curved corridor, two pieces of furniture in each
 };
 
-/// "office", "corridor", "hall", "park", "points".
+/// "office", "corridor", "hall", "park", "points", "round".
 const char* toString(WorldKind kind);
 
 /// Throws std::invalid_argument naming the text when it is no kind of world.
@@ -74,4 +76,16 @@ struct WorldOptions
 /// Returns a world of the kind; equal seeds and options give equal worlds.
 /// Throws std::invalid_argument for options out of range or too small for the kind.
 World makeWorld(WorldKind kind, const WorldOptions& options, std::uint64_t seed);
+
+namespace detail
+{
+/// Returns a curved corridor around a round hall, with round rooms along its outside. Each of them
+/// has a door and two unlike pieces of furniture. Throws std::invalid_argument for a width that is
+/// too small.
+World makeRound(const WorldOptions& options, Random& random);
+
+/// Returns points that lie at random in a square. Throws std::invalid_argument where it is too
+/// small for the patches.
+World makePoints(const WorldOptions& options, Random& random);
+}  // namespace detail
 }  // namespace sigloc

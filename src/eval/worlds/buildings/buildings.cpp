@@ -28,7 +28,8 @@ std::uint64_t seedOf(std::size_t k, std::uint64_t seed)
 
 bool hasOuterWalls(WorldKind kind)
 {
-  return kind == WorldKind::office || kind == WorldKind::corridor || kind == WorldKind::hall;
+  return kind == WorldKind::office || kind == WorldKind::corridor || kind == WorldKind::hall ||
+         kind == WorldKind::round;
 }
 
 TPose2D placed(const TPoint2D& origin, const TPose2D& pose)
