@@ -38,9 +38,8 @@ class ReplayPace
 /// Keys of its ini section:
 ///
 /// * `rawlog`: the file
-/// * `pace`: seconds of the log that are played in a second, 1 for the pace at which it was
-/// recorded
-///   (0: an entry each time, however long that took)
+/// * `pace`: seconds of the log that are played in a second, 1 as it was recorded (0: an entry each
+///   time, however long that took)
 /// * `stop_after_end_s`: how long [s] after the log's end rawlog-grabber is stopped (10; 0: never).
 ///   The delay lets it write all observations, because it writes half of the waiting ones at a
 ///   time. rawlog-grabber ends at a key press, and at an exception, which it calls an error. So a
