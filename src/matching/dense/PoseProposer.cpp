@@ -15,6 +15,7 @@ using mrpt::math::wrapToPi;
 namespace
 {
 constexpr double kParallel = 0.35;  // [rad] between walls, below which one of them is enough
+constexpr double kSameLine = 0.5;  // [m] between parallel walls, below which one is enough
 constexpr double kMinPairDistance = 0.8;  // [m] of circles; shorter pairs give poor headings
 constexpr std::size_t kUsualProposals = 16384;  // for which memory is reserved
 constexpr double kRadiusTolerance = 0.3;  // [m] gate on the radius of an observed circle
@@ -25,10 +26,11 @@ constexpr double kOverhang = 0.3;  // share of an observed wall that may lie bey
 constexpr double kLengthTolerance = 0.3;  // [m] by which an observed wall may be the longer one
 
 constexpr std::uint32_t kSlidWalls = 1;  // observed walls that are slid at least
+constexpr std::uint32_t kMostSlidWalls = 3;  // observed walls of different direction
 constexpr std::uint32_t kEnough = 2000;  // proposals; with fewer another observed wall is slid
 constexpr std::uint32_t kMaxPairs = 3;  // observed pairs of circles tried, rarest distance first
 // The same in all where further poses are proposed.
-constexpr std::uint32_t kThoroughSlidWalls = 3;
+constexpr std::uint32_t kThoroughSlidWalls = 4;
 constexpr std::uint32_t kThoroughPairs = 6;
 
 /// Orders points by their square of 8 m. What is tried one after the other then lies together in
@@ -48,6 +50,28 @@ PoseProposal poseCarrying(const TPoint2D& in_robot, const TPoint2D& in_map, doub
 {
   return {static_cast<float>(in_map.x - c * in_robot.x + s * in_robot.y),
           static_cast<float>(in_map.y - s * in_robot.x - c * in_robot.y), static_cast<float>(phi)};
+}
+/// Returns the longest observed walls, at most `count`, without those that `repeats` one of them.
+template <class Repeats>
+std::vector<const Feature*> longestWalls(const std::vector<Feature>& observed, std::size_t count,
+                                         Repeats&& repeats)
+{
+  std::vector<const Feature*> walls;
+  for (const Feature& feature : observed)
+  {
+    if (isSegment(feature.type)) walls.push_back(&feature);
+  }
+  std::stable_sort(walls.begin(), walls.end(),
+                   [](const Feature* a, const Feature* b) { return a->size > b->size; });
+  std::vector<const Feature*> longest;
+  for (const Feature* wall : walls)
+  {
+    if (longest.size() == count) break;
+    const bool known = std::any_of(longest.begin(), longest.end(),
+                                   [&](const Feature* other) { return repeats(*wall, *other); });
+    if (!known) longest.push_back(wall);
+  }
+  return longest;
 }
 }  // namespace
 
@@ -116,7 +140,9 @@ std::vector<PoseProposal> PoseProposer::propose(const std::vector<Feature>& obse
   proposals.reserve(kUsualProposals);
   proposeWallEnds(observed, proposals);
   proposeCirclePairs(observed, 0, kMaxPairs, proposals);
-  const std::vector<const Feature*> walls = wallsToSlide(observed);
+  const auto parallel = [](const Feature& a, const Feature& b)
+  { return std::abs(wrapToPi(a.direction - b.direction)) <= kParallel; };
+  const std::vector<const Feature*> walls = longestWalls(observed, kMostSlidWalls, parallel);
   for (std::size_t i = 0; i < walls.size(); ++i)
   {
     if (i >= kSlidWalls && proposals.size() >= kEnough) break;
@@ -130,7 +156,16 @@ std::vector<PoseProposal> PoseProposer::proposeFurther(const std::vector<Feature
   std::vector<PoseProposal> proposals;
   proposals.reserve(kUsualProposals);
   proposeCirclePairs(observed, kMaxPairs, kThoroughPairs, proposals);
-  const std::vector<const Feature*> walls = wallsToSlide(observed);
+  // The longest wall may be mapped from its other side only, or not at all. So parallel ones are
+  // slid as well.
+  const auto on_one_line = [](const Feature& a, const Feature& b)
+  {
+    const TPoint2D normal = directionVector(b);
+    const TPoint2D between = a.position - b.position;
+    return std::abs(wrapToPi(a.direction - b.direction)) <= kParallel &&
+           std::abs(normal.x * between.x + normal.y * between.y) <= kSameLine;
+  };
+  const std::vector<const Feature*> walls = longestWalls(observed, kThoroughSlidWalls, on_one_line);
   for (std::size_t i = kSlidWalls; i < walls.size(); ++i)
   {
     slide(*walls[i], proposals);
@@ -153,29 +188,6 @@ void PoseProposer::proposeWallEnds(const std::vector<Feature>& observed,
                                  mapped.c * c + mapped.s * s, mapped.s * c - mapped.c * s));
     }
   }
-}
-
-/// Returns the longest observed walls that differ in direction.
-std::vector<const Feature*> PoseProposer::wallsToSlide(const std::vector<Feature>& observed) const
-{
-  std::vector<const Feature*> walls;
-  for (const Feature& feature : observed)
-  {
-    if (isSegment(feature.type)) walls.push_back(&feature);
-  }
-  std::stable_sort(walls.begin(), walls.end(),
-                   [](const Feature* a, const Feature* b) { return a->size > b->size; });
-  std::vector<const Feature*> slid;
-  for (const Feature* wall : walls)
-  {
-    if (slid.size() == kThoroughSlidWalls) break;
-    const bool fresh =
-        std::all_of(slid.begin(), slid.end(),
-                    [&](const Feature* other)
-                    { return std::abs(wrapToPi(wall->direction - other->direction)) > kParallel; });
-    if (fresh) slid.push_back(wall);
-  }
-  return slid;
 }
 
 /// Slides an observed wall along every mapped one that is long enough. Eq. (4.9)

@@ -54,7 +54,6 @@ class PoseProposer
   };
 
   void proposeWallEnds(const std::vector<Feature>& observed, std::vector<PoseProposal>& out) const;
-  std::vector<const Feature*> wallsToSlide(const std::vector<Feature>& observed) const;
   void slide(const Feature& wall, std::vector<PoseProposal>& out) const;
   void proposeCirclePairs(const std::vector<Feature>& observed, std::size_t first, std::size_t last,
                           std::vector<PoseProposal>& out) const;
