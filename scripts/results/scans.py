@@ -21,8 +21,9 @@ DATA = (
     "The prior was chosen with drives of acapulco, fhw, infinite-corridor, intel and campus in view.",
     "The tracker's other constants come from simulated seeds below 401, and from 501 to 802.",
     "lab and dlr set no constant, but were looked at during development.",
-    "Only reported: single scans of fhw, acapulco and infinite-corridor, orebro, simulated seeds 401 to 413 and 4102 to 4433.",
-    "city joins these four buildings, intel and aces in one map.",
+    "Misses of acapulco led to sliding parallel walls; how many was chosen with orebro, fhw and campus in view.",
+    "Only reported: single scans of infinite-corridor, simulated seeds 401 to 413 and 4102 to 4433.",
+    "city joins fhw, acapulco, infinite-corridor, orebro, intel and aces in one map.",
 )
 
 SCANS = ("lab", "uwb", "campus", "intel", "aces", "freiburg-101", "fhw-reversed",

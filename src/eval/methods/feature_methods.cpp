@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "eval/methods/feature_methods.h"
 
+#include <utility>
+
 #include "eval/data/method_names.h"
 #include "eval/methods/features/CliqueAssociation.h"
 #include "eval/methods/features/InterpretationTree.h"
 #include "eval/methods/features/JcbbRelocation.h"
 #include "matching/generators.h"
-
-#include <utility>
 
 namespace sigloc
 {

@@ -51,6 +51,7 @@ PoseProposal poseCarrying(const TPoint2D& in_robot, const TPoint2D& in_map, doub
   return {static_cast<float>(in_map.x - c * in_robot.x + s * in_robot.y),
           static_cast<float>(in_map.y - s * in_robot.x - c * in_robot.y), static_cast<float>(phi)};
 }
+
 /// Returns the longest observed walls, at most `count`, without those that `repeats` one of them.
 template <class Repeats>
 std::vector<const Feature*> longestWalls(const std::vector<Feature>& observed, std::size_t count,
