@@ -10,7 +10,10 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "io/motion_conversion.h"
 #include "io/scan_conversion.h"
+#include "plugin/ModeTracker.h"
+#include "plugin/particle_modes.h"
 #include "sigloc/plugin/pose_pdf.h"
 #include "sigloc/plugin/SignatureMap.h"
 
@@ -77,8 +80,10 @@ SignatureMonteCarlo2D::SignatureMonteCarlo2D(std::size_t particles, const Tracke
 {
   if (particles == 0) throw std::invalid_argument("SignatureMonteCarlo2D: no particles");
   checkOptions(tracking);
+  modes_ = std::make_unique<ModeTracker>(tracking);
   forget();
 }
+SignatureMonteCarlo2D::~SignatureMonteCarlo2D() = default;
 
 void SignatureMonteCarlo2D::useMatcher(std::shared_ptr<const SignatureMatcher> matcher)
 {
@@ -94,14 +99,15 @@ void SignatureMonteCarlo2D::useExtraction(const FeatureExtractorOptions& extract
 
 void SignatureMonteCarlo2D::forget(const std::optional<PoseRegion>& region)
 {
-  lost_ = true;
-  relocated_since_lost_ = false;
-  region_ = region;
-  elsewhere_ = 1;
-  score_ = mean_score_ = 0;
-  travel_since_relocation_ = 0;
-  modes_.clear();
-  seen_.reset();
+  believe(region, false);
+}
+
+/// Begins anew: with the particles as they are, where the pose is `known`, else lost.
+void SignatureMonteCarlo2D::believe(const std::optional<PoseRegion>& region, bool known)
+{
+  lost_ = !known;
+  region_ = known ? std::nullopt : region;
+  modes_->forget(known);
   belief_ = {};
   rememberParticles();
 }
@@ -146,22 +152,32 @@ void SignatureMonteCarlo2D::step(const CActionCollection* action, const CSensory
   noticeReset();
   const ObservedScene scene = sceneOf(observation, extraction_);
   const bool blind = scene.beams.size() < signatures.options().min_beams && scene.features.empty();
-  double travel = predictModes(action);
+  const double travel = modes_->predict(motionIn(action));
   // Evidence counts by distance driven, because the errors of map and scan stay the same for a
   // while.
   filtering.powFactor *= std::min(1.0, travel / tracking_.evidence_distance);  // eq. (9.1)
-  if (!lost_) update(filtering);
-  gatherModes();
   relocated_ = false;
-  if (!blind) travel = travelSeen(travel);
-  travel_since_relocation_ += travel;
-  if (!blind)
+  if (!lost_)
   {
-    weighElsewhere(scene, travel);
-    if (wantsRelocation()) relocate(scene);
+    update(filtering);
+    modes_->gather(modesOf(*this, tracking_.max_hypotheses), signatures);
   }
-  publish(blind);
+  if (!blind) relocated_ = modes_->judge(scene, signatures, travel, lost_ ? region_ : std::nullopt);
+  if (relocated_) drawStarted();
+  belief_ = modes_->publish(signatures, blind);
   rememberParticles();
+}
+
+/// The motion of an action; none where it is as uncertain as without odometry.
+std::optional<MotionIncrement> SignatureMonteCarlo2D::motionIn(
+    const CActionCollection* action) const
+{
+  if (action == nullptr) return std::nullopt;
+  const auto known = detail::motionOf(*action).motion;
+  if (!known) return std::nullopt;
+  const bool guessed =
+      std::sqrt(known->cov(0, 0) + known->cov(1, 1)) >= tracking_.free_motion_sigma;
+  return guessed ? std::nullopt : std::optional(detail::toMotionIncrement(*known));
 }
 
 const SignatureMatcher& SignatureMonteCarlo2D::matcher()
@@ -200,51 +216,59 @@ void SignatureMonteCarlo2D::noticeReset()
   }
   if (known) return;
   const auto [covariance, mean] = getCovarianceAndMean();
-  const PoseRegion box = boxAround(*this, mean.asTPose());
-  forget(box);
   const bool gathered = std::sqrt(covariance(0, 0) + covariance(1, 1)) < kGathered &&
                         std::sqrt(covariance(2, 2)) < kGatheredAngle;
-  if (!gathered) return;
-  lost_ = false;
-  elsewhere_ = tracking_.min_elsewhere;
-  region_.reset();
+  believe(boxAround(*this, mean.asTPose()), gathered);
 }
 
-/// Draws the lost share of the particles anew at the relocation's candidates, and keeps the others.
-/// Eq. (8.9)
-void SignatureMonteCarlo2D::drawFrom(const RelocationResult& result)
+/// Draws particles at the poses that a relocation has started, as many as their share of the
+/// weight, and keeps the others. \cite algorithm section 9, "Drawing"
+void SignatureMonteCarlo2D::drawStarted()
 {
-  const auto total = static_cast<double>(particles_when_lost_);
-  const auto drawn = static_cast<std::size_t>(total * elsewhere_ * (1 - result.elsewhere));
-  const std::size_t fresh = lost_ ? particles_when_lost_ : drawn;
-  elsewhere_ = std::max(elsewhere_ * result.elsewhere, tracking_.min_elsewhere);
-  if (fresh == 0) return;
-  auto& random = mrpt::random::getRandomGenerator();
-  const auto seeds = toParticles(toBelief(result), fresh, random.drawUniform32bit());
-  const std::size_t kept = particles_when_lost_ - fresh;
-  CParticleList particles;
-  if (kept > 0)
+  Belief started;
+  double share = 0;
+  for (const ParticleMode& mode : modes_->started())
   {
-    normalizeWeights();
-    double passed = std::exp(m_particles.front().log_w);
-    double sum = 0;
-    for (const auto& particle : m_particles) sum += std::exp(particle.log_w);
-    const double offset = random.drawUniform(0.0, 1.0);
-    std::size_t chosen = 0;
-    for (std::size_t i = 0; i < kept; ++i)
-    {
-      const double position = (static_cast<double>(i) + offset) / static_cast<double>(kept) * sum;
-      while (position > passed && chosen + 1 < m_particles.size())
-      {
-        passed += std::exp(m_particles[++chosen].log_w);
-      }
-      particles.push_back(m_particles[chosen]);
-      particles.back().log_w = 0;
-    }
+    started.hypotheses.emplace_back();
+    started.hypotheses.back().pose = mode.pose;
+    started.hypotheses.back().weight = mode.weight;
+    share += mode.weight;
   }
+  const auto total = static_cast<double>(particles_when_lost_);
+  const std::size_t fresh =
+      lost_ ? particles_when_lost_ : static_cast<std::size_t>(std::lround(total * share));
+  if (started.hypotheses.empty() || fresh == 0) return;
+  CParticleList particles;
+  const std::size_t kept = particles_when_lost_ - std::min(fresh, particles_when_lost_);
+  if (kept > 0) particles = resampled(kept);
+  const auto seeds =
+      toParticles(started, fresh, mrpt::random::getRandomGenerator().drawUniform32bit());
   particles.insert(particles.end(), seeds.m_particles.begin(), seeds.m_particles.end());
   m_particles = std::move(particles);
   lost_ = false;
   region_.reset();
+}
+
+/// Returns `count` of the particles, drawn systematically by their weights.
+SignatureMonteCarlo2D::CParticleList SignatureMonteCarlo2D::resampled(std::size_t count)
+{
+  normalizeWeights();
+  double passed = std::exp(m_particles.front().log_w);
+  double sum = 0;
+  for (const auto& particle : m_particles) sum += std::exp(particle.log_w);
+  const double offset = mrpt::random::getRandomGenerator().drawUniform(0.0, 1.0);
+  CParticleList particles;
+  std::size_t chosen = 0;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const double position = (static_cast<double>(i) + offset) / static_cast<double>(count) * sum;
+    while (position > passed && chosen + 1 < m_particles.size())
+    {
+      passed += std::exp(m_particles[++chosen].log_w);
+    }
+    particles.push_back(m_particles[chosen]);
+    particles.back().log_w = 0;
+  }
+  return particles;
 }
 }  // namespace sigloc

@@ -2,11 +2,39 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tracking/belief_verdict.h"
 
+#include <algorithm>
+
 #include "matching/verdict.h"
 #include "tracking/rivals.h"
 
 namespace sigloc
 {
+Belief beliefOf(const TrackSet& set, const FeatureMap& map, const TrackerOptions& options)
+{
+  Belief belief;
+  belief.elsewhere = set.elsewhere;
+  for (const Track& track : set.tracks)
+  {
+    belief.hypotheses.push_back(track.hypothesis);
+    belief.hypotheses.back().pose = withCommonError(track.hypothesis.pose, map.error());
+  }
+  if (set.tracks.empty() || !set.tracks.front().in_field) return belief;
+  const double here = set.probabilityHere();
+  double sum = 0;
+  for (TrackedHypothesis& hypothesis : belief.hypotheses)
+  {
+    hypothesis.weight *= here / (1.0 - options.min_elsewhere);
+    sum += hypothesis.weight;
+  }
+  belief.elsewhere = std::max(0.0, 1.0 - sum);
+  return belief;
+}
+
+const DenseField* fieldOf(const FeatureMap& map)
+{
+  return map.field() ? &*map.field() : nullptr;
+}
+
 void setVerdict(Belief& belief, const BeliefGrounds& more, double sure, const DenseField* field)
 {
   VerdictGrounds grounds;

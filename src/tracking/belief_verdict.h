@@ -3,7 +3,10 @@
 #pragma once
 
 #include "sigloc/map/DenseField.h"
+#include "sigloc/map/FeatureMap.h"
 #include "sigloc/tracking/Belief.h"
+#include "sigloc/tracking/TrackerOptions.h"
+#include "tracking/tracks/TrackSet.h"
 
 namespace sigloc
 {
@@ -14,6 +17,15 @@ struct BeliefGrounds
   bool doubtful = false;  ///< the first hypothesis has stopped explaining the scans
   bool sees_too_little = false;  ///< the scan has too few returns for the verdict *not here*
 };
+
+/// Returns what is published of the tracks, which must be sorted: their poses with the map's common
+/// error, and their weights. In a dense field they share the probability of being in the map by
+/// their weights, because the floor of "somewhere else" starts new tracks and says nothing about
+/// where the robot is. Without a verdict. Eq. (8.25)
+Belief beliefOf(const TrackSet& set, const FeatureMap& map, const TrackerOptions& options);
+
+/// The dense field of a map, or null.
+const DenseField* fieldOf(const FeatureMap& map);
 
 /// Sets the verdict of a belief, its probability and its reason by decideVerdict(), from its
 /// hypotheses (heaviest first) and the probability of being elsewhere. A claim requires the

@@ -172,6 +172,23 @@ TEST(ParticleTracker, IsAFunctionOfItsSeed)
   EXPECT_NE(first, endOf(kSeed + 1));
 }
 
+TEST(ParticleTracker, FollowsWithoutOdometry)
+{
+  const Office office;
+  const auto matcher = std::make_shared<const SignatureMatcher>(office.map->featureMap());
+  ParticleTracker tracker(office.map, matcher, {}, {}, kSeed);
+  constexpr std::size_t kEnd = 30;
+  for (std::size_t i = 0; i <= kEnd; ++i)
+  {
+    RawlogStep step = office.steps[i];
+    step.motion.reset();
+    tracker.step(step);
+  }
+  const Belief& belief = tracker.filter().belief();
+  ASSERT_FALSE(belief.hypotheses.empty());
+  EXPECT_LT(distanceOf(belief, office.truthAt(kEnd)), 0.5);
+}
+
 TEST(ParticleTracker, RefusesTooManyParticlesBeforeItMakesThem)
 {
   const Office office;

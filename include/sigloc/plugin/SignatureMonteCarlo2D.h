@@ -14,12 +14,15 @@
 #include "sigloc/config/option_fields.h"
 #include "sigloc/features/observe_scans.h"
 #include "sigloc/features/ObservedScene.h"
+#include "sigloc/geometry/GaussianPose.h"
 #include "sigloc/matching/SignatureMatcher.h"
 #include "sigloc/tracking/Belief.h"
 #include "sigloc/tracking/TrackerOptions.h"
 
 namespace sigloc
 {
+class ModeTracker;
+
 /// Section [sigloc.particles]: MRPT's filter where `tracker = particles`.
 struct ParticleOptions
 {
@@ -66,6 +69,8 @@ class SignatureMonteCarlo2D : public mrpt::slam::CMonteCarloLocalization2D
   /// options outside their ranges.
   explicit SignatureMonteCarlo2D(std::size_t particles = 500, const TrackerOptions& tracking = {});
 
+  ~SignatureMonteCarlo2D() override;
+
   /// Uses a matcher made before instead of making one of the SignatureMap at the first step.
   void useMatcher(std::shared_ptr<const SignatureMatcher> matcher);
 
@@ -93,30 +98,16 @@ class SignatureMonteCarlo2D : public mrpt::slam::CMonteCarloLocalization2D
       const mrpt::bayes::CParticleFilter::TParticleFilterOptions& filtering) override;
 
  private:
-  /// A pose where particles have gathered, with its log-odds from relocations.
-  struct Mode
-  {
-    TrackedHypothesis hypothesis;  // its weight: share of the particles
-    double confirmed = 0;  // log-odds, eq. (8.7)
-  };
-
   using FilterOptions = mrpt::bayes::CParticleFilter::TParticleFilterOptions;
   void step(const mrpt::obs::CActionCollection* action, const mrpt::obs::CSensoryFrame* observation,
             FilterOptions filtering, const std::function<void(const FilterOptions&)>& update);
   const SignatureMatcher& matcher();
+  void believe(const std::optional<PoseRegion>& region, bool known);
   void rememberParticles();
   void noticeReset();
-  double predictModes(const mrpt::obs::CActionCollection* action);
-  void gatherModes();
-  double travelSeen(double assumed);
-  void addLostLogOdds(double log_odds);
-  void weighElsewhere(const ObservedScene& scene, double travel);
-  bool wantsRelocation() const;
-  void relocate(const ObservedScene& scene);
-  double leadOfRivals(const RelocationResult& result) const;
-  void weighAgainst(const RelocationResult& result, double fresh_share);
-  void drawFrom(const RelocationResult& result);
-  void publish(bool blind);
+  std::optional<MotionIncrement> motionIn(const mrpt::obs::CActionCollection* action) const;
+  void drawStarted();
+  CParticleList resampled(std::size_t count);
 
   std::size_t particles_when_lost_;
   TrackerOptions tracking_;
@@ -124,17 +115,8 @@ class SignatureMonteCarlo2D : public mrpt::slam::CMonteCarloLocalization2D
   std::shared_ptr<const SignatureMatcher> matcher_;
   bool own_matcher_ = true;
   bool lost_ = true;
-  bool relocated_since_lost_ = false;  // a relocation has run since it is lost
   std::optional<PoseRegion> region_;  // the region that a lost robot is in
-  double elsewhere_ = 1;
-  std::vector<Mode> modes_;  // heaviest first
-  std::uint64_t next_id_ = 1;
-  double score_ = 0;  // of the heaviest mode, dense
-  double mean_score_ = 0;  // running mean
-  double reliability_ = 0;  // of the heaviest mode
-  std::optional<mrpt::math::TPose2D> seen_;  // heaviest mode when the robot last moved
-  bool motion_known_ = true;
-  double travel_since_relocation_ = 0;  // [m]
+  std::unique_ptr<ModeTracker> modes_;
   std::vector<double> known_x_;  // sorted, of the particles after the last step
   bool relocated_ = false;
   Belief belief_;

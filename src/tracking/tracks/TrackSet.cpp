@@ -84,6 +84,24 @@ double TrackSet::predict(const std::optional<MotionIncrement>& motion)
 void TrackSet::update(const DenseScan& scan, const DenseVerifier& verifier)
 {
   for (Track& track : tracks) updatePose(track, scan, verifier, has_odometry_, options_);
+  look(scan);
+}
+
+void TrackSet::score(const DenseScan& scan, const DenseVerifier& verifier)
+{
+  for (Track& track : tracks)
+  {
+    const TPose2D& pose = track.hypothesis.pose.mean;
+    track.evaluated_at = verifier.refine(scan, pose, kUpdateSteps, scan.size());
+    track.evidence = verifier.evaluate(scan, track.evaluated_at);
+    track.score = track.evidence.score;
+  }
+  look(scan);
+}
+
+/// Notes which cells the scan shows. Without odometry the heaviest track tells how the robot moved.
+void TrackSet::look(const DenseScan& scan)
+{
   if (!has_odometry_ && !tracks.empty())
   {
     ground_ = ground_ + (heaviest().hypothesis.pose.mean - left_);
@@ -108,29 +126,33 @@ void TrackSet::weigh(const DenseScan& scan, const DenseVerifier& verifier, doubl
                      double travel)
 {
   if (tracks.empty()) return;
-  const double fresh = 1.0 - std::exp(-travel / kScanMemory);
-  const double best_score =
-      std::max_element(tracks.begin(), tracks.end(),
-                       [](const Track& a, const Track& b) { return a.score < b.score; })
-          ->score;
-  unexplained_ += fresh * (std::max(0.0, 1.0 - best_score) - unexplained_);
-  weighRivals(scan, verifier, travelled, travel, best_score);
+  noteChange(travel);
+  weighRivals(scan, verifier, travelled, travel);
   normalise();
+}
+
+void TrackSet::noteChange(double travel)
+{
+  if (tracks.empty()) return;
+  const double fresh = 1.0 - std::exp(-travel / kScanMemory);
+  unexplained_ += fresh * (std::max(0.0, 1.0 - bestScore()) - unexplained_);
+}
+
+double TrackSet::bestScore() const
+{
+  return std::max_element(tracks.begin(), tracks.end(),
+                          [](const Track& a, const Track& b) { return a.score < b.score; })
+      ->score;
 }
 
 /// The errors of map and scan stay the same for a stretch, and so do changes since the area was
 /// mapped. So scores count per distance, and each observed cell counts once. Eq. (8.5)
 void TrackSet::weighRivals(const DenseScan& scan, const DenseVerifier& verifier, double travelled,
-                           double travel, double best_score)
+                           double travel)
 {
-  std::vector<double> unexplained;
-  for (Track& track : tracks)
-  {
-    const auto explained = verifier.explainedReturns(scan, track.evaluated_at);
-    unexplained.push_back(track.explained.addScan(view_, explained, travelled));
-  }
+  const std::vector<double> unexplained = showToAll(scan, verifier, travelled);
   const double least = *std::min_element(unexplained.begin(), unexplained.end());
-  const double best = logLikelihoodOfScore(best_score);
+  const double best = logLikelihoodOfScore(bestScore());
   const double share = shareBetweenRivals(scan, travel, options_);
   for (std::size_t k = 0; k < tracks.size(); ++k)
   {
@@ -141,6 +163,18 @@ void TrackSet::weighRivals(const DenseScan& scan, const DenseVerifier& verifier,
     deficit.by_cells -= std::min(kMaxRelative, costOfUnexplained() * (unexplained[k] - least));
     tracks[k].hypothesis.weight *= std::exp(deficit.smaller() - before);
   }
+}
+
+std::vector<double> TrackSet::showToAll(const DenseScan& scan, const DenseVerifier& verifier,
+                                        double travelled)
+{
+  std::vector<double> unexplained;
+  for (Track& track : tracks)
+  {
+    const auto explained = verifier.explainedReturns(scan, track.evaluated_at);
+    unexplained.push_back(track.explained.addScan(view_, explained, travelled));
+  }
+  return unexplained;
 }
 
 void TrackSet::showTo(Track& track, const DenseScan& scan, const DenseVerifier& verifier,
@@ -258,9 +292,22 @@ void TrackSet::dealOut(const RelocationResult& result,
   }
 }
 
-void TrackSet::mergeAndPrune()
+void TrackSet::sort()
 {
   std::sort(tracks.begin(), tracks.end(), heavier);
+}
+
+void TrackSet::rememberScores()
+{
+  for (Track& track : tracks)
+  {
+    track.mean_score = kScoreMemory * track.mean_score + (1 - kScoreMemory) * track.score;
+  }
+}
+
+void TrackSet::mergeAndPrune()
+{
+  sort();
   std::vector<Track> kept;
   for (Track& track : tracks)
   {
@@ -289,13 +336,10 @@ void TrackSet::mergeAndPrune()
     }
   }
   tracks = std::move(kept);
-  std::sort(tracks.begin(), tracks.end(), heavier);
+  sort();
+  rememberScores();
   double here = 0;
-  for (Track& track : tracks)
-  {
-    here += track.hypothesis.weight;
-    track.mean_score = kScoreMemory * track.mean_score + (1 - kScoreMemory) * track.score;
-  }
+  for (const Track& track : tracks) here += track.hypothesis.weight;
   // The weight of pruned tracks goes to "somewhere else", which keeps its floor.
   const double keep = std::min(here, 1.0 - options_.min_elsewhere);
   for (Track& track : tracks) track.hypothesis.weight *= here > 0 ? keep / here : 0;
@@ -305,6 +349,25 @@ void TrackSet::mergeAndPrune()
 double TrackSet::probabilityHere() const
 {
   return 1.0 / (1.0 + std::exp(-tracks.front().inMapLogOdds()));
+}
+
+bool TrackSet::isConfirmed() const
+{
+  const Track& first = tracks.front();
+  return first.in_field ? probabilityHere() >= options_.localized_probability
+                        : first.inMapLogOdds() >= options_.confirmation;
+}
+
+bool TrackSet::isSuspicious() const
+{
+  return !tracks.empty() && heaviest().hasFallenTo(heaviest().score, options_.score_drop);
+}
+
+bool TrackSet::isDoubtful() const
+{
+  const Track& first = heaviest();
+  return !first.found && isSuspicious() &&
+         first.hasFallenTo(scoreOfUnhidden(first.evidence), options_.score_drop);
 }
 
 const Track& TrackSet::heaviest() const

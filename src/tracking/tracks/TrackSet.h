@@ -37,10 +37,22 @@ class TrackSet
   /// Eq. (8.3), (8.4)
   void update(const DenseScan& scan, const DenseVerifier& verifier);
 
+  /// Scores every track by the returns, at the pose that a refinement reaches, in the place of
+  /// update(): something else has set the poses, and they stay.
+  void score(const DenseScan& scan, const DenseVerifier& verifier);
+
   /// Weighs tracks against each other. The scan is taken after `travelled` [m] in all, `travel` [m]
-  /// after the one before. Where there are tracks, also updates the mean share that the best one
-  /// leaves unexplained. Eq. (8.5), (8.26)
+  /// after the one before. Includes noteChange(). Eq. (8.5), (8.26)
   void weigh(const DenseScan& scan, const DenseVerifier& verifier, double travelled, double travel);
+
+  /// Updates the mean share that the best track leaves unexplained, where there are tracks. Eq.
+  /// (8.26)
+  void noteChange(double travel);
+
+  /// Adds the scan to the observed cells of every track. Returns by how many cells the unexplained
+  /// sum of each has grown. Eq. (8.26)
+  std::vector<double> showToAll(const DenseScan& scan, const DenseVerifier& verifier,
+                                double travelled);
 
   /// Adds the last scan to the observed cells of a track that starts with it.
   void showTo(Track& track, const DenseScan& scan, const DenseVerifier& verifier,
@@ -79,6 +91,12 @@ class TrackSet
   /// (8.9)
   void dealOut(const RelocationResult& result, const std::function<Track(std::size_t k)>& start);
 
+  /// Sorts the tracks by weight, heaviest first.
+  void sort();
+
+  /// Adds the scores of the last scan to the running means.
+  void rememberScores();
+
   /// Merges tracks that have met, prunes the light ones and sorts by weight. Eq. (8.10)
   void mergeAndPrune();
 
@@ -89,6 +107,19 @@ class TrackSet
   /// not empty. Eq. (8.22)
   double probabilityHere() const;
 
+  /// True where the evidence that the robot is in the map is enough for a claim of the first track.
+  /// The tracks must be sorted, and not empty. Section 8, "Publish"
+  bool isConfirmed() const;
+
+  /// True where the heaviest track suddenly explains much less than before: the robot was kidnapped
+  /// or the odometry slipped.
+  bool isSuspicious() const;
+
+  /// True where suspicion stops a claim of the heaviest track. It does not where a relocation finds
+  /// no better pose in the whole map, nor where less is explained only because something hides the
+  /// walls. Must not be called on an empty set.
+  bool isDoubtful() const;
+
   /// The heaviest track. Must not be called on an empty set.
   const Track& heaviest() const;
 
@@ -96,8 +127,10 @@ class TrackSet
   double elsewhere = 1;
 
  private:
+  void look(const DenseScan& scan);
   void weighRivals(const DenseScan& scan, const DenseVerifier& verifier, double travelled,
-                   double travel, double best_score);
+                   double travel);
+  double bestScore() const;
 
   TrackerOptions options_;
   bool has_odometry_ = true;  // of the last prediction

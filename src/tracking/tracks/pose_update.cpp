@@ -15,7 +15,6 @@ using mrpt::math::TPose2D;
 
 namespace
 {
-constexpr int kUpdateSteps = 6;  // of a refinement
 constexpr double kUpdateGate = 16.27;  // chi-square, 3 degrees of freedom, 99.9 %, eq. (8.3)
 constexpr double kCorrelation = 4.0;  // scans of neighbouring steps share their errors
 constexpr double kLeastFit = 0.2;  // score below which the covariance grows no more

@@ -8,6 +8,8 @@
 
 namespace sigloc
 {
+constexpr int kUpdateSteps = 6;  // of the refinement of a tracked pose
+
 /// Refines the predicted pose of a track by the returns and fuses both. A refinement that does not
 /// agree with the prediction replaces it only when it explains the scan clearly better, because
 /// odometry slips. Without odometry the whole prior is searched. Also sets the track's evidence and

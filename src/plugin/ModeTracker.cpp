@@ -1,0 +1,194 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plugin/ModeTracker.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/same_place.h"
+#include "matching/candidate_probabilities.h"
+#include "tracking/belief_verdict.h"
+#include "tracking/tracks/confirmation.h"
+
+namespace sigloc
+{
+using mrpt::math::TPose2D;
+
+namespace
+{
+constexpr std::size_t kScoreBeams = 180;  // used to score a mode
+constexpr double kLeastProbability = 0.001;  // of a candidate that the relocation left out
+constexpr double kSameDistance = 0.75;  // [m], a mode from one step to the next
+constexpr double kSameAngle = 20.0 * M_PI / 180.0;
+constexpr double kLeastTurnSigma = 0.002;  // [rad]
+
+/// The log-odds that a relocation gives a pose of probability p, at least -2. Eq. (9.2)
+double gainOf(double p)
+{
+  const double bounded = std::clamp(p, kLeastProbability, 1.0 - kLeastProbability);
+  return std::max(std::log(bounded / (1.0 - bounded)), -kMaxAgainst);
+}
+
+/// Confirms the modes by the probabilities of the candidates. Eq. (9.2)
+void confirmByProbability(TrackSet& set, const RelocationResult& result, double fresh_share)
+{
+  for (Track& track : set.tracks)
+  {
+    double p = 0;
+    for (const Candidate& candidate : result.candidates)
+    {
+      if (set.trackAt(candidate.pose.mean) == &track) p += candidate.probability;
+    }
+    track.confirmed =
+        std::clamp(track.confirmed + fresh_share * gainOf(p), kMinConfirmed, kMaxConfirmed);
+  }
+}
+}  // namespace
+
+void ModeTracker::forget(bool known)
+{
+  set_ = TrackSet(options_);
+  relocation_ = DenseRelocation(options_);
+  schedule_ = RelocationSchedule(options_);
+  if (!known) return;
+  set_.elsewhere = options_.min_elsewhere;
+  schedule_.noteRelocation();
+}
+
+double ModeTracker::predict(const std::optional<MotionIncrement>& motion)
+{
+  motion_ = motion;
+  relocation_.move(motion);
+  return set_.predict(motion);
+}
+
+void ModeTracker::gather(const std::vector<ParticleMode>& modes, const SignatureMatcher& matcher)
+{
+  std::vector<Track> before = std::move(set_.tracks);
+  set_.tracks.clear();
+  for (const ParticleMode& mode : modes)
+  {
+    const auto known = std::find_if(before.begin(), before.end(),
+                                    [&](const Track& track) {
+                                      return withinReach(track.hypothesis.pose.mean, mode.pose.mean,
+                                                         kSameDistance, kSameAngle);
+                                    });
+    if (known != before.end())
+    {
+      set_.tracks.push_back(std::move(*known));
+      before.erase(known);
+    }
+    else
+    {
+      set_.tracks.push_back(matcher.verifier() != nullptr ? unprovenTrack(mode.pose) : Track{});
+      set_.tracks.back().hypothesis.id = next_id_++;
+      set_.tracks.back().searched_distance = schedule_.searched();
+    }
+    Track& track = set_.tracks.back();
+    track.hypothesis.pose = mode.pose;
+    track.hypothesis.weight = mode.weight * (1.0 - set_.elsewhere);
+  }
+  set_.sort();
+}
+
+bool ModeTracker::judge(const ObservedScene& scene, const SignatureMatcher& matcher, double travel,
+                        const std::optional<PoseRegion>& region)
+{
+  const DenseVerifier* const verifier = matcher.verifier();
+  DenseScan scan;
+  if (verifier != nullptr)
+  {
+    scan = makeDenseScan(scene, kScoreBeams);
+    set_.score(scan, *verifier);
+  }
+  const double least_score = verifier != nullptr ? options_.lost_score : 0.0;
+  if (!motion_) travel = schedule_.travelSeen(set_, least_score, set_.isSuspicious(), travel);
+  const double driven = motion_ ? motion_->mean.norm() : travel;
+  schedule_.countTravel(travel);
+  schedule_.countSearched(driven);
+  if (verifier != nullptr)
+  {
+    relocation_.remember(scan, schedule_.travelled());
+    set_.follow(scan, schedule_.travelled(), travel, driven);
+    set_.noteChange(travel);
+    set_.showToAll(scan, *verifier, schedule_.travelled());
+  }
+  bool relocated = schedule_.isDue(set_, set_.isSuspicious());
+  if (relocated)
+  {
+    relocated = verifier != nullptr
+                    ? relocation_.run(set_, schedule_, matcher, scene, scan, region, next_id_)
+                    : relocateByFeatures(scene, matcher, region);
+  }
+  set_.mergeAndPrune();
+  return relocated;
+}
+
+/// In a map without a dense field the probabilities of the candidates confirm the modes, and weigh
+/// them against the others. Eq. (9.2), (9.3)
+bool ModeTracker::relocateByFeatures(const ObservedScene& scene, const SignatureMatcher& matcher,
+                                     const std::optional<PoseRegion>& region)
+{
+  const RelocationResult result = matcher.localize(scene, region);
+  if (result.verdict == Verdict::too_little_seen) return false;
+  const double fresh_share = schedule_.freshShare();
+  schedule_.noteRelocation();
+  double covered = kLeastProbability;
+  double rival = kLeastProbability;
+  for (const Candidate& candidate : result.candidates)
+  {
+    double& best = set_.trackAt(candidate.pose.mean) != nullptr ? covered : rival;
+    best = std::max(best, candidate.probability);
+  }
+  set_.noteFound(result);
+  confirmByProbability(set_, result, fresh_share);
+  const double lead = std::log(rival / covered);
+  const bool beaten = lead > kFarBetter;
+  const double most = set_.holdsAgainst(beaten) ? 0.0 : kMaxLost;
+  set_.elsewhere *= std::exp(fresh_share * std::clamp(lead, -kMaxLost, most));
+  set_.normalise();
+  set_.overrule(result, beaten);
+  set_.dealOut(result,
+               [&](std::size_t k)
+               {
+                 const Candidate& candidate = result.candidates[k];
+                 Track fresh;
+                 fresh.hypothesis.pose = candidate.pose;
+                 fresh.hypothesis.id = next_id_++;
+                 fresh.confirmed = gainOf(candidate.probability);
+                 return fresh;
+               });
+  return true;
+}
+
+std::vector<ParticleMode> ModeTracker::started() const
+{
+  std::vector<ParticleMode> modes;
+  for (const Track& track : set_.tracks)
+  {
+    if (!track.isNew()) continue;
+    modes.push_back({track.hypothesis.pose, track.hypothesis.weight / (1.0 - set_.elsewhere)});
+  }
+  return modes;
+}
+
+Belief ModeTracker::publish(const SignatureMatcher& matcher, bool blind)
+{
+  Belief belief = beliefOf(set_, matcher.map(), options_);
+  for (TrackedHypothesis& hypothesis : belief.hypotheses)
+  {
+    hypothesis.pose.covariance(2, 2) += kLeastTurnSigma * kLeastTurnSigma;
+  }
+  BeliefGrounds grounds;
+  grounds.sees_too_little = blind;
+  if (!set_.tracks.empty())
+  {
+    belief.reliability = reliabilityOf(set_.tracks.front().evidence);
+    grounds.confirmed = set_.isConfirmed();
+    grounds.doubtful = set_.isDoubtful();
+  }
+  setVerdict(belief, grounds, options_.localized_probability, fieldOf(matcher.map()));
+  if (belief.verdict == Verdict::localized) schedule_.endSearch();
+  return belief;
+}
+}  // namespace sigloc

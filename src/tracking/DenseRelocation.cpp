@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tracking/DenseRelocation.h"
+
+#include "tracking/tracks/confirmation.h"
+
+namespace sigloc
+{
+bool DenseRelocation::run(TrackSet& set, RelocationSchedule& schedule,
+                          const SignatureMatcher& matcher, const ObservedScene& scene,
+                          const DenseScan& scan, const std::optional<PoseRegion>& region,
+                          std::uint64_t& next_id) const
+{
+  const RelocationResult result = matcher.localize(scene, region);
+  if (result.verdict == Verdict::too_little_seen) return false;
+  const double fresh_share = schedule.freshShare();
+  schedule.noteRelocation();
+  const DenseVerifier& verifier = *matcher.verifier();
+  const double travelled = schedule.travelled();
+
+  set.noteFound(result);
+  confirmTracks(set, result, scan, travelled, fresh_share);
+  set.overrule(result, leadOfUntracked(set, result, options_.lost_score) > kFarBetter);
+  set.dealOut(result,
+              [&](std::size_t k)
+              {
+                Track fresh = trackAtCandidate(result, k, scan, verifier, travelled);
+                // The map's common error is the same for every scan. The filter would treat it as
+                // fresh noise, so it is added only to the poses that are published.
+                fresh.hypothesis.pose =
+                    withoutCommonError(fresh.hypothesis.pose, matcher.map().error());
+                fresh.hypothesis.id = next_id++;
+                fresh.searched_distance = schedule.searched();
+                set.showTo(fresh, scan, verifier, travelled);
+                return fresh;
+              });
+  set.weighFirstScan();
+  past_.weighNewcomers(set, scan, verifier, travelled);
+  return true;
+}
+}  // namespace sigloc

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tracking/tracks/RelocationSchedule.h"
+
+#include <algorithm>
+
+#include "tracking/tracks/travel.h"
+
+namespace sigloc
+{
+double RelocationSchedule::travelSeen(const TrackSet& set, double least_score, bool suspicious,
+                                      double assumed)
+{
+  constexpr double kMoved = 0.15;  // [m], more than the jitter of the poses of a robot at rest
+  if (set.tracks.empty() || suspicious) return assumed;
+  const Track& first = set.heaviest();
+  if (first.score < least_score) return assumed;
+  const mrpt::math::TPose2D& pose = first.hypothesis.pose.mean;
+  const bool same = first.hypothesis.id == seen_id_;
+  const double moved = travelBetween(seen_pose_, pose, options_);
+  if (same && moved < kMoved) return 0;
+  seen_id_ = first.hypothesis.id;
+  seen_pose_ = pose;
+  return same ? moved : 0;
+}
+
+void RelocationSchedule::countTravel(double travel)
+{
+  since_relocation_ += travel;
+  travelled_ += travel;
+}
+
+bool RelocationSchedule::isDue(const TrackSet& set, bool suspicious) const
+{
+  if (waking_up_ || suspicious) return true;
+  const bool retained = !set.tracks.empty() &&
+                        set.heaviest().hypothesis.weight >= options_.localized_probability &&
+                        set.heaviest().retained();
+  return since_relocation_ >=
+         (retained ? options_.confirmation_distance : options_.relocation_distance);
+}
+
+void RelocationSchedule::noteRelocation()
+{
+  waking_up_ = false;
+  since_relocation_ = 0;
+}
+
+double RelocationSchedule::freshShare() const
+{
+  return waking_up_ ? 1.0 : std::min(1.0, since_relocation_ / options_.evidence_distance);
+}
+}  // namespace sigloc

@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+#include "sigloc/tracking/TrackerOptions.h"
+#include "tracking/tracks/TrackSet.h"
+
+namespace sigloc
+{
+/// The way driven, and when the next relocation is due. \cite algorithm section 8, "Relocate"
+class RelocationSchedule
+{
+ public:
+  explicit RelocationSchedule(const TrackerOptions& options) : options_(options) {}
+
+  /// Returns the travel [m] of a step without odometry, where only the scans show whether the robot
+  /// moves. While the heaviest track stays where it is and scores `least_score`, another scan is no
+  /// new evidence. Where it explains the scans no more, the `assumed` travel counts. Eq. (8.2)
+  double travelSeen(const TrackSet& set, double least_score, bool suspicious, double assumed);
+
+  /// Counts the `travel` [m] of a step, turns included.
+  void countTravel(double travel);
+  /// Counts the distance [m] of a step that was driven unlocalized.
+  void countSearched(double driven) { searched_ += driven; }
+  /// Notes that the robot is localized.
+  void endSearch() { searched_ = 0; }
+
+  /// True at the start and on suspicion. Else relocations come at a steady rate, and at a lower one
+  /// while the heaviest track has nearly all the weight and is retained.
+  bool isDue(const TrackSet& set, bool suspicious) const;
+  /// Notes that a relocation has given an answer.
+  void noteRelocation();
+  /// How much a relocation counts as new evidence, in [0, 1]: phi of section 8.
+  double freshShare() const;
+
+  /// True until a relocation has given an answer.
+  bool isWakingUp() const { return waking_up_; }
+  /// [m] in all.
+  double travelled() const { return travelled_; }
+  /// [m] driven since the robot was last localized, or since the start.
+  double searched() const { return searched_; }
+
+ private:
+  TrackerOptions options_;
+  bool waking_up_ = true;
+  double since_relocation_ = 0;  // [m]
+  double travelled_ = 0;
+  double searched_ = 0;
+  std::uint64_t seen_id_ = 0;  // id of the track that was heaviest when the robot last moved
+  mrpt::math::TPose2D seen_pose_;  // pose of that track then
+};
+}  // namespace sigloc
