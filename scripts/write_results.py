@@ -12,11 +12,11 @@ import argparse
 import pathlib
 import sys
 
-from results import drives, growth, integrity, plots, scans, shortcomings, simulated
+from results import drives, growth, integrity, opponents, plots, scans, shortcomings, simulated
 from results.page import bullets, paragraph
 from results.runs import BadInput, Bench
 
-MAX_LINES = 300
+MAX_LINES = 340
 
 
 def introduction(bench):
@@ -39,7 +39,7 @@ def introduction(bench):
 
 
 def page(bench, drawn):
-    makers = (scans.data, scans.one_scan, scans.foreign, drives.wake_ups, drives.particle_filter,
+    makers = (scans.data, scans.one_scan, opponents.opponents, opponents.cbgl, scans.foreign, drives.wake_ups, drives.particle_filter,
               integrity.misleading, integrity.apart, integrity.coverage, integrity.reliability,
               drives.landmarks, simulated.wake_ups, simulated.foreign, simulated.sweeps,
               growth.growth, growth.area, growth.lost)  # fmt: skip

@@ -20,6 +20,7 @@ struct RelocateFlags
   EvaluationSources sources;
   std::vector<double> map_from_queries;
   ReadingArguments reading;
+  MapScanOptions scans_in_map;
   bool simulated = false;
 
   int run(const std::string& command_line) const
@@ -31,10 +32,12 @@ struct RelocateFlags
     options.sources.reading = reading.in();
     options.sources.map_from_queries = poseOfFlag(map_from_queries);
     options.sources.max_queries = common.max_queries;
+    options.scans_in_map = scans_in_map;
+    options.scans_in_map.seed = common.seed;
     common.passTo(options, command_line);
     common.checkDense(options.methods, true);
     common.passToMethods(options);
-    if (simulated) options.gates = simulationGates();
+    if (simulated || scans_in_map.count > 0) options.gates = simulationGates();
     const RelocateReport report = runRelocate(options);
     writeRelocateReport(report, common.out);
     FailuresByFolder failures;
@@ -63,6 +66,18 @@ std::function<int()> setUpRelocate(CLI::App& command, const std::string& command
   addPoseOption(command, "--map-from-queries", flags->map_from_queries,
                 "frame of the queries' truth in the map");
   command.add_flag("--foreign", sources.foreign, "the queries are of another place");
+  CLI::Option* const in_map =
+      command
+          .add_option("--scans-in-map", flags->scans_in_map.count,
+                      "simulate so many queries in the map itself, at free places")
+          ->check(numberFrom(1, 1e6));
+  addNumber(command, "--view", flags->scans_in_map.view_deg, "[deg] of their laser", 10, 360)
+      ->needs(in_map);
+  addNumber(command, "--range-sigma", flags->scans_in_map.range_sigma, "[m] of their ranges", 0, 1)
+      ->needs(in_map);
+  addNumber(command, "--map-sigma", flags->scans_in_map.map_sigma,
+            "[m] of the map, common to 0.2 rad of a scan", 0, 1)
+      ->needs(in_map);
   command.add_flag("--simulated", flags->simulated,
                    "the truth is exact: every confident answer that is not right is wrong");
   flags->common.declare(command, relocationMethodNames());

@@ -56,6 +56,11 @@ struct TrackFlags
     {
       throw std::invalid_argument("--particles: no particle filter is to be run");
     }
+    if (options.method.tempering &&
+        std::find(methods.begin(), methods.end(), "mcl-best") == methods.end())
+    {
+      throw std::invalid_argument("--tempering: mcl-best is not to be run");
+    }
   }
 
   WakeupReport runLog(const std::string& command_line)
@@ -104,6 +109,7 @@ struct TrackFlags
                              [](WorldKind kind) { return kind == WorldKind::points; }));
     common.passToMethods(simulated);
     simulated.method.particles = options.method.particles;
+    simulated.method.tempering = options.method.tempering;
     if (common.max_queries > 0) simulated.drives = std::min(simulated.drives, common.max_queries);
     return runSimulatedTrack(simulated);
   }
@@ -187,6 +193,8 @@ std::function<int()> setUpTrack(CLI::App& command, const std::string& command_li
   addNumber(command, "--travel", options.travel, "[m] driven after each", 0, 1e6);
   command.add_option("--start-from", options.start_from,
                      "simplemap: wake up only where its key frames were taken");
+  addNumber(command, "--tempering", options.method.tempering,
+            "of mcl-best: exponent of a scan's likelihood, instead of its own", 1e-6, 1);
   addNumber(command, "--particles", options.method.particles,
             "of the particle filters, instead of their own number", 1, kMostParticles);
   command.add_flag("--foreign", options.foreign,

@@ -30,11 +30,13 @@ class Table:
         choose = max if largest else min
         return choose(rows, key=lambda name: float(str(self.cell(name, column)).split()[0]))
 
+    def named_cells(self):
+        """The rows as lists of texts, each row's name first."""
+        return [[name, *map(str, cells)] for name, cells in self.rows.items()]
+
     def lines(self):
         out = ["| " + " | ".join(self.head) + " |", "|---" * len(self.head) + "|"]
-        for name, cells in self.rows.items():
-            out.append("| " + " | ".join((name,) + tuple(str(cell) for cell in cells)) + " |")
-        return out
+        return out + ["| " + " | ".join(cells) + " |" for cells in self.named_cells()]
 
 
 class Section:

@@ -1,13 +1,13 @@
 # SPDX-FileCopyrightText: 2026 the sigloc authors
 # SPDX-License-Identifier: BSD-3-Clause
 """Where the figures fall short: a sentence or two each, from the tables that are there."""
-from results import drives, scans, simulated
+from results import drives, opponents, scans, simulated
 from results.numbers import NONE
 
 
 def shortcomings(tables):
     """Bullets from the page's tables by title."""
-    makers = (one_scan, features, recorded, landmark_tracking, moved, half_mapped, no_odometry,
+    makers = (one_scan, others_ahead, features, filter_ahead, recorded, landmark_tracking, moved, half_mapped, no_odometry,
               foreign_kind, foreign_size, sweep)  # fmt: skip
     return [text for text in (maker(tables) for maker in makers) if text]
 
@@ -17,6 +17,32 @@ def one_scan(tables):
     low = table.extreme("right@1", scans.whole_scans(table))
     return (f"**One scan**: on {low} the first answer is right in {table.cell(low, 'right@1')}, "
             f"among ten answers in {table.cell(low, 'right@10')}.")  # fmt: skip
+
+
+def others_ahead(tables):
+    """Where the search of every pose, or another method, finds more than sigloc."""
+    table = tables[scans.ONE_SCAN]
+    parts = []
+    for name in table.rows:
+        theirs, ours = (table.cell(name, column) for column in ("exhaustive right@1", "right@1"))
+        if theirs != NONE and float(theirs.split()[0]) > float(ours.split()[0]):
+            parts.append(f"On {name}, `exhaustive` {theirs.split()[0]}, sigloc {ours.split()[0]}.")
+    table = tables[opponents.OPPONENTS]
+    for place, method, theirs, ours in opponents.wins(table.head, table.named_cells()):
+        parts.append(f"On {place}, `{method}` {theirs}, sigloc {ours}.")
+    return f"**Other methods find more**: {' '.join(parts)}" if parts else None
+
+
+def filter_ahead(tables):
+    table = tables[drives.FILTER]
+    parts = []
+    for place in drives.FILTER_PLACES:
+        names = [name for name in table.rows if name.startswith(f"{place}, ")]
+        right = {name: float(table.cell(name, "right at the end").split()[0]) for name in names}
+        best = max(names, key=right.get, default=None)
+        if best and right[best] > right[names[0]]:
+            parts.append(f"On {best} {right[best]:.3f}, sigloc {right[names[0]]:.3f}.")
+    return f"**MRPT's filter ends right more often**: {' '.join(parts)}" if parts else None
 
 
 def features(tables):

@@ -140,6 +140,14 @@ INSTANTIATE_TEST_SUITE_P(
                  "--out", "out"},
                 "--particles: no particle filter"},
         Refusal{
+            "TemperingOfNoFilter",
+            {"track", "--simulate", "1", "--method", "mcl", "--tempering", "0.5", "--out", "out"},
+            "--tempering: mcl-best is not to be run"},
+        Refusal{"SimulatedAndRecordedScans",
+                {"relocate", "--map", kOffice, "--scans-in-map", "3", "--interleave", "2", "--out",
+                 "out"},
+                "--scans-in-map asks no recorded scans"},
+        Refusal{
             "DenseFieldOfLandmarks",
             {"track", "--landmarks", "dlr", "--landmark-folder", ".", "--no-dense", "--out", "out"},
             "--no-dense: maps of landmarks"},
@@ -207,7 +215,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "--interleave: 0: not a number from 2"},
         Refusal{"UnknownTracking",
                 {"track", "--simulate", "1", "--method", "best", "--out", "out"},
-                "mcl-tuned, mcl-stock"},
+                "mcl-tuned, mcl-best, mcl-stock"},
         Refusal{"UnknownFeatureMethod",
                 {"scale", "--method", "best", "--out", "out"},
                 "jcbb-greedy, interpretation-tree, clique"},

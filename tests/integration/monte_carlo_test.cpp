@@ -101,6 +101,50 @@ TEST(MonteCarlo, TunedParticlesAreBounded)
   EXPECT_EQ(monteCarloSettings("mcl-tuned", 1e6, {}).kld_maximum, 200000U);
 }
 
+TEST(MonteCarlo, TheBestUsesAllBeamsAndTempersThem)
+{
+  const MonteCarloSettings best = monteCarloSettings("mcl-best", 500, {});
+  EXPECT_EQ(best.particles, monteCarloSettings("mcl-tuned", 500, {}).particles);
+  EXPECT_TRUE(best.least_reliability);
+  const mrpt::config::CConfigFileMemory ini(toIni(best));
+  EXPECT_EQ(ini.read_int("MetricMap_occupancyGrid_00_likelihoodOpts", "LF_decimation", 0), 1);
+  EXPECT_LT(ini.read_double("PF_options", "powFactor", 1), 1);
+  RelocationMethodOptions options;
+  options.tempering = 0.25;
+  EXPECT_EQ(monteCarloSettings("mcl-best", 500, options).tempering, 0.25);
+}
+
+TEST(MonteCarlo, TheBestClaimsWhereTheScanIsReliable)
+{
+  const std::filesystem::path source = SIGLOC_SOURCE_DIR;
+  WakeupOptions options;
+  options.map = source / "maps" / "office.simplemap";
+  options.rawlog = source / "rawlogs" / "office.rawlog";
+  options.ground_truth = source / "rawlogs" / "office-truth.txt";
+  options.starts = 1;
+  options.travel = 3;
+  options.methods = {"signature"};
+  const auto first = runWakeups(options).methods.front().runs.front().steps.front().claim.pose;
+  options.methods = {"mcl-best"};
+  options.method.particles = 2000;
+  options.method.region =
+      PoseRegion{first.x - 0.3, first.x + 0.3, first.y - 0.3, first.y + 0.3, first.phi, 0.2};
+  std::size_t tight = 0;
+  for (const WakeupStep& step : runWakeups(options).methods.front().runs.front().steps)
+  {
+    const double reliability = step.claim.reliability;
+    if (std::isnan(reliability))
+    {
+      EXPECT_FALSE(step.claim.confident) << "judged only while tight";
+      continue;
+    }
+    ++tight;
+    EXPECT_EQ(step.claim.confident,
+              reliability >= *monteCarloSettings("mcl-best", 0, {}).least_reliability);
+  }
+  EXPECT_GT(tight, 0U);
+}
+
 TEST(MonteCarlo, ProgramAndFilterFollowTheSameDrive)
 {
   const std::filesystem::path source = SIGLOC_SOURCE_DIR;

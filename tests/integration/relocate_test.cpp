@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -124,6 +125,56 @@ TEST_F(RelocateTest, NamesWhatIsWrongBeforeItRuns)
   options = officeOptions();
   options.sources.map = folder_ / "missing.simplemap";
   EXPECT_THROW(runRelocate(options), std::runtime_error);
+}
+
+TEST_F(RelocateTest, FindsScansThatAreSimulatedInTheMapItself)
+{
+  RelocateOptions options;
+  options.sources.map = kOffice;
+  options.methods = {"signature"};
+  options.scans_in_map.count = 40;
+  options.scans_in_map.view_deg = 270;
+  options.scans_in_map.seed = 28;
+  options.gates = simulationGates();
+  const RelocateReport report = runRelocate(options);
+  const auto& records = report.methods.front().records;
+  ASSERT_EQ(records.size(), 40U);
+  const auto right = std::count_if(records.begin(), records.end(),
+                                   [](const auto& record) { return record.rank_of_right == 1; });
+  EXPECT_GE(right, 36);
+}
+
+TEST(ScansInMap, ComeFromClearPlacesAndFollowTheirSeed)
+{
+  const EvaluationMap map = readEvaluationMap(kOffice);
+  const OccupancyRaster raster = rasterOf(*map.features->field());
+  MapScanOptions options;
+  options.count = 20;
+  const auto queries = scansInMap(map, options);
+  ASSERT_EQ(queries.size(), 20U);
+  for (const EvaluationQuery& query : queries)
+  {
+    const auto place =
+        (mrpt::math::TPoint2D(query.truth->x, query.truth->y) - raster.frame.origin) *
+        (1 / raster.frame.resolution);
+    const auto cell =
+        static_cast<std::size_t>(place.y) * raster.frame.width + static_cast<std::size_t>(place.x);
+    EXPECT_EQ(raster.cells.at(cell), CellState::free);
+    EXPECT_EQ(query.scans.front().ranges.size(), 360U);
+  }
+  EXPECT_EQ(scansInMap(map, options).front().scans.front().ranges,
+            queries.front().scans.front().ranges);
+  options.seed = 2;
+  EXPECT_NE(scansInMap(map, options).front().truth, queries.front().truth);
+}
+
+TEST(ScansInMap, RefuseALaserOutOfRange)
+{
+  const EvaluationMap map = readEvaluationMap(kOffice);
+  MapScanOptions options;
+  options.count = 1;
+  options.range_sigma = -1;
+  EXPECT_THROW(scansInMap(map, options), std::invalid_argument);
 }
 }  // namespace
 }  // namespace sigloc

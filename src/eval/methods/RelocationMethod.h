@@ -45,6 +45,7 @@ struct RelocationMethodOptions
   bool use_dense_field = true;  ///< for the signature methods
   std::uint32_t seed = 1;
   std::optional<std::uint32_t> particles;  ///< of the particle filters, instead of their own number
+  std::optional<double> tempering;  ///< of `mcl-best`, instead of its own exponent
 };
 
 /// Names that `makeRelocationMethod` accepts, in the order of the documentation.

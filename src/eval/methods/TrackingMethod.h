@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -29,7 +30,10 @@ struct TrackingClaim
   std::array<double, kWeights> weights{};  ///< of the heaviest hypotheses, heaviest first
   std::array<mrpt::math::TPose2D, kWeights> poses{};  ///< of the same hypotheses
   InMapEvidence evidence;  ///< of the heaviest one
-  double elsewhere = 1;  ///< weight of "somewhere else"
+  double elsewhere = 1;  ///< weight of "somewhere else".
+  /// How well the pose explains the scan, in [0, 1]: Belief::reliability. Of `mcl-best` it is
+  /// MRPT's measure, while the cloud is tight. Else NaN.
+  double reliability = std::numeric_limits<double>::quiet_NaN();
   std::array<double, 9> covariance{};  ///< of `pose`, row by row
 };
 
@@ -79,7 +83,7 @@ class TrackingMethodFactory
 };
 
 /// Names that `makeTrackingMethod` accepts: `signature`, `signature-mcl` (MRPT's filter, started
-/// and recovered by signatures), `mcl` in three settings, and `mcl-stock`, the pf-localization
+/// and recovered by signatures), `mcl` in four settings, and `mcl-stock`, the pf-localization
 /// program.
 std::vector<std::string> trackingMethodNames();
 
@@ -95,7 +99,8 @@ namespace detail
 {
 /// MRPT's filter: `mcl` with the options that pf-localization ships, `mcl-fixed` with 40 000
 /// particles throughout, `mcl-tuned` with as many particles as the map's free area needs, up to 200
-/// 000.
+/// 000. `mcl-best` is `mcl-tuned` with all beams, their likelihood tempered, and claims only where
+/// MRPT's measure of reliability is high enough.
 std::unique_ptr<TrackingMethodFactory> makeMonteCarlo(const std::string& name,
                                                       const EvaluationMap& map,
                                                       const RelocationMethodOptions& options);

@@ -21,6 +21,7 @@ TrackingClaim claimOf(const Belief& belief)
   claim.verdict = belief.verdict;
   claim.hypotheses = static_cast<std::uint32_t>(belief.hypotheses.size());
   claim.elsewhere = belief.elsewhere;
+  claim.reliability = belief.reliability;
   for (std::size_t i = 0; i < std::min(belief.hypotheses.size(), TrackingClaim::kWeights); ++i)
   {
     claim.weights[i] = belief.hypotheses[i].weight;
@@ -132,7 +133,7 @@ std::vector<TimedClaim> SteppedTracking::drive(const std::vector<RawlogStep>& st
 
 std::vector<std::string> trackingMethodNames()
 {
-  return {"signature", "signature-mcl", "mcl", "mcl-fixed", "mcl-tuned", "mcl-stock"};
+  return {"signature", "signature-mcl", "mcl", "mcl-fixed", "mcl-tuned", "mcl-best", "mcl-stock"};
 }
 
 void checkTrackingMethods(const std::vector<std::string>& names)

@@ -3,8 +3,6 @@
 #include "eval/protocols/reliability.h"
 
 #include <mrpt/math/wrap2pi.h>
-#include <mrpt/obs/CObservation2DRangeScanWithUncertainty.h>
-#include <mrpt/poses/CPosePDFGaussian.h>
 
 #include <atomic>
 #include <cmath>
@@ -13,6 +11,7 @@
 
 #include "eval/data/evaluation_data.h"
 #include "eval/data/occupancy_grid.h"
+#include "eval/methods/particles/scan_reliability.h"
 #include "eval/worlds/robot_simulation.h"
 #include "eval/worlds/simulation_files.h"
 #include "eval/worlds/world_generators.h"
@@ -59,7 +58,6 @@ class MappedWorld
                                   const TPose2D& truth) const;
   ReliabilityCase judge(const LaserScan& scan, const DenseScan& dense, const TPose2D& pose,
                         const TPose2D& truth) const;
-  double mrptsMeasure(const LaserScan& scan, const GaussianPose& pose) const;
 
   World world_;
   FreeSpace space_;
@@ -125,28 +123,10 @@ ReliabilityCase MappedWorld::judge(const LaserScan& scan, const DenseScan& dense
   ReliabilityCase judged;
   judged.error = errorBetween(pose, truth);
   judged.signature = reliabilityOf(verifier.evaluate(dense, pose));
-  judged.mrpt = mrptsMeasure(
-      scan, withCommonError({pose, verifier.covarianceAt(dense, pose)}, map_.features->error()));
+  judged.mrpt = scanReliability(
+      *grid_, *toRangeScan(scan, 0),
+      withCommonError({pose, verifier.covarianceAt(dense, pose)}, map_.features->error()));
   return judged;
-}
-
-/// As pf-localization computes it with DO_RELIABILITY_ESTIMATE, and never uses it.
-double MappedWorld::mrptsMeasure(const LaserScan& scan, const GaussianPose& pose) const
-{
-  const auto observed = toRangeScan(scan, 0);
-  COccupancyGridMap2D::TLaserSimulUncertaintyParams simulation;
-  simulation.method = COccupancyGridMap2D::sumUnscented;
-  simulation.robotPose.mean = mrpt::poses::CPose2D(pose.mean);
-  simulation.robotPose.cov = pose.covariance;
-  simulation.aperture = observed->aperture;
-  simulation.rangeNoiseStd = observed->stdError;
-  simulation.nRays = observed->getScanSize();
-  simulation.rightToLeft = observed->rightToLeft;
-  simulation.sensorPose = observed->sensorPose;
-  simulation.maxRange = observed->maxRange;
-  COccupancyGridMap2D::TLaserSimulUncertaintyResult expected;
-  grid_->laserScanSimulatorWithUncertainty(simulation, expected);
-  return expected.scanWithUncert.evaluateScanLikelihood(*observed, {});
 }
 }  // namespace
 

@@ -3,6 +3,7 @@
 #include "eval/protocols/relocate.h"
 
 #include <limits>
+#include <stdexcept>
 
 #include "eval/data/method_names.h"
 #include "eval/process/cpu_time.h"
@@ -39,6 +40,22 @@ RelocateMethodReport runMethod(const std::string& name, const EvaluationData& da
   report.failures =
       collectFailures(name, *method, data.map, data.queries, report.records, options.keep_failures);
   return report;
+}
+
+/// Recorded scans, or scans simulated in the map.
+EvaluationData readData(const RelocateOptions& options)
+{
+  const EvaluationSources& sources = options.sources;
+  if (options.scans_in_map.count == 0) return readEvaluationData(sources);
+  if (!sources.queries.empty() || !sources.rawlog.empty() || sources.interleave > 0 ||
+      sources.foreign)
+  {
+    throw std::invalid_argument("--scans-in-map asks no recorded scans");
+  }
+  EvaluationData data;
+  data.map = readEvaluationMap(sources.map, sources.reading);
+  data.queries = scansInMap(data.map, options.scans_in_map);
+  return data;
 }
 }  // namespace
 
@@ -78,7 +95,7 @@ RelocateReport runRelocate(const RelocateOptions& options)
   {
     if (!path.empty()) report.provenance.data_files.push_back(path);
   }
-  const EvaluationData data = readEvaluationData(options.sources);
+  const EvaluationData data = readData(options);
   report.map.add(*data.map.features, data.map.build_seconds);
   report.without_truth = data.without_truth;
   report.complete = data.complete;

@@ -8,6 +8,7 @@
 
 #include "eval/methods/RelocationMethod.h"
 #include "eval/process/run_parallel.h"
+#include "eval/protocols/map_scans.h"
 #include "eval/scoring/failed_queries.h"
 #include "eval/scoring/map_statistics.h"
 #include "eval/scoring/provenance.h"
@@ -19,6 +20,7 @@ namespace sigloc
 struct RelocateOptions
 {
   EvaluationSources sources;
+  MapScanOptions scans_in_map;  ///< with a count: these are asked, in place of recorded scans
   std::vector<std::string> methods = {"signature", "exhaustive"};
   RelocationMethodOptions method;
   AccuracyGates gates;

@@ -27,7 +27,8 @@ constexpr const char* kNotes = R"(
   as that program does: its map, the log's own model of the motion, no update at the first step.
   `mcl-fixed`: 40 000 throughout. `mcl-tuned`: 200 particles per free square metre, between 40 000 and
   200 000, KLD down to 1 000 on cells of 0.5 m, motion noise of at least 5 cm and 2 degrees a step.
-  One thread each.
+  `mcl-best`: the same with all beams, their likelihood tempered; it is confident only where MRPT's own
+  reliability of the scan is high enough, too. Both numbers were chosen on aces. One thread each.
 * `mcl-stock`: the program pf-localization, a process a run, with the options of `mcl`. It seeds
   itself, so its rows differ from run to run; its times are those it tells, by the clock.
 )";

@@ -115,6 +115,9 @@ const Columns<WakeupStep>& stepColumns()
       C("followed_m", ofEvidence(&InMapEvidence::followed), "driven since it was proposed"),
       C("searched_m", ofEvidence(&InMapEvidence::searched), "driven unlocalized before that"),
       C("score", ofEvidence(&InMapEvidence::score), "of it at the last scan", 4),
+      C(
+          "reliability", [](const S& step) { return step.claim.reliability; },
+          "of the last scan at the pose; of mcl-best, MRPT's, while its cloud is tight", 4),
       C("tracked", &S::tracked, "one of the four heaviest hypotheses is right"),
       C(
           "nees", [](const S& step) { return step.claim.belief ? step.nees : kNone; },

@@ -31,6 +31,10 @@ constexpr double kTunedDensity = 200;  // [1/m^2]
 constexpr double kTunedLeast = 40000;
 constexpr double kTunedMost = 200000;
 
+// Chosen on drives of aces, by scripts/choose_filter_claim.
+constexpr double kBestTempering = 0.3;
+constexpr double kBestReliability = 0.55;
+
 // As the shipped configuration has them.
 constexpr const char* kMapSections = R"(
 [MetricMap]
@@ -54,14 +58,13 @@ minLaserScanNoiseStd=0.001
 
 [MetricMap_occupancyGrid_00_likelihoodOpts]
 likelihoodMethod=4
-LF_decimation=20
 LF_stdHit=0.20
 LF_maxCorrsDistance=0.30
 LF_zHit=0.95
 LF_zRandom=0.05
 LF_maxRange=80
 LF_alternateAverageMethod=0
-)";
+LF_decimation=)";
 
 CActionRobotMovement2D::TMotionModelOptions gaussianModel(const OdometryNoise& noise)
 {
@@ -70,6 +73,16 @@ CActionRobotMovement2D::TMotionModelOptions gaussianModel(const OdometryNoise& n
   model.gaussianModel.minStdXY = static_cast<float>(noise.sigma);
   model.gaussianModel.minStdPHI = static_cast<float>(noise.angle_deg * M_PI / 180);
   return model;
+}
+/// As many particles as the free area [m^2] needs, and more noise of the motion.
+void tune(MonteCarloSettings& settings, double free_area)
+{
+  settings.particles =
+      static_cast<std::uint32_t>(std::clamp(kTunedDensity * free_area, kTunedLeast, kTunedMost));
+  settings.kld_maximum = settings.particles;
+  settings.kld_minimum = 1000;
+  settings.kld_bin = 0.5;
+  settings.own_odometry = OdometryNoise{0.05, 2.0};
 }
 }  // namespace
 
@@ -84,12 +97,14 @@ MonteCarloSettings monteCarloSettings(const std::string& name, double free_area,
   }
   else if (name == "mcl-tuned")
   {
-    settings.particles =
-        static_cast<std::uint32_t>(std::clamp(kTunedDensity * free_area, kTunedLeast, kTunedMost));
-    settings.kld_maximum = settings.particles;
-    settings.kld_minimum = 1000;
-    settings.kld_bin = 0.5;
-    settings.own_odometry = OdometryNoise{0.05, 2.0};
+    tune(settings, free_area);
+  }
+  else if (name == "mcl-best")
+  {
+    tune(settings, free_area);
+    settings.beam_decimation = 1;
+    settings.tempering = options.tempering.value_or(kBestTempering);
+    settings.least_reliability = kBestReliability;
   }
   else if (name != "mcl" && name != "mcl-stock")
   {
@@ -119,10 +134,11 @@ std::string toIni(const MonteCarloSettings& settings)
              "KLD_epsilon=0.01\nKLD_maxSampleSize={}\nKLD_minSampleSize={}\n"
              "KLD_minSamplesPerBin=0\n\n[PF_options]\nPF_algorithm=0\nresamplingMethod=0\n"
              "adaptiveSampleSize={:d}\npfAuxFilterOptimal_MaximumSearchSamples=10\nBETA=0.5\n"
-             "sampleSize=1\n\n[DummyOdometryParams]\nminStdXY={:g}\nminStdPHI={:g}\n",
+             "sampleSize=1\n{}\n[DummyOdometryParams]\nminStdXY={:g}\nminStdPHI={:g}\n",
              settings.kld_bin, settings.kld_maximum, settings.kld_minimum, settings.adaptive,
+             settings.tempering == 1 ? "" : fmt::format("powFactor={:g}\n", settings.tempering),
              settings.dummy_odometry.sigma, settings.dummy_odometry.angle_deg) +
-         kMapSections;
+         kMapSections + fmt::format("{}\n", settings.beam_decimation);
 }
 
 PoseRegion startRegionOf(const MonteCarloSettings& settings)

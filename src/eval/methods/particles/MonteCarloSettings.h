@@ -32,14 +32,19 @@ struct MonteCarloSettings
   std::uint32_t kld_minimum = 150;
   std::uint32_t kld_maximum = 40000;
   double kld_bin = 0.10;  ///< [m]
+  std::uint32_t beam_decimation = 20;  ///< one beam of so many is used
+  double tempering = 1;  ///< exponent of a scan's likelihood, in (0, 1]
+  /// The least of MRPT's reliability (see scanReliability) for a claim; none: not asked for.
+  std::optional<double> least_reliability;
   OdometryNoise dummy_odometry;  ///< of logs of observations only
   /// Replaces the log's motion model. None: the log's own is used, as the stock program does.
   std::optional<OdometryNoise> own_odometry;
   std::optional<PoseRegion> region;
 };
 
-/// Returns the settings of `mcl` and `mcl-stock` (shipped), `mcl-fixed` or `mcl-tuned`, the latter
-/// for a map with that much free area [m^2]. Throws std::invalid_argument for another name.
+/// Returns the settings of `mcl` and `mcl-stock` (shipped), `mcl-fixed`, `mcl-tuned` or `mcl-best`,
+/// the last two for a map with that much free area [m^2]. Throws std::invalid_argument for another
+/// name.
 MonteCarloSettings monteCarloSettings(const std::string& name, double free_area,
                                       const RelocationMethodOptions& options);
 

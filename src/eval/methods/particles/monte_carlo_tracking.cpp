@@ -1,9 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <mrpt/maps/COccupancyGridMap2D.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
+
 #include <stdexcept>
 
 #include "eval/methods/particles/lost_filter.h"
 #include "eval/methods/particles/MonteCarloSettings.h"
+#include "eval/methods/particles/scan_reliability.h"
 #include "eval/methods/TrackingMethod.h"
 
 namespace sigloc
@@ -16,7 +20,9 @@ class MonteCarloTracking : public SteppedTracking
  public:
   MonteCarloTracking(const mrpt::maps::CMultiMetricMap::Ptr& map,
                      const MonteCarloSettings& settings, std::uint32_t seed)
-      : settings_(settings), filter_(map, settings, seed)
+      : settings_(settings),
+        grid_(map->mapByClass<mrpt::maps::COccupancyGridMap2D>()),
+        filter_(map, settings, seed)
   {
   }
 
@@ -29,11 +35,24 @@ class MonteCarloTracking : public SteppedTracking
       filter_.update(&actions, *step.frame);
     }
     const auto [covariance, mean] = filter_.particles().getCovarianceAndMean();
-    return cloud_.claim(mean, covariance);
+    TrackingClaim claim = cloud_.claim(mean, covariance);
+    if (settings_.least_reliability) judgeClaim(claim, {mean.asTPose(), covariance}, *step.frame);
+    return claim;
   }
 
  private:
+  /// A tight cloud is a claim only where MRPT finds the scan reliable at it.
+  void judgeClaim(TrackingClaim& claim, const GaussianPose& pose,
+                  const mrpt::obs::CSensoryFrame& frame) const
+  {
+    const auto scan = frame.getObservationByClass<mrpt::obs::CObservation2DRangeScan>();
+    if (!claim.confident || !scan) return;
+    claim.reliability = scanReliability(*grid_, *scan, pose);
+    claim.confident = claim.reliability >= *settings_.least_reliability;
+  }
+
   MonteCarloSettings settings_;
+  mrpt::maps::COccupancyGridMap2D::Ptr grid_;
   detail::LostFilter filter_;
   TightCloud cloud_;
   std::size_t steps_ = 0;
