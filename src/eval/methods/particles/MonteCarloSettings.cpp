@@ -32,8 +32,8 @@ constexpr double kTunedLeast = 40000;
 constexpr double kTunedMost = 200000;
 
 // Chosen on drives of aces, by scripts/choose_filter_claim.
-constexpr double kBestTempering = 0.3;
-constexpr double kBestReliability = 0.55;
+constexpr double kBestTempering = 0.1;
+constexpr double kBestReliability = 0.65;
 
 // As the shipped configuration has them.
 constexpr const char* kMapSections = R"(
