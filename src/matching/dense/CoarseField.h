@@ -34,6 +34,10 @@ struct CoarseScore
 class CoarseField
 {
  public:
+  /// The lowest bit of a byte: a robot could be there. The likelihood has the other bits. In a sum
+  /// of bytes this bit is too little to matter.
+  static constexpr std::uint8_t kStanding = 1;
+
   /// A field with cells of 0.1 m, or 0.2 m where that would be too large for the cache.
   explicit CoarseField(const DenseField& field);
   /// A field with cells of about `cell` [m].
@@ -59,8 +63,8 @@ class CoarseField
   void fillLikelihoods(const DenseField& field);
   void markStanding(const DenseField& field);
 
-  RasterFrame frame_;  ///< with a border around the map
+  RasterFrame frame_;  ///< with a border around the map, in which no robot is
   std::uint32_t border_ = 0;  ///< [cells] width of the border
-  ByteRaster likelihoods_;  ///< the lowest bit: whether a robot could be there
+  ByteRaster likelihoods_;
 };
 }  // namespace sigloc

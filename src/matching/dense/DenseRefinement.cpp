@@ -9,10 +9,10 @@
 #include <optional>
 #include <vector>
 
+#include "geometry/simd.h"
 #include "matching/dense/CellView.h"
 #include "matching/dense/DenseVerifier.h"
 #include "matching/dense/likelihood_table.h"
-#include "matching/dense/simd.h"
 
 namespace sigloc
 {

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 
+#include "geometry/simd.h"
 #include "matching/dense/CellView.h"
 #include "matching/dense/DenseVerifier.h"
 #include "matching/dense/likelihood_table.h"
-#include "matching/dense/simd.h"
 #include "matching/dense/WallCrossings.h"
 
 namespace sigloc

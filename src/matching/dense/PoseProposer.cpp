@@ -196,6 +196,8 @@ void PoseProposer::slide(const Feature& wall, std::vector<PoseProposal>& out) co
 {
   const TPoint2D normal = directionVector(wall);
   const double inside = wall.size * (0.5 - kOverhang);
+  // Appended many at a time, because the compiler keeps nothing in registers across push_back.
+  std::array<PoseProposal, 32> some;
   for (const MappedWall& mapped : walls_)
   {
     const bool is_long = mapped.length + kLengthTolerance >= wall.size * (1.0 - kOverhang);
@@ -211,14 +213,16 @@ void PoseProposer::slide(const Feature& wall, std::vector<PoseProposal>& out) co
     PoseProposal next = poseCarrying(wall.position, mapped.start + tangent * low, phi, c, s);
     const auto dx = static_cast<float>(tangent.x * step);
     const auto dy = static_cast<float>(tangent.y * step);
-    // Resized first, because the compiler keeps nothing in registers across push_back.
-    const std::size_t size = out.size();
-    out.resize(size + static_cast<std::size_t>(steps) + 1);
-    for (auto to = out.begin() + static_cast<std::ptrdiff_t>(size); to != out.end(); ++to)
+    for (int left = steps + 1; left > 0; left -= static_cast<int>(some.size()))
     {
-      *to = next;
-      next.x += dx;
-      next.y += dy;
+      const auto end = some.begin() + std::min(left, static_cast<int>(some.size()));
+      for (auto to = some.begin(); to != end; ++to)
+      {
+        *to = next;
+        next.x += dx;
+        next.y += dy;
+      }
+      out.insert(out.end(), some.begin(), end);
     }
   }
 }

@@ -7,8 +7,8 @@
 #include <bitset>
 #include <cmath>
 
+#include "geometry/simd.h"
 #include "matching/dense/CellView.h"
-#include "matching/dense/simd.h"
 
 namespace sigloc
 {
