@@ -88,6 +88,34 @@ TEST(KeyPairLaws, RoundsAddUp)
   }
 }
 
+// Supporters are counted as proposals come; all proposals compared with each other say the same.
+TEST(KeyPairLaws, SupportIsThatOfTheBestSupportedPose)
+{
+  constexpr std::uint64_t kSeed = 36;
+  Random random(kSeed);
+  const KeyPairIndex index = indexOf(*office().map());
+  constexpr std::size_t kMost = 6;
+  std::size_t reached = 0;
+  for (int k = 0; k < 4; ++k)
+  {
+    const ObservedScene scene = office().sceneAt(office().randomPose(random), random);
+    KeyPairSearch search(index, scene.features);
+    std::vector<PoseProposal> joined;
+    for (std::size_t wanted = 4; !search.finished() && joined.size() < 2000; wanted *= 4)
+    {
+      const std::vector<PoseProposal> round = search.next(wanted);
+      joined.insert(joined.end(), round.begin(), round.end());
+      std::size_t most = 0;
+      for (const PoseProposal& p : joined)
+        most = std::max(most, search.supportersOf({p.x, p.y, p.phi}));
+      for (std::size_t pairs = 1; pairs <= kMost; ++pairs)
+        EXPECT_EQ(search.anySupportedBy(pairs), most >= pairs);
+      reached = std::max(reached, most);
+    }
+  }
+  EXPECT_GE(reached, kMost);
+}
+
 // Moving the map moves the proposals. A pair at the border of a gate or of a stored digit may
 // come or go.
 TEST(KeyPairLaws, ProposalsMoveWithTheMap)

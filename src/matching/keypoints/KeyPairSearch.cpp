@@ -43,7 +43,7 @@ HeadingShares headingShares(const KeyPair& observed, const KeyPoint& a, const Ke
 }  // namespace
 
 KeyPairSearch::KeyPairSearch(const KeyPairIndex& index, const std::vector<Feature>& observed)
-    : index_(index)
+    : index_(index), counted_(static_cast<float>(kSupportDistance))
 {
   const std::vector<KeyPoint> points = observedKeyPoints(observed);
   for (std::uint32_t i = 0; i < points.size(); ++i)
@@ -82,6 +82,7 @@ KeyPairSearch::KeyPairSearch(const KeyPairIndex& index, const std::vector<Featur
                               }),
                pairs_.end());
   if (pairs_.size() > kMaxPairs) pairs_.resize(kMaxPairs);
+  counted_for_.assign(pairs_.size(), 0);
 }
 
 std::vector<PoseProposal> KeyPairSearch::next(std::size_t wanted)
@@ -139,41 +140,43 @@ std::size_t KeyPairSearch::supportersOf(const TPose2D& pose) const
   return supporters;
 }
 
-bool KeyPairSearch::anySupportedBy(std::size_t pairs) const
+bool KeyPairSearch::anySupportedBy(std::size_t pairs)
 {
-  // Swept along a direction that walls seldom have, so that few proposals lie side by side.
-  constexpr float kAlongX = 0.84F;
-  constexpr float kAlongY = 0.54F;
-  std::vector<std::pair<float, std::uint32_t>> order;
-  order.reserve(proposals_.size());
-  for (std::uint32_t k = 0; k < proposals_.size(); ++k)
+  while (most_supporters_ < pairs && supports_.size() < proposals_.size())
   {
-    order.emplace_back(kAlongX * proposals_[k].x + kAlongY * proposals_[k].y, k);
+    countSupporters(static_cast<std::uint32_t>(supports_.size()));
   }
-  std::sort(order.begin(), order.end());
-  const auto supports = [&](const PoseProposal& a, const PoseProposal& b)
-  {
-    const float dx = a.x - b.x;
-    const float dy = a.y - b.y;
-    return dx * dx + dy * dy <= kSupportDistance * kSupportDistance &&
-           std::abs(wrapToPi(a.phi - b.phi)) <= kSupportAngle;
-  };
-  std::vector<std::uint32_t> seen_by(pairs_.size(), 0);  // the last pose that a pair supported
-  std::size_t low = 0;
-  for (std::size_t i = 0; i < order.size(); ++i)
-  {
-    while (order[i].first - order[low].first > kSupportDistance) ++low;
-    std::size_t count = 0;
-    for (std::size_t k = low; k < order.size(); ++k)
-    {
-      if (order[k].first - order[i].first > kSupportDistance) break;
-      std::uint32_t& seen = seen_by[owners_[order[k].second]];
-      if (seen == i + 1 || !supports(proposals_[order[i].second], proposals_[order[k].second]))
-        continue;
-      seen = static_cast<std::uint32_t>(i + 1);
-      if (++count >= pairs) return true;
-    }
-  }
-  return false;
+  return most_supporters_ >= pairs;
+}
+
+/// Counts the pairs that support the next proposal, and its own pair for those before it. They come
+/// pair by pair, so a pair that supports one of these was counted if it was the last one.
+void KeyPairSearch::countSupporters(std::uint32_t proposal)
+{
+  constexpr double kSquaredDistance = kSupportDistance * kSupportDistance;
+  const PoseProposal& p = proposals_[proposal];
+  const std::uint32_t owner = owners_[proposal];
+  Support own{1, owner};
+  counted_for_[owner] = proposal + 1;
+  counted_.anyNear(p.x, p.y,
+                   [&](std::uint32_t k)
+                   {
+                     const PoseProposal& other = proposals_[k];
+                     const float dx = p.x - other.x;
+                     const float dy = p.y - other.y;
+                     if (dx * dx + dy * dy > kSquaredDistance ||
+                         std::abs(wrapToPi(p.phi - other.phi)) > kSupportAngle)
+                       return false;
+                     Support& support = supports_[k];
+                     if (support.last != owner) support = {support.pairs + 1, owner};
+                     most_supporters_ = std::max(most_supporters_, support.pairs);
+                     std::uint32_t& counted_for = counted_for_[owners_[k]];
+                     if (counted_for != proposal + 1) ++own.pairs;
+                     counted_for = proposal + 1;
+                     return false;
+                   });
+  most_supporters_ = std::max(most_supporters_, own.pairs);
+  counted_.add(p.x, p.y);
+  supports_.push_back(own);
 }
 }  // namespace sigloc

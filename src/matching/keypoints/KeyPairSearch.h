@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "geometry/NearPlaces.h"
 #include "matching/dense/DenseEvidence.h"
 #include "matching/keypoints/KeyPairIndex.h"
 #include "sigloc/matching/RelocationResult.h"
@@ -30,7 +31,7 @@ class KeyPairSearch
   std::size_t supportersOf(const mrpt::math::TPose2D& pose) const;
 
   /// Returns whether any pose proposed so far is supported by that many pairs.
-  bool anySupportedBy(std::size_t pairs) const;
+  bool anySupportedBy(std::size_t pairs);
 
   /// True when every pair with a mapped partner has proposed its poses.
   bool finished() const { return next_ == pairs_.size(); }
@@ -46,7 +47,14 @@ class KeyPairSearch
     std::size_t count = 0;  // of entries in the runs
     std::size_t begin = 0, end = 0;  // of its runs
   };
+  /// Of a proposal: how many pairs are known to support it, and the last of these.
+  struct Support
+  {
+    std::uint32_t pairs = 0;
+    std::uint32_t last = 0;
+  };
   void propose(std::uint32_t pair);
+  void countSupporters(std::uint32_t proposal);
 
   const KeyPairIndex& index_;
   std::vector<KeyPairIndex::Run> runs_;
@@ -55,6 +63,11 @@ class KeyPairSearch
   std::uint64_t entries_read_ = 0;
   std::vector<PoseProposal> proposals_;  // of all pairs so far
   std::vector<std::uint32_t> owners_;  // the pair of each proposal
+  std::vector<Support>
+      supports_;  // of the first proposals; those of the others are not counted yet
+  std::uint32_t most_supporters_ = 0;  // of any of them
+  std::vector<std::uint32_t> counted_for_;  // by pair: the last proposal that it supports, plus one
+  NearPlaces<4096> counted_;  // where supports_ are
   std::vector<KeyPairIndex::Match> matches_;  // kept to be filled again
 };
 }  // namespace sigloc
