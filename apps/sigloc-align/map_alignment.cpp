@@ -40,7 +40,7 @@ SimulatedLaserOptions exactLaser()
   laser.max_range = kRange;
   laser.range_sigma = laser.map_sigma = 0;
   laser.clutter_share = laser.moved_share = laser.lost_share = 0;
-  laser.thin_share = 0;
+  laser.thin_share = laser.backed_within = 0;
   laser.unknown_range = 1000;
   return laser;
 }

@@ -104,6 +104,10 @@ nlohmann::ordered_json summaryOf(const MapCheck& check, const std::string& map)
       std::count_if(drives.begin(), drives.end(), [](double d) { return !std::isfinite(d); });
   json["twins"] = check.twins.size();
   json["relocation_ms_median"] = medianTime(check);
+  json["laser"] = {{"beams", check.laser.beams},
+                   {"max_range_m", check.laser.max_range},
+                   {"map_sigma_m", check.laser.map_sigma},
+                   {"clutter_share", check.laser.clutter_share}};
   return json;
 }
 
@@ -161,6 +165,9 @@ std::string checkTable(const MapCheck& check)
   { table += fmt::format("{:<24}{}\n", name, text); };
   row("free space",
       fmt::format("{:.0f} m2, asked at {}", check.area, counted(check.places.size(), "place")));
+  row("taken for granted",
+      fmt::format("walls {:.2f} m off, {:.0f} % of the beams end on what is not mapped",
+                  check.laser.map_sigma, 100 * check.laser.clutter_share));
   row("first pose right", fmt::format("{:.3f} of the scans", check.recall()));
   row("localized", fmt::format("{:.3f} of the scans", check.localizedShare()));
   row("fooled", fmt::format("{:.4f} of the scans: localized at a wrong pose", check.fooledShare()));

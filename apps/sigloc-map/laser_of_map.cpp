@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <variant>
 
+#include "map_errors.h"
 #include "sigloc/io/file_output.h"
 
 namespace sigloc
@@ -57,7 +58,7 @@ SimulatedLaserOptions laserOfMap(const MapSource& source)
     laser.sensor_phi = first.robot_from_sensor.phi;
     break;
   }
-  return laser;
+  return withErrorsOf(*scans, laser);
 }
 
 SimulatedLaserOptions readLaser(const std::filesystem::path& ini,

@@ -10,7 +10,7 @@
 namespace sigloc
 {
 /// Returns the laser that took the scans of a map source: beams, angles, range and mount of its
-/// first scan. A source without scans gives that of the defaults.
+/// first scan, and errors as all of them tell. A source without scans gives that of the defaults.
 SimulatedLaserOptions laserOfMap(const MapSource& source);
 
 /// Reads the section [laser] of an ini; keys that are absent keep the value of `defaults`. Throws

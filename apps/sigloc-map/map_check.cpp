@@ -220,6 +220,7 @@ MapCheck checkMap(const std::shared_ptr<const FeatureMap>& map, const SimulatedL
   }
   constexpr double kShareOfScans = 0.6;  // of the time, about
   MapCheck check;
+  check.laser = laser;
   check.area = space.area();
   Checker checker(map, laser, options.seed);
   for (const TPose2D& pose : poses)

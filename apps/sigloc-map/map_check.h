@@ -47,6 +47,7 @@ struct CheckedPlace
 struct MapCheck
 {
   static constexpr double kDrive = 20;  ///< [m], the longest drive
+  SimulatedLaserOptions laser;  ///< that took the scans
   double area = 0;  ///< [m^2] in which the robot can be
   std::vector<CheckedPlace> places;
   std::vector<Twins> twins;

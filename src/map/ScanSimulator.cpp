@@ -129,6 +129,7 @@ class ScanInMaking
     double before = start;
     bool in_unknown = false;
     double beyond = 0;  // [m], from where the walk ends to where the beam does
+    std::optional<double> passed;  // [m], to the last wall that did not stop the beam
     const bool thin_there = thin_[sectorOf(beam, kThinSector)] < options_.thin_share;
     const TPoint2D direction(std::cos(angle), std::sin(angle));
     const auto goes_on = [&](double range, const DenseCell& cell)
@@ -136,11 +137,18 @@ class ScanInMaking
       if (in_unknown) left -= range - before;
       before = range;
       in_unknown = cell.state == CellState::unknown;
+      const bool backed = options_.backed_within > 0 && passed;
+      if (in_unknown && backed && range - *passed < options_.backed_within)
+      {
+        beyond = *passed - range;  // no mapping beam has passed that wall
+        return false;
+      }
       if (left <= 0)
       {
         beyond = left;  // the surface was passed
         return false;
       }
+      if (cell.state == CellState::wall) passed = range + ridgeAhead(cell, direction, range);
       const bool stops =
           cell.state == CellState::solid_wall || (cell.state == CellState::wall && thin_there);
       if (stops) beyond = ridgeAhead(cell, direction, range);

@@ -8,6 +8,13 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include <mrpt/maps/CSimpleMap.h>
+#include <mrpt/math/TPose2D.h>
+#include <mrpt/math/TPose3D.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CSensoryFrame.h>
+#include <mrpt/poses/CPose3DPDFGaussian.h>
+
 #include "command_line.h"
 #include "picture_pixels.h"
 
@@ -131,6 +138,55 @@ TEST(MapCheck, asksAtGivenPosesAndWithAGivenLaser)
   ASSERT_EQ(places.size(), 2U);
   EXPECT_EQ(places[1][0], 10);
   EXPECT_EQ(places[1][2], -180);
+}
+
+/// Writes the map of a room of 10 m x 8 m that a robot has crossed. In every second scan the robot
+/// sees each wall `off` [m] farther away, and a passer-by in `passer` of its 181 beams.
+void writeRoom(const std::filesystem::path& file, double off, std::size_t passer)
+{
+  mrpt::maps::CSimpleMap map;
+  for (std::size_t k = 0; k < 40; ++k)
+  {
+    const mrpt::math::TPose2D pose(1.5 + 0.15 * static_cast<double>(k), 4, 0);
+    const auto scan = mrpt::obs::CObservation2DRangeScan::Create();
+    scan->aperture = static_cast<float>(M_PI);
+    scan->maxRange = 30;
+    scan->resizeScan(181);
+    for (std::size_t i = 0; i < 181; ++i)
+    {
+      const double angle = -M_PI / 2 + static_cast<double>(i) * M_PI / 180;
+      const double side = 4 / std::max(1e-9, std::abs(std::sin(angle)));
+      double range = std::min((10 - pose.x) / std::max(1e-9, std::cos(angle)), side);
+      if (k % 2 == 1) range = i < passer ? 1.0 : range + off;
+      scan->setScanRange(i, static_cast<float>(range));
+      scan->setScanRangeValidity(i, true);
+    }
+    auto frame = mrpt::obs::CSensoryFrame::Create();
+    frame->insert(scan);
+    map.insert(
+        mrpt::poses::CPose3DPDFGaussian::Create(mrpt::poses::CPose3D(mrpt::math::TPose3D(pose))),
+        frame);
+  }
+  ASSERT_TRUE(map.saveToFile(file.string()));
+}
+
+TEST(MapCheck, aMapsOwnScansTellItsErrors)
+{
+  const TemporaryFolder folder;
+  writeRoom(folder / "exact.simplemap", 0, 0);
+  writeRoom(folder / "blurred.simplemap", 0.1, 0);
+  writeRoom(folder / "visited.simplemap", 0, 18);
+  const auto errorsIn = [&](const std::string& name)
+  {
+    EXPECT_EQ(check(folder, folder / (name + ".simplemap"), name).exit_code, 0);
+    return summaryIn(folder, name)["laser"];
+  };
+  const json exact = errorsIn("exact");
+  EXPECT_LT(exact["map_sigma_m"], 0.03);
+  EXPECT_EQ(exact["clutter_share"], 0);
+  EXPECT_GT(errorsIn("blurred")["map_sigma_m"], 0.05);
+  // A tenth of the beams, four times; at most 0.4.
+  EXPECT_NEAR(errorsIn("visited")["clutter_share"].get<double>(), 0.4, 0.05);
 }
 
 TEST(MapCheck, anOldMapIsHarder)

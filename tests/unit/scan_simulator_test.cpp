@@ -17,7 +17,7 @@ constexpr std::uint32_t kSide = 200;  // [cells] of 5 cm
 constexpr std::size_t kWallAt = 180;  // column of a wall across the whole raster
 
 /// Free space with a wall at x = 9.025 m. What is left of x = 1 m is unknown.
-DenseField wallAhead(CellState wall = CellState::solid_wall)
+DenseField wallAhead(CellState wall = CellState::solid_wall, CellState behind = CellState::free)
 {
   OccupancyRaster raster;
   raster.frame = {{0, 0}, 0.05, kSide, kSide};
@@ -27,6 +27,8 @@ DenseField wallAhead(CellState wall = CellState::solid_wall)
     for (std::size_t column = 0; column < 20; ++column)
       raster.cells[row * kSide + column] = CellState::unknown;
     raster.cells[row * kSide + kWallAt] = wall;
+    for (std::size_t column = kWallAt + 1; column < kSide; ++column)
+      raster.cells[row * kSide + column] = behind;
   }
   return buildDenseField(raster);
 }
@@ -108,6 +110,20 @@ TEST(ScanSimulator, rarelyHitWallsStopBeamsInTheirShareOfTheDirections)
   const DenseField field = wallAhead(CellState::wall);
   SimulatedLaserOptions laser = exactLaser();
   laser.thin_share = 0.4;
+  EXPECT_NEAR(shareOfReturns(ScanSimulator(field, laser), [](bool valid, double) { return valid; }),
+              0.4, 0.08);
+}
+
+TEST(ScanSimulator, rarelyHitWallsBeforeUnknownSpaceStopEveryBeam)
+{
+  const DenseField field = wallAhead(CellState::wall, CellState::unknown);
+  SimulatedLaserOptions laser = exactLaser();
+  laser.thin_share = 0.4;
+  laser.unknown_range = 1000;
+  EXPECT_EQ(shareOfReturns(ScanSimulator(field, laser), [](bool valid, double ahead)
+                           { return valid && std::abs(ahead - 5.0) < 0.02; }),
+            1.0);
+  laser.backed_within = 0;
   EXPECT_NEAR(shareOfReturns(ScanSimulator(field, laser), [](bool valid, double) { return valid; }),
               0.4, 0.08);
 }

@@ -71,10 +71,11 @@ struct SimulatedLaserOptions
   double range_sigma = 0.01;
   double map_sigma = 0.02;
   double clutter_share = 0.02;
-  double moved_share = 0.01;
+  double moved_share = 0.03;
   double lost_share = 0.005;
-  double unknown_range = 3.0;
+  double unknown_range = 10.0;
   double thin_share = 0.3;
+  double backed_within = 0.3;
 
   template <class V>
   static void visitFields(V&& visit)
@@ -101,6 +102,8 @@ struct SimulatedLaserOptions
     visit(
         OptionField{"thin_share", &O::thin_share, 0.0, 1.0,
                     "[-] of the directions in which wall cells stop beams that most have passed"});
+    visit(OptionField{"backed_within", &O::backed_within, 0.0, 10.0,
+                      "[m] a wall with unknown space so near behind it stops every beam"});
   }
 };
 
