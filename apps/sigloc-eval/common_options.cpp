@@ -30,7 +30,8 @@ void CommonOptions::declareRunning(CLI::App& command)
   command.add_flag("--quiet", quiet, "no progress bar, no table");
   command
       .add_option("--out", out,
-                  "folder for summary.json, results.csv, report.md and plots; an earlier run's are "
+                  "folder for summary.json, results.csv, report.md, report.html and plots; an "
+                  "earlier run's are "
                   "replaced, other files of these names are not")
       ->required();
 }

@@ -58,84 +58,16 @@ relocations.</p>
 </main>
 <script id="data" type="application/json">)page";
 
-const char* const kRunPageTail = R"page(</script>
-<script>
-"use strict";
-const data = JSON.parse(document.getElementById("data").textContent);
+const char* const kRunPageTail = R"page(
 const steps = data.steps;
 const colors = ["#1a8f4c", "#d99000", "#c22f2f", "#777777"];
-const get = id => document.getElementById(id);
 let current = 0, timer = null;
-const view = {x: 0, y: 0, scale: 1};
-
-function element(tag, text) {
-  const made = document.createElement(tag);
-  made.textContent = text;
-  return made;
-}
 function fillTable(table, rows) {
   table.replaceChildren(...rows.map((row, k) => {
     const tr = document.createElement("tr");
     tr.append(...row.map(cell => element(k === 0 && table.id === "hypotheses" ? "th" : "td", cell)));
     return tr;
   }));
-}
-function rasterImage(raster) {
-  const image = document.createElement("canvas");
-  image.width = raster.width;
-  image.height = raster.height;
-  const context = image.getContext("2d");
-  const pixels = context.createImageData(raster.width, raster.height);
-  const shades = [222, 255, 90];
-  let at = 0;
-  raster.runs.forEach((count, k) => {
-    for (const end = at + count; at < end; ++at) {
-      const row = raster.height - 1 - Math.floor(at / raster.width);
-      const to = 4 * (row * raster.width + at % raster.width);
-      pixels.data.fill(shades[k % 3], to, to + 3);
-      pixels.data[to + 3] = 255;
-    }
-  });
-  context.putImageData(pixels, 0, 0);
-  return image;
-}
-const raster = data.map.raster;
-const image = raster ? rasterImage(raster) : null;
-
-function fit(canvas) {
-  const ratio = window.devicePixelRatio || 1;
-  canvas.width = Math.round(canvas.clientWidth * ratio);
-  canvas.height = Math.round(canvas.clientHeight * ratio);
-  return canvas.getContext("2d");
-}
-function wholeMap() {
-  const [x0, x1, y0, y1] = data.map.box;
-  const canvas = get("map");
-  view.x = (x0 + x1) / 2;
-  view.y = (y0 + y1) / 2;
-  view.scale = 0.95 * Math.min(canvas.clientWidth / Math.max(1, x1 - x0),
-                               canvas.clientHeight / Math.max(1, y1 - y0));
-}
-function drawMarks(context, marks) {
-  const size = 3 / view.scale;
-  for (const m of marks) {
-    context.beginPath();
-    if (m.length === 4) { context.moveTo(m[0], m[1]); context.lineTo(m[2], m[3]); context.stroke(); }
-    else { context.arc(m[0], m[1], size, 0, 7); context.fill(); }
-  }
-}
-function drawArrow(context, pose, length, color, width) {
-  context.save();
-  context.translate(pose[0], pose[1]);
-  context.rotate(pose[2]);
-  context.strokeStyle = color;
-  context.lineWidth = width / view.scale;
-  context.beginPath();
-  context.moveTo(-0.4 * length, 0); context.lineTo(0.6 * length, 0);
-  context.moveTo(0.25 * length, 0.25 * length); context.lineTo(0.6 * length, 0);
-  context.lineTo(0.25 * length, -0.25 * length);
-  context.stroke();
-  context.restore();
 }
 function drawEllipse(context, h, color) {
   const [cxx, cyy, cxy] = [h[4], h[5], h[6]];
@@ -162,22 +94,7 @@ function drawPath(context) {
 }
 function drawMap() {
   const canvas = get("map");
-  const context = fit(canvas);
-  const ratio = canvas.width / canvas.clientWidth;
-  context.setTransform(ratio * view.scale, 0, 0, -ratio * view.scale,
-                       canvas.width / 2 - ratio * view.scale * view.x,
-                       canvas.height / 2 + ratio * view.scale * view.y);
-  if (image) {
-    context.save();
-    context.imageSmoothingEnabled = false;
-    context.translate(raster.x, raster.y + raster.height * raster.pixel);
-    context.scale(raster.pixel, -raster.pixel);
-    context.drawImage(image, 0, 0);
-    context.restore();
-  }
-  context.fillStyle = context.strokeStyle = "#1f4ea0";
-  context.lineWidth = 2 / view.scale;
-  drawMarks(context, data.map.marks);
+  const {context, ratio} = drawBackground(canvas);
   drawPath(context);
   const step = steps[current];
   const length = Math.max(0.6, 26 / view.scale);
@@ -200,14 +117,7 @@ function drawMap() {
   drawOverlay(context, canvas, ratio, step);
 }
 function drawOverlay(context, canvas, ratio, step) {
-  context.setTransform(ratio, 0, 0, ratio, 0, 0);
-  const most = 160 / view.scale;
-  const power = Math.pow(10, Math.floor(Math.log10(most)));
-  const bar = [5, 2, 1].find(f => f * power <= most) * power;
-  context.fillStyle = "#444";
-  context.fillRect(14, canvas.clientHeight - 16, bar * view.scale, 4);
-  context.font = "13px sans-serif";
-  context.fillText(`${bar} m`, 14, canvas.clientHeight - 22);
+  drawScaleBar(context, canvas, ratio);
   if (step.v === 0) return;
   context.strokeStyle = context.fillStyle = colors[2];
   context.lineWidth = 6;
@@ -268,23 +178,6 @@ function play() {
   }, 100);
   get("play").textContent = timer ? "pause" : "play";
 }
-function zoom(event) {
-  event.preventDefault();
-  const box = get("map").getBoundingClientRect();
-  const right = event.clientX - box.left - box.width / 2;
-  const up = box.height / 2 - (event.clientY - box.top);
-  const factor = event.deltaY < 0 ? 1.25 : 0.8;
-  view.x += right / view.scale * (1 - 1 / factor);
-  view.y += up / view.scale * (1 - 1 / factor);
-  view.scale *= factor;
-  drawMap();
-}
-function drag(event) {
-  if (event.buttons !== 1) return;
-  view.x -= event.movementX / view.scale;
-  view.y += event.movementY / view.scale;
-  drawMap();
-}
 for (const id of ["strip", "times"])
   get(id).addEventListener("click", event => {
     const box = get(id).getBoundingClientRect();
@@ -300,8 +193,6 @@ get("follow").addEventListener("change", () => {
   if (get("follow").checked) view.scale = Math.max(view.scale, 24);
   show(current);
 });
-get("map").addEventListener("wheel", zoom, {passive: false});
-get("map").addEventListener("pointermove", drag);
 document.addEventListener("keydown", event => {
   if (event.target === get("slider")) return;
   if (event.key === "ArrowRight") show(current + 1);

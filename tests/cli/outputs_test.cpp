@@ -169,7 +169,8 @@ TEST(Outputs, aReportReplacesOnlyReports)
 {
   const TemporaryFolder folder;
   const std::string truth = (kSources / "rawlogs/office-truth.txt").string();
-  for (const std::string name : {"results.csv", "summary.json", "report.md", "figure.png"})
+  for (const std::string name :
+       {"results.csv", "summary.json", "report.md", "report.html", "figure.png"})
   {
     const TemporaryFolder other;
     fs::create_directory(other / "out");

@@ -97,6 +97,7 @@ RelocateReport runRelocate(const RelocateOptions& options)
   }
   const EvaluationData data = readData(options);
   report.map.add(*data.map.features, data.map.build_seconds);
+  report.features = data.map.features;
   report.without_truth = data.without_truth;
   report.complete = data.complete;
   report.foreign = options.sources.foreign;

@@ -45,6 +45,7 @@ struct RelocateReport
 {
   std::vector<RelocateMethodReport> methods;
   MapStatistics map;
+  std::shared_ptr<const FeatureMap> features;  ///< the map itself
   std::size_t without_truth = 0;
   bool complete = true;
   bool foreign = false;

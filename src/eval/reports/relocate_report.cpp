@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/core.h>
+#include <mrpt/core/bits_math.h>
 
 #include <cmath>
 
@@ -97,6 +98,43 @@ std::vector<detail::QueryCurve> curvesOf(const RelocateReport& report)
   }
   return curves;
 }
+PagePlace pagePlace(const std::string& method, const RelocationRecord& record)
+{
+  PagePlace place;
+  place.method = method;
+  place.name = "query " + record.query;
+  const bool right = record.rank_of_right == 1;
+  place.outcome = record.sawNothing() ? PageOutcome::saw_nothing : pageOutcome(right, record.claim);
+  place.truth = record.truth;
+  place.first = record.first;
+  const auto fact = [&](const std::string& name, const std::string& text)
+  { place.facts.emplace_back(name, text); };
+  fact("verdict", toString(record.verdict));
+  fact("probability of the first pose", fmt::format("{:.3f}", record.probability));
+  if (record.truth && record.first)
+  {
+    fact("off the truth", fmt::format("{:.2f} m, {:.1f} deg", record.error.distance,
+                                      mrpt::RAD2DEG(record.error.angle)));
+  }
+  fact("rank of the right pose",
+       record.rank_of_right > 0 ? std::to_string(record.rank_of_right) : "none");
+  fact("candidates", std::to_string(record.candidates));
+  fact("valid beams", std::to_string(record.valid_beams));
+  fact("time", fmt::format("{:.2f} ms", record.time_ms));
+  return place;
+}
+
+PageMap pageOf(const RelocateReport& report)
+{
+  PageMap page;
+  page.map = report.features;
+  for (const RelocateMethodReport& method : report.methods)
+  {
+    for (const RelocationRecord& record : method.records)
+      page.places.push_back(pagePlace(method.name, record));
+  }
+  return page;
+}
 }  // namespace
 
 std::string relocateTable(const RelocateReport& report)
@@ -125,6 +163,7 @@ void writeRelocateReport(const RelocateReport& report, const std::filesystem::pa
   files.text = "# Relocation from one scan\n\n" + relocateTable(report) + "\n" + remarks(report);
   files.plots = detail::queryPlots(curvesOf(report), "Time from raw scan to ranked candidates");
   files.notes = relocationDefinitions() + mapSection(report.map);
+  files.page = pageOf(report);
   files.provenance = report.provenance;
   writeRunReport(files, folder);
 }

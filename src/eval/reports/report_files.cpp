@@ -45,19 +45,24 @@ void writeFiles(const RunReport& report, const std::filesystem::path& folder)
   writeFile(folder / "results.csv", report.results);
   for (const auto& [file, content] : report.tables) writeFile(folder / file, content);
   writeFile(folder / "summary.json", summary.dump(2) + "\n");
+  const std::string ending =
+      report.notes + "\n## Provenance\n\n" + provenanceSection(summary["provenance"]);
+  writeFile(folder / "report.html",
+            evaluationPage(report.provenance.command, report.text + "\n" + ending, report.plots,
+                           report.page));
   std::string text = report.text;
   for (const auto& [file, plot] : report.plots)
   {
     if (drawPlot(plot, folder / file)) text += "\n![" + plot.title + "](" + file + ")\n";
   }
-  text += report.notes + "\n## Provenance\n\n" + provenanceSection(summary["provenance"]);
-  writeFile(folder / "report.md", text);
+  writeFile(folder / "report.md", text + ending);
 }
 
 bool isReportFile(const std::string& name)
 {
   static const std::set<std::string> kNames = {"summary.json", "results.csv", "candidates.csv",
-                                               "runs.csv",     "report.md",   "failures"};
+                                               "runs.csv",     "report.md",   "report.html",
+                                               "failures"};
   return kNames.count(name) > 0 || std::filesystem::path(name).extension() == ".png";
 }
 

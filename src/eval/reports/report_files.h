@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "eval/reports/evaluation_page.h"
 #include "eval/reports/plot.h"
 #include "eval/scoring/provenance.h"
 
@@ -25,6 +26,7 @@ struct RunReport
   std::string text;  ///< report.md: title and tables
   std::vector<std::pair<std::string, Plot>> plots;  ///< name of the PNG file, figure
   std::string notes;  ///< report.md below the plots: what the columns mean, may be empty
+  PageMap page;  ///< what report.html shows besides text and plots
   Provenance provenance;
 };
 
@@ -39,8 +41,8 @@ void checkWritableFolder(const std::filesystem::path& folder);
 void checkReportFolder(const std::filesystem::path& folder,
                        const std::vector<std::filesystem::path>& inputs);
 
-/// Writes summary.json, results.csv, further tables, the plots that gnuplot can draw, and report.md
-/// into a folder. Makes the folder if need be. Writes all of it, or nothing where it throws
-/// std::runtime_error ("path: reason").
+/// Writes summary.json, results.csv, further tables, the plots that gnuplot can draw, report.md and
+/// report.html into a folder. Makes the folder if need be. Writes all of it, or nothing where it
+/// throws std::runtime_error ("path: reason").
 void writeRunReport(const RunReport& report, const std::filesystem::path& folder);
 }  // namespace sigloc

@@ -242,6 +242,48 @@ std::string kidnappingTable(const WakeupReport& report)
   }
   return rows.size() > 1 ? "\n" + markdownTable(rows) : std::string();
 }
+/// What became of a run: a wrong claim at any step counts more than how it ended.
+PageOutcome outcomeOf(const Wakeup& run, const AccuracyGates& gates)
+{
+  if (run.wrong_steps > 0) return PageOutcome::claimed_wrong;
+  const auto judged = judgedStep(run);
+  if (!judged) return PageOutcome::not_right;
+  const WakeupStep& last = run.steps[*judged];
+  return pageOutcome(isRight(last.error, gates), last.judged);
+}
+
+PagePlace pagePlace(const std::string& method, const Wakeup& run, const AccuracyGates& gates)
+{
+  PagePlace place;
+  place.method = method;
+  place.name = fmt::format("start {}", run.start);
+  place.outcome = outcomeOf(run, gates);
+  for (const WakeupStep& step : run.steps)
+  {
+    if (!step.claim.has_pose) continue;
+    place.path.emplace_back(step.claim.pose, step.judged);
+    place.first = step.claim.pose;
+  }
+  place.facts = {
+      {"steps", std::to_string(run.steps.size())},
+      {"right at the end", run.right_at_end ? "yes" : "no"},
+      {"settled after", run.settled_after ? fmt::format("{:.1f} m", run.settled_after->metres)
+                                          : std::string("never")},
+      {"wrong claims", fmt::format("{} steps", run.wrong_steps)}};
+  return place;
+}
+
+PageMap pageOf(const WakeupReport& report)
+{
+  PageMap page;
+  page.map = report.features;
+  for (const WakeupMethodReport& method : report.methods)
+  {
+    for (const Wakeup& run : method.runs)
+      page.places.push_back(pagePlace(method.name, run, report.gates));
+  }
+  return page;
+}
 }  // namespace
 
 std::string wakeupTable(const WakeupReport& report)
@@ -290,6 +332,7 @@ void writeWakeupReport(const WakeupReport& report, const std::filesystem::path& 
                 kNotes + legend("What the columns of runs.csv mean", runColumns()) +
                 legend("What the columns of results.csv mean", stepColumns()) +
                 mapSection(report.map);
+  files.page = pageOf(report);
   files.provenance = report.provenance;
   writeRunReport(files, folder);
 }

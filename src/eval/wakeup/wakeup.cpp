@@ -196,6 +196,7 @@ WakeupReport runWakeups(const WakeupOptions& options)
   const std::vector<std::size_t> starts = startsOf(log.drive, options);
   WakeupReport report;
   report.map.add(*log.map.features, log.map.build_seconds);
+  report.features = log.map.features;
   report.complete = log.drive.complete;
   report.foreign = options.foreign;
   report.gates = options.gates;

@@ -115,6 +115,7 @@ struct WakeupReport
 {
   std::vector<WakeupMethodReport> methods;
   MapStatistics map;
+  std::shared_ptr<const FeatureMap> features;  ///< the map itself, where there is one
   bool complete = true;
   bool foreign = false;
   AccuracyGates gates;  ///< that the claims were judged by
