@@ -47,6 +47,22 @@ typename Map::Ptr officePoints()
   return points;
 }
 
+/// A file's bytes without their packing.
+std::string unpacked(const std::filesystem::path& path)
+{
+  detail::GzipInput input(path);
+  std::string bytes(1U << 22U, '\0');
+  bytes.resize(input.Read(bytes.data(), bytes.size()));
+  return bytes;
+}
+
+/// The head of an object of MRPT, and the count that comes behind it.
+std::string headOf(const std::string& name, char version, char count)
+{
+  const char length = static_cast<char>(0x80U | name.size());
+  return length + name + version + count + std::string(3, '\0');
+}
+
 std::string errorOf(const std::filesystem::path& path)
 {
   return messageOf<std::runtime_error>([&] { readMapSource(path); });
@@ -90,6 +106,35 @@ TEST(MetricMaps, WithoutAGridThePointsAreTaken)
   }
 }
 
+// MRPT keeps pictures and descriptors with its landmarks; the places alone are what a user can
+// give.
+TEST(MetricMaps, LandmarksAreToldAndNotRead)
+{
+  const TemporaryFolder folder;
+  const auto path = folder / "m.metricmap";
+  const std::string landmarks = headOf("mrpt::maps::CLandmarksMap", 0, 2) + std::string(90, 'x');
+  writeText(path, landmarks);
+  EXPECT_EQ(errorOf(path),
+            path.string() +
+                ": holds a 'mrpt::maps::CLandmarksMap', not a map of a grid or of points; "
+                "landmarks are read from a .csv file with a row x,y for each");
+  writeText(path, headOf("mrpt::maps::CMultiMetricMap", 12, 1) + landmarks + '\x88');
+  EXPECT_EQ(errorOf(path),
+            path.string() +
+                ": holds neither a grid map with walls and free cells nor a map of points; "
+                "landmarks are read from a .csv file with a row x,y for each");
+  for (const bool grid : {true, false})
+  {
+    auto map = mrpt::maps::CMultiMetricMap::Create();
+    if (grid) map->maps.push_back(officeGrid());
+    map->maps.push_back(officePoints<mrpt::maps::CSimplePointsMap>());
+    writeObjects(path, {map});
+    const std::string before = warningOfMapSource(path);
+    writeText(path, unpacked(path) + landmarks);
+    EXPECT_EQ(warningOfMapSource(path), before + (grid ? "" : "; ") + "its landmarks are left out");
+  }
+}
+
 TEST(MetricMaps, OfNoUseAreRefusedInOneLine)
 {
   const TemporaryFolder folder;
@@ -114,9 +159,7 @@ TEST(MetricMaps, OfNoUseAreRefusedInOneLine)
   expectRefused("neither a grid map");
   map->maps.push_back(officePoints<mrpt::maps::CSimplePointsMap>());
   writeObjects(path, {map});
-  detail::GzipInput input(path);
-  std::string bytes(1U << 22U, '\0');
-  bytes.resize(input.Read(bytes.data(), bytes.size()));
+  std::string bytes = unpacked(path);
   const std::string whole = readBytes(path);
   writeText(path, whole.substr(0, whole.size() / 2));
   EXPECT_FALSE(errorOf(path).empty());

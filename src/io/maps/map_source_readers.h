@@ -19,9 +19,9 @@ std::vector<PosedScans> readSimplemap(const std::filesystem::path& path,
 OccupancyRaster readGridmap(const std::filesystem::path& path, const ReadingOptions& reading = {});
 
 /// A file of one map of MRPT, or of several in a CMultiMetricMap: the first grid map with walls and
-/// free cells, else the first map of points.
+/// free cells, else the first map of points. Landmarks in it are not read.
 OccupancyRaster readMetricMap(const std::filesystem::path& path, const ReadingOptions& reading);
-/// Returns a line where points are taken, else an empty one.
+/// Returns a line where points are taken or landmarks left out, else an empty one.
 std::string warningOfMetricMap(const std::filesystem::path& path);
 /// True for a file whose object is a CMultiMetricMap.
 bool isMultiMap(const std::filesystem::path& path);

@@ -26,6 +26,8 @@ namespace
 {
 constexpr std::string_view kMulti = "CMultiMetricMap";
 constexpr std::string_view kGrid = "COccupancyGridMap2D";
+constexpr std::string_view kLandmarks = "CLandmarksMap";
+constexpr const char* kAdvice = "; landmarks are read from a .csv file with a row x,y for each";
 constexpr std::array<std::string_view, 5> kPoints = {"CSimplePointsMap", "CColouredPointsMap",
                                                      "CWeightedPointsMap", "CPointsMapXYZIRT",
                                                      "CPointsMapXYZI"};
@@ -77,19 +79,35 @@ std::optional<OccupancyRaster> gridAt(const std::filesystem::path& path, std::si
   return unusableGrid(raster) ? std::nullopt : std::optional(std::move(raster));
 }
 
+/// The points or landmarks of a map.
+struct Items
+{
+  std::uint32_t count = 0;  // as it is told
+  std::string_view bytes;  // of them and of all that follows
+};
+
+/// Returns those of the map whose head is at a place, or nullopt where the file ends before.
+std::optional<Items> itemsAt(std::string_view bytes, std::size_t at)
+{
+  const auto header = objectHeaderIn(bytes.substr(at, kLongestObjectHeader));
+  Items items;
+  items.bytes = bytes.substr(std::min(at + header->size + 1, bytes.size()));
+  if (items.bytes.size() < sizeof(items.count)) return std::nullopt;
+  std::memcpy(&items.count, items.bytes.data(), sizeof(items.count));
+  items.bytes.remove_prefix(sizeof(items.count));
+  return items;
+}
+
 /// Returns the points of a map of points whose head is at a place: all of MRPT's begin alike.
 std::optional<PointList> pointsAt(std::string_view bytes, std::size_t at)
 {
-  const auto header = objectHeaderIn(bytes.substr(at, kLongestObjectHeader));
-  std::string_view rest = bytes.substr(std::min(at + header->size + 1, bytes.size()));
-  std::uint32_t count = 0;
-  if (rest.size() < sizeof(count)) return std::nullopt;
-  std::memcpy(&count, rest.data(), sizeof(count));
-  rest.remove_prefix(sizeof(count));
-  const std::size_t axis = count * sizeof(float);
-  if (count == 0 || rest.size() / 3 < axis) return std::nullopt;
+  const auto items = itemsAt(bytes, at);
+  if (!items) return std::nullopt;
+  const std::size_t axis = items->count * sizeof(float);
+  const std::string_view rest = items->bytes;
+  if (items->count == 0 || rest.size() / 3 < axis) return std::nullopt;
   PointList points;
-  for (std::size_t i = 0; i < count; ++i)
+  for (std::size_t i = 0; i < items->count; ++i)
   {
     std::array<float, 3> at_axis{};
     for (std::size_t k = 0; k < at_axis.size(); ++k)
@@ -104,9 +122,10 @@ struct Found
 {
   std::optional<OccupancyRaster> grid;
   std::optional<PointList> points;
+  bool landmarks = false;  // which are not read
 };
 
-/// Looks for the grid map in a file, else for the first map of points.
+/// Looks for the grid map in a file, else for the first map of points, and for landmarks.
 Found lookIn(const std::filesystem::path& path)
 {
   requireFile(path);
@@ -119,9 +138,15 @@ Found lookIn(const std::filesystem::path& path)
   const bool single =
       name == kGrid || std::find(kPoints.begin(), kPoints.end(), name) != kPoints.end();
   if (!single && name != kMulti)
-    failIn(path, "holds a '" + std::string(header->name) + "', not a map of a grid or of points");
+  {
+    failIn(path, "holds a '" + std::string(header->name) + "', not a map of a grid or of points" +
+                     (name == kLandmarks ? kAdvice : ""));
+  }
   const std::size_t from = single ? 0 : header->size + 1;
   Found found;
+  const auto landmarks = findObject(bytes, from, kLandmarks);
+  const auto items = landmarks ? itemsAt(bytes, *landmarks) : std::nullopt;
+  found.landmarks = items && items->count > 0;
   for (auto at = findObject(bytes, from, kGrid); at && !found.grid;
        at = findObject(bytes, *at + 2, kGrid))
   {
@@ -149,7 +174,11 @@ OccupancyRaster readMetricMap(const std::filesystem::path& path, const ReadingOp
   Found found = lookIn(path);
   if (found.grid) return std::move(*found.grid);
   if (!found.points)
-    failIn(path, "holds neither a grid map with walls and free cells nor a map of points");
+  {
+    failIn(path,
+           std::string("holds neither a grid map with walls and free cells nor a map of points") +
+               (found.landmarks ? kAdvice : ""));
+  }
   OccupancyRaster raster = rasterOfPoints(*found.points, reading, path);
   requireWallAndFree(raster, path);
   return raster;
@@ -157,6 +186,10 @@ OccupancyRaster readMetricMap(const std::filesystem::path& path, const ReadingOp
 
 std::string warningOfMetricMap(const std::filesystem::path& path)
 {
-  return lookIn(path).grid ? "" : kNoFreeSpace;
+  const Found found = lookIn(path);
+  std::string warning = found.grid ? "" : kNoFreeSpace;
+  if (found.landmarks)
+    warning += std::string(warning.empty() ? "" : "; ") + "its landmarks are left out";
+  return warning;
 }
 }  // namespace sigloc::detail
