@@ -9,6 +9,7 @@ import io
 import pathlib
 import sqlite3
 import struct
+import urllib.parse
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
@@ -70,16 +71,29 @@ class Ros1Bag:
         way = fields[b"compression"]
         if way == b"none":
             return data
+        (size,) = struct.unpack("<I", fields[b"size"])
+        if size > _LARGEST:
+            raise ValueError("a chunk is damaged")
+        decompressor = self._decompressor(way)
+        try:
+            # No more than is told: a few bytes may stand for gigabytes.
+            plain = decompressor.decompress(data, max_length=size + 1)
+        except (OSError, RuntimeError, EOFError) as error:
+            raise ValueError(f"a chunk is damaged: {error}") from error
+        if len(plain) != size:
+            raise ValueError("a chunk is damaged")
+        return bytes(plain)
+
+    def _decompressor(self, way: bytes) -> Any:
         if way == b"bz2":
-            return bz2.decompress(data)
+            return bz2.BZ2Decompressor()
         if way != b"lz4":
             raise ValueError(f"compressed by {way.decode()}, which is not known")
         try:
             import lz4.frame  # type: ignore[import]
         except ImportError:
             raise OSError(f"{self.path}: compressed by lz4: install python3-lz4, or `rosbag decompress` it") from None
-        plain: bytes = lz4.frame.decompress(data)
-        return plain
+        return lz4.frame.LZ4FrameDecompressor()
 
 
 def _kind_of(fields: dict[bytes, bytes]) -> int:
@@ -138,7 +152,8 @@ class Ros2Bag:
 
     def messages(self) -> Iterator[Recorded]:
         for file in self.files:
-            with contextlib.closing(sqlite3.connect(f"file:{file}?mode=ro", uri=True)) as database:
+            address = f"file:{urllib.parse.quote(str(file))}?mode=ro"
+            with contextlib.closing(sqlite3.connect(address, uri=True)) as database:
                 topics = {
                     row[0]: (str(row[1]), str(row[2]).rpartition("/")[2])
                     for row in database.execute("SELECT id, name, type FROM topics")
@@ -146,7 +161,9 @@ class Ros2Bag:
                 rows: Any = database.execute("SELECT topic_id, data FROM messages ORDER BY timestamp, id")
                 for topic_id, data in rows:
                     topic, kind = topics[topic_id]
-                    yield Recorded(topic, kind, bytes(data), is_cdr=True)
+                    if not isinstance(data, bytes):
+                        raise ValueError("a message is not of bytes")
+                    yield Recorded(topic, kind, data, is_cdr=True)
 
 
 def _other_recordings(folder: pathlib.Path) -> str:

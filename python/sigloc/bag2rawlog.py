@@ -10,6 +10,7 @@ Where a laser is on the robot is what the transforms say. The messages' own time
 from __future__ import annotations
 
 import argparse
+import contextlib
 import heapq
 import itertools
 import math
@@ -18,7 +19,7 @@ import sqlite3
 import struct
 import sys
 from collections.abc import Iterator
-from typing import NamedTuple, Optional, Union
+from typing import NamedTuple, NoReturn, Optional, Union
 
 import numpy
 import numpy.typing
@@ -75,7 +76,8 @@ class Survey:
         self.cut_off = False
         try:
             for message in messages_of(path):
-                self._note(message)
+                with contextlib.suppress(ValueError):  # told of when it is converted
+                    self._note(message)
         except CutOff:
             self.cut_off = True
 
@@ -128,11 +130,13 @@ class Conversion:
     def __init__(self, survey: Survey, wanted: Wanted) -> None:
         self.survey, self.wanted = survey, wanted
         self.mounts: dict[str, _Pose6] = {}
+        self.scans = 0
         self.left_out = 0
         self.reason = ""
 
     def entries(self) -> Iterator[_Entry]:
-        """Yields them in the order of their own times, as far as the recorder kept that."""
+        """Yields them in the order of their own times, as far as the recorder kept that. Raises OSError where no scan
+        can be used."""
         heap: list[tuple[float, int, _Entry]] = []
         counter = itertools.count()
         try:
@@ -145,6 +149,8 @@ class Conversion:
             pass  # the survey has noted it
         while heap:
             yield heapq.heappop(heap)[2]
+        if self.scans == 0:
+            raise OSError(f"{self.survey.path}: no scan in it can be used: {self.reason or 'it is cut off before'}")
 
     def _entries_of(self, message: Recorded) -> Iterator[_Entry]:
         topic = message.topic
@@ -172,6 +178,7 @@ class Conversion:
                 self.mounts[frame] = self.survey.mount(self.wanted.base, frame)
         seen = sigloc.Scan(scan.ranges, scan.angle_min, scan.angle_increment, range_min=scan.range_min,
                            range_max=scan.range_max, pose=self.mounts[frame])  # fmt: skip
+        self.scans += 1
         return scan.header.time, seen, topic.lstrip("/")
 
     def _odometry(self, transform: _messages.Transform, topic: str) -> _Entry:
@@ -198,8 +205,15 @@ def pose_of(text: str) -> _Pose:
     return x, y, math.radians(degrees)
 
 
+class Parser(argparse.ArgumentParser):
+    """Tells in one line what is wrong, as the other programs do."""
+
+    def error(self, message: str) -> NoReturn:
+        raise ValueError(message)
+
+
 def parse(words: Optional[list[str]]) -> argparse.Namespace:
-    parser = argparse.ArgumentParser(prog="bag2rawlog", description=(__doc__ or "").splitlines()[0])
+    parser = Parser(prog="bag2rawlog", description=(__doc__ or "").splitlines()[0])
     parser.add_argument("bag", type=pathlib.Path)
     parser.add_argument("-o", "--output", type=pathlib.Path, help="default: the bag's name with .rawlog")
     parser.add_argument("--scan", action="append", default=[], metavar="TOPIC", help="default: every LaserScan")
@@ -228,9 +242,8 @@ def convert(arguments: argparse.Namespace) -> int:
 
 
 def main(words: Optional[list[str]] = None) -> int:
-    arguments = parse(words)
     try:
-        return convert(arguments)
+        return convert(parse(words))
     except (OSError, ValueError) as error:
         print(f"bag2rawlog: {error}", file=sys.stderr)
         return 1

@@ -1,8 +1,10 @@
 # SPDX-FileCopyrightText: 2026 the sigloc authors
 # SPDX-License-Identifier: BSD-3-Clause
 """Recordings of ROS 1 and ROS 2 become rawlogs that are localized as the log they were made from."""
+import bz2
 import os
 import pathlib
+import struct
 import subprocess
 import sys
 
@@ -155,6 +157,66 @@ def test_recordings_that_cannot_be_used(drive, tmp_path):
     ros2_bag.write(bag, ros2_messages(drive[:3]))
     assert "cannot be written" in refused(bag, "-o", tmp_path / "nowhere" / "a.rawlog")
     assert not list(tmp_path.glob("*.rawlog*"))
+
+
+def record(fields, data=b""):
+    """A record of a bag of ROS 1."""
+    header = b"".join(struct.pack("<I", len(field)) + field for field in fields)
+    return struct.pack("<I", len(header)) + header + struct.pack("<I", len(data)) + data
+
+
+def test_chunks_that_are_not_what_they_tell(tmp_path):
+    bag = tmp_path / "a.bag"
+    bomb = bz2.compress(bytes(50_000_000))
+    for way, data in ((b"bz2", bomb), (b"bz2", b"nothing"), (b"bz2", bomb[:40]), (b"bz2", b""),
+                      (b"lz4", b"nothing"), (b"lz4", b""), (b"zip", b"")):  # fmt: skip
+        for size in (b"size=" + struct.pack("<I", 100), b"size=" + struct.pack("<I", 0xFFFFFFFF), b"size=1", b"other=1"):
+            chunk = record([b"op=\5", b"compression=" + way, size], data)
+            bag.write_bytes(b"#ROSBAG V2.0\n" + record([b"op=\3"]) + chunk)
+            assert str(bag) in refused(bag)
+    assert [path.name for path in tmp_path.iterdir()] == ["a.bag"]
+
+
+@pytest.mark.parametrize("data", ["text", 10**12, 1.5])
+def test_messages_that_are_not_of_bytes(drive, tmp_path, data):
+    bag = tmp_path / "a.db3"
+    messages = list(ros2_messages(drive[:3]))
+    ros2_bag.write(bag, [*messages, ("/scan", SCAN, drive[3][0], data)])
+    assert f"{bag}: damaged: a message is not of bytes" in refused(bag)
+
+
+def test_names_of_files_are_no_addresses(drive, tmp_path):
+    for name in ("a#1.db3", "a?b.db3", "a%20b.db3", "a b.db3"):
+        ros2_bag.write(tmp_path / name, ros2_messages(drive[:3]))
+        done = run(tmp_path / name)
+        assert (done.returncode, done.stderr) == (0, ""), name
+
+
+def test_a_transform_that_is_none_is_left_out(drive, tmp_path):
+    bag = tmp_path / "a.db3"
+    time = drive[0][0]
+    turn = ros2_bag.Cdr().number("I", 1).header(time, "map").text("odom").numbers("d", [0] * 7).data()
+    ros2_bag.write(bag, [("/tf", TRANSFORMS, time, turn), *ros2_messages(drive[:5])])
+    done = run(bag)
+    assert done.returncode == 0
+    assert done.stderr == "bag2rawlog: 1 messages left out: a pose is no number, or its quaternion not of length 1\n"
+
+
+def test_without_a_scan_of_use_nothing_is_written(drive, tmp_path):
+    bag = tmp_path / "a.db3"
+    messages = [(topic, kind, time, data[:30] if topic == "/scan" else data)
+                for topic, kind, time, data in ros2_messages(drive[:5])]  # fmt: skip
+    ros2_bag.write(bag, messages)
+    assert f"{bag}: no scan in it can be used: a message is cut off" in refused(bag)
+    ros2_bag.write(tmp_path / "b.db3", ros2_messages(drive[:5]))
+    assert "no scan in it can be used" in refused(tmp_path / "b.db3", "--mount", "nan,0,0")
+    assert not list(tmp_path.glob("*.rawlog*"))
+
+
+def test_wrong_use_is_told_in_one_line(tmp_path):
+    assert "required: bag" in refused()
+    assert "--mount" in refused("a.bag", "--mount", "a,b")
+    assert "--nonsense" in refused("a.bag", "--nonsense")
 
 
 def test_messages_that_cannot_be_used_are_left_out(drive, tmp_path):
