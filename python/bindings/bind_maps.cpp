@@ -157,7 +157,9 @@ void bindMaps(py::module_& module)
           "built now, which takes seconds; save() keeps the result.\n\n"
           "resolution: [m] a pixel, for a map that is an image alone (.pgm, .png).\n"
           "heights: (low, high) [m] above the map's origin: which 3D points are walls.\n\n"
-          "Raises OSError for a file that is missing, damaged or no map.")
+          "Raises OSError for a file that is missing, damaged or no map, ValueError for numbers "
+          "out "
+          "of range.")
       .def_static("from_grid", &mapFromGrid, py::arg("array"), py::arg("resolution"),
                   py::arg("origin") = py::make_tuple(0.0, 0.0),
                   "Builds the map of an occupancy grid.\n\n"

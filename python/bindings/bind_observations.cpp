@@ -10,6 +10,8 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <tuple>
+#include <utility>
 
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
@@ -117,10 +119,13 @@ py::list observationsOf(const RawlogStep& step)
   return observations;
 }
 
-std::unique_ptr<RawlogReader> openLog(const std::filesystem::path& path)
+std::unique_ptr<RawlogReader> openLog(const std::filesystem::path& path,
+                                      const std::pair<double, double>& heights)
 {
+  ReadingOptions reading;
+  std::tie(reading.min_height, reading.max_height) = heights;
   std::unique_ptr<RawlogReader> log;
-  withFile([&] { log = std::make_unique<RawlogReader>(path); });
+  withFile([&] { log = std::make_unique<RawlogReader>(path, reading); });
   return log;
 }
 
@@ -197,7 +202,10 @@ void bindLogs(py::module_& module)
                              "What was seen: Scan and Landmarks, for Localizer.localize() and "
                              "Tracker.step().");
   py::class_<RawlogReader>(module, "Log", "A rawlog, read step by step: `for step in Log(path)`.")
-      .def(py::init(&openLog), py::arg("path"),
+      .def(py::init(&openLog), py::arg("path"), py::kw_only(),
+           py::arg("heights") = std::pair(ReadingOptions().min_height, ReadingOptions().max_height),
+           "heights: (low, high) [m] above the robot's base: which points of depth cameras, "
+           "Velodynes and clouds are walls.\n\n"
            "Raises OSError for a file that is missing, damaged or no rawlog.")
       .def("__iter__", [](py::object self) { return self; })
       .def("__next__",

@@ -18,6 +18,7 @@
 #include "io/frame_contents.h"
 #include "io/LogObjects.h"
 #include "io/motion_conversion.h"
+#include "io/reading_check.h"
 #include "io/scan_conversion.h"
 #include "io/solid/SolidView.h"
 
@@ -318,10 +319,7 @@ std::optional<MotionIncrement> RawlogReader::State::believed(
 RawlogReader::RawlogReader(const std::filesystem::path& path, const ReadingOptions& reading)
     : state_(std::make_unique<State>(path, reading))
 {
-  if (!(reading.min_height < reading.max_height))
-  {
-    throw std::invalid_argument("the lowest height of walls is not below the highest");
-  }
+  detail::checkReading(reading);
   const auto first = state_->readObject();
   if (!first)
     throw std::runtime_error(path.string() + ": truncated or damaged: not one entry could be read");

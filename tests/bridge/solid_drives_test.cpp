@@ -9,16 +9,20 @@
 #include <mrpt/obs/CObservationRotatingScan.h>
 
 #include <cmath>
+#include <limits>
 
 #include "bridge/rawlog_files.h"
 #include "sigloc/io/map_files.h"
 #include "sigloc/localize/LocalizationRun.h"
 #include "sigloc/matching/SignatureMatcher.h"
 #include "sigloc/tracking/HypothesisTracker.h"
+#include "support/cloud_log.h"
 
 using namespace sigloc;
 using namespace sigloc::test;
 using mrpt::math::TPose2D;
+using mrpt::obs::CObservation;
+using mrpt::obs::CObservation2DRangeScan;
 
 namespace
 {
@@ -60,49 +64,21 @@ TEST(SolidDrives, ADriveOfThemEndsAtThePoseOfItsScans)
   const TemporaryFolder folder;
   for (const bool cloud : {true, false})
   {
-    std::vector<mrpt::serialization::CSerializable::Ptr> entries;
-    RawlogReader log(kSource / "rawlogs/office.rawlog");
-    while (const auto step = log.next())
-    {
-      if (step->actions) entries.push_back(step->actions);
-      auto frame = mrpt::obs::CSensoryFrame::Create();
-      for (const auto& observation : *step->frame)
-      {
-        const auto scan =
-            std::dynamic_pointer_cast<mrpt::obs::CObservation2DRangeScan>(observation);
-        if (!scan)
-        {
-          frame->insert(observation);
-        }
-        else if (cloud)
-        {
-          auto points = mrpt::maps::CSimplePointsMap::Create();
-          points->insertionOptions.minDistBetweenLaserPoints = 0;
-          points->insertObservation(*scan);
-          for (float x = 0.3F; x < 1; x += 0.1F) points->insertPoint(x, 0, 0);
-          for (std::size_t i = 0; i < points->size(); ++i)
-          {
-            float x = 0;
-            float y = 0;
-            float z = 0;
-            points->getPointFast(i, x, y, z);
-            const bool floor = y == 0 && z == 0 && x < 1;
-            points->setPoint(i, x, y, floor ? 0.0F : 0.5F);
-          }
-          auto view = mrpt::obs::CObservationPointCloud::Create();
-          view->timestamp = scan->timestamp;
-          view->pointcloud = points;
-          frame->insert(view);
-        }
-        else
-        {
-          auto view = mrpt::obs::CObservationRotatingScan::Create();
-          view->fromScan2D(*scan);
-          frame->insert(view);
-        }
-      }
-      entries.push_back(frame);
-    }
+    const auto entries =
+        solidEntries(kSource / "rawlogs/office.rawlog", std::numeric_limits<std::size_t>::max(),
+                     [&](const CObservation2DRangeScan& scan) -> CObservation::Ptr
+                     {
+                       if (!cloud)
+                       {
+                         auto view = mrpt::obs::CObservationRotatingScan::Create();
+                         view->fromScan2D(scan);
+                         return view;
+                       }
+                       auto points = mrpt::maps::CSimplePointsMap::Create();
+                       addReturns(scan, 0.5F, 1, *points);
+                       for (float x = 0.3F; x < 1; x += 0.1F) points->insertPoint(x, 0, 0);
+                       return cloudObservation(scan, points);
+                     });
     writeObjects(folder / "drive.rawlog", entries);
     const TPose2D found = endOf(folder / "drive.rawlog");
     EXPECT_LT(std::hypot(found.x - expected.x, found.y - expected.y), 0.05) << cloud;

@@ -86,7 +86,45 @@ def test_a_map_is_saved_and_loaded(office, tmp_path):
     assert np.array_equal(first_pose(again), first_pose(office))
 
 
+def write_points(path):
+    """Writes two rooms as points, one inside the other: walls of 6 m x 4 m at 1 m, of 8 m x 6 m at 2.5 m."""
+    rows = [
+        f"{x:.2f} {y:.2f} {z}"
+        for width, depth, z in ((6, 4, 1.0), (8, 6, 2.5))
+        for k in np.linspace(-0.5, 0.5, 300)
+        for x, y in ((k * width, depth / 2), (k * width, -depth / 2), (width / 2, k * depth), (-width / 2, k * depth))
+    ]
+    names = "".join(f"property float {axis}\n" for axis in "xyz")
+    path.write_text(f"ply\nformat ascii 1.0\nelement vertex {len(rows)}\n{names}end_header\n" + "\n".join(rows) + "\n")
+
+
+def test_heights_choose_the_points_of_a_map(tmp_path):
+    path = tmp_path / "rooms.ply"
+    write_points(path)
+    for map_, width in ((sigloc.Map.load(path), 6), (sigloc.Map.load(path, heights=(2, 3)), 8)):
+        assert np.ptp(map_.walls[:, [0, 2]]) == pytest.approx(width, abs=0.15)
+    with pytest.raises(OSError, match="heights") as error:
+        sigloc.Map.load(path, heights=(4, 5))
+    assert "\n" not in str(error.value)
+
+
+def test_heights_choose_the_points_of_a_log():
+    path = ROOT / "tests/corpus/rawlog/good_point_cloud"
+    assert any(step.observations for step in sigloc.Log(path))
+    assert not any(step.observations for step in sigloc.Log(path, heights=(50, 60)))
+
+
 NAN = float("nan")
+
+
+@pytest.mark.parametrize("heights", [(1.5, 0.2), (1, 1), (NAN, 1), (0, NAN), (-1e9, 0)])
+def test_heights_that_no_point_can_be_between(heights, tmp_path):
+    path = tmp_path / "rooms.ply"
+    write_points(path)
+    with pytest.raises(ValueError, match="height"):
+        sigloc.Map.load(path, heights=heights)
+    with pytest.raises(ValueError, match="height"):
+        sigloc.Log(LOG, heights=heights)
 
 
 @pytest.mark.parametrize(

@@ -24,6 +24,7 @@
 #include "io/maps/map_reach.h"
 #include "io/maps/map_source_readers.h"
 #include "io/points/points_raster.h"
+#include "io/reading_check.h"
 #include "io/scan_conversion.h"
 #include "io/solid/SolidView.h"
 #include "sigloc/config/plural.h"
@@ -268,6 +269,7 @@ std::vector<PosedScans> readSimplemap(const std::filesystem::path& path,
 MapSource readMapSource(const std::filesystem::path& path, const ReadingOptions& reading)
 {
   detail::requireFile(path);
+  detail::checkReading(reading);
   MapSource source = formatOf(path).read(path, reading);
   detail::requireWithinReach(source, path);
   return source;
