@@ -134,7 +134,7 @@ TEST(MapSources, ReadsARosMapOfRawOccupancies)
   writeText(folder / "m.pgm", "no image");
   EXPECT_NE(errorOf(folder / "m.yaml").find("m.pgm: is no PGM or PNG picture"), std::string::npos);
   EXPECT_NE(errorOf(folder / "m.pgm")
-                .find("give --resolution, or its .yaml file; did you mean 'm.yaml'?"),
+                .find("image_resolution), or its .yaml file; did you mean 'm.yaml'?"),
             std::string::npos);
 }
 

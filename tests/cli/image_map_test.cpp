@@ -66,9 +66,9 @@ TEST(ImageMap, withoutItsResolutionIsRefusedByEveryProgram)
     const CommandResult result = run(folder, program, arguments);
     EXPECT_EQ(result.exit_code, 1) << program;
     EXPECT_EQ(countLines(result.errors), 1) << result.errors;
-    EXPECT_NE(
-        result.errors.find("give --resolution, or its .yaml file; did you mean 'office.yaml'"),
-        std::string::npos)
+    EXPECT_NE(result.errors.find("give --resolution (a node and an ini: image_resolution), or its "
+                                 ".yaml file; did you mean 'office.yaml'"),
+              std::string::npos)
         << result.errors;
     EXPECT_EQ(listing(folder), before) << program;
   }

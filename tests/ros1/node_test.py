@@ -22,6 +22,8 @@ from sensor_msgs.msg import LaserScan
 from std_srvs.srv import Empty
 from tf2_msgs.msg import TFMessage
 
+import sigloc
+
 NODE = os.environ["SIGLOC_ROS1_NODE"]
 TRUTH = np.loadtxt(office_bag.ROOT / "rawlogs/office-truth.txt")
 PATIENCE = 60  # [s], for a busy machine; nothing waits that long otherwise
@@ -235,6 +237,23 @@ def test_a_map_file_and_messages_of_odometry_will_do(start, bag):
     assert_right(player.initial_poses[0].header.stamp, planar(player.initial_poses[0].pose.pose))
 
 
+def write_image(path):
+    """Writes the office's grid as an image alone. Returns where its lower left corner is in the map."""
+    office = sigloc.Map.load(office_bag.ROOT / "maps/office.gridmap.gz")
+    shades = np.choose(np.sign(office.grid.astype(int)) + 1, [205, 254, 0]).astype(np.uint8)
+    height, width = shades.shape
+    path.write_bytes(f"P5\n{width} {height}\n255\n".encode() + shades[::-1].tobytes())
+    return office.origin
+
+
+def test_an_image_with_its_resolution_is_a_map(start, bag, tmp_path):
+    left, low = write_image(tmp_path / "office.pgm")
+    player = start(map_file=tmp_path / "office.pgm", **{"reading/image_resolution": 0.05})
+    assert values(player.play(bag, topics=("/tf_static", "/tf", "/scan"))[-1])["state"] == "known"
+    x, y, heading = planar(player.initial_poses[0].pose.pose)
+    assert_right(player.initial_poses[0].header.stamp, (x + left, y + low, heading))
+
+
 def test_publishes_the_transform_only_while_the_pose_is_known(start, bag):
     player = start(publish_tf="true")
     statuses = player.play(bag)
@@ -331,6 +350,11 @@ def test_leaves_out_what_cannot_be_used(start, bag):
     "parameters, reason",
     [
         ({"map_file": "/nowhere/a.yaml"}, "/nowhere/a.yaml: no such file"),
+        ({"map_file": "office.pgm"}, "office.pgm: an image alone does not tell"),
+        ({"map_file": "office.pgm", "reading/image_resolution": 0.0001}, "office.pgm: "),
+        ({"map_file": "office.pgm", "reading/image_resolution": 7.0}, "image_resolution"),
+        ({"map_file": "office.pgm", "reading/image_resolution": "fine"}, "image_resolution is of another type"),
+        ({"map_file": "office.pgm", "reading/min_height": 2.0}, "the lowest height"),
         ({"publish_tf": "often"}, "publish_tf is of another type"),
         ({"transform_tolerance": -1.0}, "transform_tolerance"),
         ({"policy/confirm_steps": 0}, "confirm_steps"),
@@ -339,10 +363,11 @@ def test_leaves_out_what_cannot_be_used(start, bag):
         ({"reading/min_height": 500.0}, "min_height"),
     ],
 )
-def test_ends_at_once_with_parameters_that_cannot_be_used(master, parameters, reason):
+def test_ends_at_once_with_parameters_that_cannot_be_used(master, tmp_path, parameters, reason):
+    write_image(tmp_path / "office.pgm")
     words = [f"_{key}:={value}" for key, value in parameters.items()]
     done = subprocess.run([NODE, "__name:=sigloc_bad", *words], capture_output=True, text=True,
-                          timeout=PATIENCE, check=False)  # fmt: skip
+                          timeout=PATIENCE, check=False, cwd=tmp_path)  # fmt: skip
     rospy.delete_param("/sigloc_bad")
     assert done.returncode == 1
     assert reason in done.stderr and done.stderr.count("\n") == 1

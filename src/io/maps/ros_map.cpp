@@ -107,7 +107,7 @@ void requireResolution(const std::filesystem::path& path, const ReadingOptions& 
   }
   throw std::runtime_error(path.string() +
                            ": an image alone does not tell how many metres a pixel is; give "
-                           "--resolution, or its .yaml file" +
+                           "--resolution (a node and an ini: image_resolution), or its .yaml file" +
                            hint);
 }
 }  // namespace
