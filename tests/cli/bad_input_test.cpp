@@ -136,6 +136,32 @@ TEST(BadInput, whatCannotBeReachedSaysWhy)
                 "loop/run.ini: Too many levels");
 }
 
+// What has no end, or ends only once, is no file to read twice.
+TEST(BadInput, devicesAreNoFiles)
+{
+  const TemporaryFolder folder;
+  writeText(folder / "device.yaml",
+            "image: /dev/zero\nresolution: 0.05\norigin: [0, 0, 0]\nnegate: 0\n"
+            "occupied_thresh: 0.65\nfree_thresh: 0.25\n");
+  std::vector<std::string> maps = {"device.yaml"};
+  for (const char* const kind :
+       {"simplemap", "gridmap", "metricmap", "pgm", "ply", "pcd", "txt", "csv", "log", "sigmap"})
+  {
+    maps.push_back(std::string("zero.") + kind);
+    std::filesystem::create_symlink("/dev/zero", folder / maps.back());
+  }
+  const auto before = listing(folder);
+  for (const std::string& map : maps)
+  {
+    const CommandResult result =
+        run(folder, "sigloc-map", {"build", "-i", map, "-o", "a.sigmap", "--resolution", "0.05"});
+    EXPECT_EQ(result.exit_code, 1) << map;
+    EXPECT_EQ(countLines(result.errors), 1) << result.errors;
+    EXPECT_NE(result.errors.find("is no regular file"), std::string::npos) << result.errors;
+    EXPECT_EQ(listing(folder), before);
+  }
+}
+
 TEST(BadInput, unknownCommandIsNamed)
 {
   const TemporaryFolder folder;

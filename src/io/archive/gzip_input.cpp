@@ -87,11 +87,10 @@ void requireFile(const std::filesystem::path& path)
   if (status.type() == std::filesystem::file_type::none) fail(path, error.message());
   if (!std::filesystem::exists(status)) fail(path, "no such file" + didYouMeanFile(path));
   if (std::filesystem::is_directory(status)) fail(path, "is a folder, not a file");
+  // Files are read more than once, and a device may have no end.
+  if (!std::filesystem::is_regular_file(status)) fail(path, "is no regular file");
   if (!std::ifstream(path, std::ios::binary)) fail(path, "cannot be read");
-  if (std::filesystem::is_regular_file(status) && std::filesystem::file_size(path, error) == 0)
-  {
-    fail(path, "is empty");
-  }
+  if (std::filesystem::file_size(path, error) == 0) fail(path, "is empty");
 }
 
 void requireIntact(const std::filesystem::path& path)

@@ -93,6 +93,7 @@ std::string didYouMeanFile(const std::filesystem::path& path);
 /// Returns a file's extension in lower case, the one before .gz where the file has both.
 std::string extensionOf(const std::filesystem::path& path);
 
-/// Throws std::runtime_error "path: reason" unless the path names a readable, non-empty file.
+/// Throws std::runtime_error "path: reason" unless the path names a readable, non-empty regular
+/// file.
 void requireFile(const std::filesystem::path& path);
 }  // namespace sigloc::detail
