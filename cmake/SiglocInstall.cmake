@@ -12,24 +12,16 @@ endif()
 set(SIGLOC_PYTHON_DIR "lib/${python_folder}/dist-packages" CACHE STRING
     "Folder of the prefix for the module for Python")
 
-# sigloc_install_libraries(COMPONENT component LIBRARIES target...): each in a component, and its
-# plain-named link, which linking needs, in the component dev.
-function(sigloc_install_libraries)
-  cmake_parse_arguments(ARG "" "COMPONENT" "LIBRARIES" ${ARGN})
-  if(ARG_LIBRARIES)
-    install(TARGETS ${ARG_LIBRARIES} EXPORT siglocTargets
-            LIBRARY COMPONENT ${ARG_COMPONENT} NAMELINK_COMPONENT dev)
-  endif()
-endfunction()
-
-# The plug-ins by names without a version, for those who do not link: lib/sigloc/libsigloc-mrpt.so.
+# The plug-ins for MRPT's programs, by names without a version in a folder of their own: the one that
+# nobody links with lies there, the other is a link to the library that programs use.
 function(sigloc_install_plugins)
-  foreach(plugin sigloc-mrpt sigloc-hwdrivers)
-    set(link "${PROJECT_BINARY_DIR}/plugins/lib${plugin}.so")
-    file(MAKE_DIRECTORY "${PROJECT_BINARY_DIR}/plugins")
-    file(CREATE_LINK "../lib${plugin}.so.0" "${link}" SYMBOLIC)
-    install(FILES "${link}" DESTINATION "${CMAKE_INSTALL_LIBDIR}/sigloc" COMPONENT plugins)
-  endforeach()
+  set(folder "${CMAKE_INSTALL_LIBDIR}/sigloc")
+  install(TARGETS sigloc-hwdrivers EXPORT siglocTargets
+          LIBRARY DESTINATION "${folder}" COMPONENT plugins)
+  set(link "${PROJECT_BINARY_DIR}/plugins/libsigloc-mrpt.so")
+  file(MAKE_DIRECTORY "${PROJECT_BINARY_DIR}/plugins")
+  file(CREATE_LINK ../libsigloc-mrpt.so.0 "${link}" SYMBOLIC)
+  install(FILES "${link}" DESTINATION "${folder}" COMPONENT plugins)
 endfunction()
 
 # find_package(sigloc), and pkg-config for those without CMake.
@@ -68,12 +60,21 @@ function(sigloc_install)
   get_property(apps GLOBAL PROPERTY SIGLOC_APPS)
   # Installed binaries find their libraries wherever the prefix is moved to.
   set_target_properties(${libraries} ${apps} PROPERTIES
-    INSTALL_RPATH "$ORIGIN:$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
-  set(plugins ${libraries})
-  list(FILTER plugins INCLUDE REGEX "hwdrivers")
-  list(FILTER libraries EXCLUDE REGEX "hwdrivers")
-  sigloc_install_libraries(COMPONENT library LIBRARIES ${libraries})
-  sigloc_install_libraries(COMPONENT plugins LIBRARIES ${plugins})
+    INSTALL_RPATH "$ORIGIN:$ORIGIN/..:$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
+  # All that is installed and nothing else, for those who make packages.
+  add_custom_target(sigloc-installed)
+  add_dependencies(sigloc-installed ${libraries} ${apps})
+  set(manuals ${apps})
+  list(TRANSFORM manuals APPEND -manual)
+  foreach(made IN LISTS manuals ITEMS sigloc-python)
+    if(TARGET ${made})
+      add_dependencies(sigloc-installed ${made})
+    endif()
+  endforeach()
+  list(REMOVE_ITEM libraries sigloc-hwdrivers)
+  # The plain-named links are what linking needs.
+  install(TARGETS ${libraries} EXPORT siglocTargets
+          LIBRARY COMPONENT library NAMELINK_COMPONENT dev)
   if(NOT SIGLOC_CORE_ONLY)
     sigloc_install_plugins()
   endif()

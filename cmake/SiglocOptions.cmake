@@ -1,5 +1,11 @@
 # SPDX-FileCopyrightText: 2026 the sigloc authors
 # SPDX-License-Identifier: BSD-3-Clause
+# Debian's folder for libraries, where its linker, pkg-config and CMake look below every prefix. CMake
+# takes it by itself for the prefix /usr only, which packages have no earlier than when they are made.
+if(EXISTS /etc/debian_version AND CMAKE_LIBRARY_ARCHITECTURE)
+  set(CMAKE_INSTALL_LIBDIR "lib/${CMAKE_LIBRARY_ARCHITECTURE}" CACHE PATH
+      "Folder of the prefix for libraries")
+endif()
 include(GNUInstallDirs)
 set(CMAKE_CXX_STANDARD 17)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)

@@ -1,11 +1,8 @@
 # SPDX-FileCopyrightText: 2026 the sigloc authors
 # SPDX-License-Identifier: BSD-3-Clause
 # The Debian packages that scripts/package makes: one for each component that is installed.
-set(SIGLOC_MAINTAINER "the sigloc authors <authors@sigloc.invalid>" CACHE STRING
-    "Who made the Debian packages")
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME sigloc)
-set(CPACK_PACKAGE_CONTACT "${SIGLOC_MAINTAINER}")
 set(CPACK_PACKAGE_DIRECTORY "${PROJECT_BINARY_DIR}/packages")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
@@ -16,7 +13,8 @@ set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
     OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 set(CPACK_PRE_BUILD_SCRIPTS "${PROJECT_SOURCE_DIR}/cmake/debian/files.cmake")
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
-set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
+# Not Debian's own: a package of theirs would take the place of these.
+set(CPACK_DEBIAN_PACKAGE_RELEASE 0local1)
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${CMAKE_LIBRARY_OUTPUT_DIRECTORY}")
@@ -70,7 +68,5 @@ if(SIGLOC_ROS1 AND NOT SIGLOC_CORE_ONLY)
   sigloc_package(ros1 sigloc-ros1 science "the node for ROS 1"
     NEEDS library)
 endif()
-foreach(key LIBRARY PLUGINS)
-  set(CPACK_DEBIAN_${key}_PACKAGE_CONTROL_EXTRA "${PROJECT_SOURCE_DIR}/cmake/debian/triggers")
-endforeach()
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA "${PROJECT_SOURCE_DIR}/cmake/debian/triggers")
 include(CPack)

@@ -22,7 +22,8 @@ foreach(folder IN LISTS component_folders)
   endif()
 
   # The libraries are where the system looks.
-  file(GLOB binaries "${folder}/usr/bin/*" "${folder}/usr/lib/*.so.*.*"
+  file(GLOB binaries "${folder}/usr/bin/*" "${folder}/usr/lib/*/*.so.*.*"
+       "${folder}/usr/lib/*/sigloc/*.so.*.*"
        "${folder}/usr/lib/python*/dist-packages/sigloc/*.so")
   foreach(binary IN LISTS binaries)
     file(RPATH_REMOVE FILE "${binary}")
@@ -37,6 +38,12 @@ foreach(folder IN LISTS component_folders)
   foreach(page IN LISTS man_pages)
     compress("${page}")
   endforeach()
+  if(component STREQUAL "library")
+    file(WRITE "${folder}/usr/share/lintian/overrides/${package}"
+"# CPack writes these scripts beside the trigger; they do what it does.
+${package}: maintscript-calls-ldconfig *
+")
+  endif()
   set(doc "${folder}/usr/share/doc/${package}")
   file(WRITE "${doc}/copyright"
 "Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/
@@ -54,6 +61,6 @@ License: BSD-3-Clause
  -- ${CPACK_PACKAGE_CONTACT}  ${now}
 ")
   compress("${doc}/changelog.Debian")
-  file(CHMOD_RECURSE "${folder}/usr/share/doc" FILE_PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ
+  file(CHMOD_RECURSE "${folder}/usr/share" FILE_PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ
        DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 endforeach()
