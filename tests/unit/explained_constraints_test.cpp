@@ -70,11 +70,12 @@ ConstraintCounts countIn(int sides)
   return countIn(wallsOf(sides), wallsOf(sides));
 }
 
-std::ptrdiff_t segmentsOf(int sides)
+/// Counts the features of a type in a scan from the origin.
+std::ptrdiff_t observed(const Surfaces& surfaces, FeatureType type)
 {
-  const ObservedScene scene = observeScene({scanByHand(wallsOf(sides), {0, 0, 0})});
+  const ObservedScene scene = observeScene({scanByHand(surfaces, {0, 0, 0})});
   return std::count_if(scene.features.begin(), scene.features.end(),
-                       [](const Feature& feature) { return feature.type == FeatureType::segment; });
+                       [&](const Feature& feature) { return feature.type == type; });
 }
 
 TEST(ConstraintCounts, EachWallOfARoomIsOne)
@@ -84,11 +85,24 @@ TEST(ConstraintCounts, EachWallOfARoomIsOne)
   EXPECT_EQ(countIn(6).missing_walls, 0U);
 }
 
-// A round wall is observed as many short ones: a centre and a radius explain all of them.
-TEST(ConstraintCounts, ARoundWallIsThree)
+// A round wall is observed as many short ones. Its circle fits in any heading.
+TEST(ConstraintCounts, ARoundWallDoesNotCount)
 {
-  EXPECT_GT(segmentsOf(kRound), 8);
-  EXPECT_EQ(countIn(kRound).walls, 3U);
+  EXPECT_GT(observed(wallsOf(kRound), FeatureType::segment), 8);
+  EXPECT_EQ(countIn(kRound).walls, 0U);
+  EXPECT_EQ(countIn(wallsOf(4), wallsOf(kRound)).missing_walls, 0U);
+}
+
+// Furniture that hides parts of a round wall must not make several walls of it.
+TEST(ConstraintCounts, FurnitureInARoundRoomCountsAlone)
+{
+  Surfaces furnished = wallsOf(kRound);
+  furnished.walls.push_back({{-0.8, -1}, {0.8, -1}});
+  furnished.walls.push_back({{1.2, -0.6}, {1.2, 0.6}});
+  const ConstraintCounts counts = countIn(furnished, furnished);
+  EXPECT_EQ(counts.walls, 2U);
+  EXPECT_EQ(counts.wall_ends, 4U);
+  EXPECT_EQ(countIn(wallsOf(kRound), furnished).missing_walls, 2U);
 }
 
 TEST(ConstraintCounts, AWallInMappedFreeSpaceIsMissing)
@@ -108,6 +122,16 @@ TEST(ConstraintCounts, AWallInUnknownAreaCountsNeitherWay)
   const ConstraintCounts counts = countIn(partitioned, wallsOf(4));
   EXPECT_EQ(counts.walls, 2U);
   EXPECT_EQ(counts.missing_walls, 0U);
+}
+
+// A door in a round wall fits at any heading of the robot.
+TEST(ConstraintCounts, TheEndOfARoundWallDoesNotCount)
+{
+  Surfaces with_door = wallsOf(kRound);
+  with_door.walls.erase(with_door.walls.begin(), with_door.walls.begin() + 10);
+  with_door.walls.push_back({{3.8, -2}, {3.8, 3.5}});
+  EXPECT_EQ(observed(with_door, FeatureType::wall_end), 2);
+  EXPECT_EQ(countIn(with_door, with_door).wall_ends, 0U);
 }
 
 // What is before the end must be a wall, and what is beyond must not.

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "features/round_walls.h"
 #include "matching/dense/CellView.h"
 #include "matching/dense/likelihood_table.h"
 
@@ -22,9 +23,7 @@ constexpr double kSampleStep = 0.1;  // [m] along an observed wall
 constexpr double kExplained = 0.5;  // fine likelihood from which the map explains a feature
 constexpr double kSameDirection = 0.2;  // [rad] between two pieces of one wall
 constexpr double kSameOffset = 0.2;  // [m] between two pieces of one wall
-constexpr double kBend = 0.6;  // [rad] from one piece of a curved wall to the next
-constexpr double kJoint = 0.3;  // [m] between the ends of two pieces of a curved wall
-constexpr std::uint32_t kCurveConstraints = 3;  // of a curved wall: a centre and a radius
+constexpr double kAtEnd = 0.15;  // [m] from the end of a piece of a round wall to a wall end of it
 constexpr double kInside = 0.1;  // [m] before a wall end, where a wall must be mapped
 constexpr double kBeyond = 0.3;  // [m] beyond a wall end, where no wall may be mapped
 constexpr double kOnWall = 0.13;  // [m] from a mapped wall, within which a point is on it
@@ -77,50 +76,55 @@ class ExplainedConstraints::PlacedField
   Placement place_;
 };
 
-/// Counts walls: the pieces of one wall once, those of a curved wall kCurveConstraints at most.
+/// Counts walls: the pieces of one wall once.
 class ExplainedConstraints::WallCount
 {
  public:
-  /// Adds a wall. Returns whether it is a further constraint, besides those of the walls before.
-  bool add(const Wall& wall)
+  void add(const Wall& wall)
   {
-    const auto is_known = [&](const Counted& other) { return isSameWall(wall, *other.wall); };
-    if (std::any_of(walls_.begin(), walls_.end(), is_known)) return false;
-    const auto before =
-        std::find_if(walls_.begin(), walls_.end(),
-                     [&](const Counted& other) { return bendsOn(*other.wall, wall); });
-    const std::size_t curve = before != walls_.end() ? before->curve : count_of_curve_.size();
-    if (curve == count_of_curve_.size()) count_of_curve_.push_back(0);
-    walls_.push_back({&wall, curve});
-    return ++count_of_curve_[curve] <= kCurveConstraints;
+    const auto is_known = [&](const Wall* other) { return isSameWall(wall, *other); };
+    if (std::none_of(walls_.begin(), walls_.end(), is_known)) walls_.push_back(&wall);
   }
+  std::uint32_t count() const { return static_cast<std::uint32_t>(walls_.size()); }
 
  private:
-  struct Counted
-  {
-    const Wall* wall;
-    std::size_t curve;
-  };
-  std::vector<Counted> walls_;
-  std::vector<std::uint32_t> count_of_curve_;
+  std::vector<const Wall*> walls_;
 };
 
 ExplainedConstraints::ExplainedConstraints(const std::vector<Feature>& observed)
 {
-  for (const Feature& feature : observed)
+  const std::vector<bool> on_round = onRoundWalls(observed);
+  std::vector<TPoint2D> round_ends;
+  for (std::size_t k = 0; k < observed.size(); ++k)
   {
-    const TPoint2D along = directionVector(feature);
-    const TPoint2D& place = feature.position;
-    if (isSegment(feature.type))
-    {
-      const TPoint2D half = TPoint2D(along.y, -along.x) * (0.5 * feature.size);
-      walls_.push_back({feature.direction, feature.size, place, along, place - half, place + half});
-    }
-    if (feature.type == FeatureType::wall_end)
-    {
-      wall_ends_.push_back({place + along * kInside, place - along * kBeyond});
-    }
+    if (!on_round[k]) continue;
+    round_ends.push_back(segmentStart(observed[k]));
+    round_ends.push_back(segmentEnd(observed[k]));
   }
+  const auto ends_round_wall = [&](const Feature& wall_end)
+  {
+    return std::any_of(round_ends.begin(), round_ends.end(),
+                       [&](const TPoint2D& end)
+                       { return (end - wall_end.position).norm() < kAtEnd; });
+  };
+  for (std::size_t k = 0; k < observed.size(); ++k)
+  {
+    const Feature& feature = observed[k];
+    if (isSegment(feature.type) && !on_round[k]) addWall(feature);
+    if (feature.type == FeatureType::wall_end && !ends_round_wall(feature)) addWallEnd(feature);
+  }
+}
+
+void ExplainedConstraints::addWall(const Feature& segment)
+{
+  walls_.push_back({segment.direction, segment.size, segment.position, directionVector(segment),
+                    segmentStart(segment), segmentEnd(segment)});
+}
+
+void ExplainedConstraints::addWallEnd(const Feature& wall_end)
+{
+  const TPoint2D along = directionVector(wall_end);
+  wall_ends_.push_back({wall_end.position + along * kInside, wall_end.position - along * kBeyond});
 }
 
 bool ExplainedConstraints::isSameWall(const Wall& a, const Wall& b)
@@ -130,33 +134,28 @@ bool ExplainedConstraints::isSameWall(const Wall& a, const Wall& b)
          std::abs(wrapToPi(a.direction - b.direction)) < kSameDirection;
 }
 
-/// True for a piece that continues where another ends and bends less than a corner.
-bool ExplainedConstraints::bendsOn(const Wall& a, const Wall& b)
-{
-  const double joint = std::min((a.end - b.start).norm(), (a.start - b.end).norm());
-  return joint < kJoint && std::abs(wrapToPi(a.direction - b.direction)) < kBend;
-}
-
 ConstraintCounts ExplainedConstraints::countAt(const TPose2D& pose, const DenseField& field) const
 {
   const PlacedField placed(field, pose);
   WallCount walls;
   WallCount missing;
-  ConstraintCounts counts;
   for (const Wall& wall : walls_)
   {
     switch (placed.stateOf(wall))
     {
       case WallState::mapped:
-        counts.walls += walls.add(wall);
+        walls.add(wall);
         break;
       case WallState::missing:
-        counts.missing_walls += missing.add(wall);
+        missing.add(wall);
         break;
       case WallState::unknown:
         break;
     }
   }
+  ConstraintCounts counts;
+  counts.walls = walls.count();
+  counts.missing_walls = missing.count();
   for (const WallEnd& end : wall_ends_)
   {
     counts.wall_ends +=

@@ -22,7 +22,7 @@ class ExplainedConstraints
   explicit ExplainedConstraints(const std::vector<Feature>& observed);
 
   /// Counts the constraints when the robot is at `pose`. A wall counts one, however many pieces of
-  /// it are seen, and a curved wall three at most.
+  /// it are seen. Round walls and their ends do not count.
   ConstraintCounts countAt(const mrpt::math::TPose2D& pose, const DenseField& field) const;
 
  private:
@@ -42,7 +42,8 @@ class ExplainedConstraints
   class PlacedField;
 
   static bool isSameWall(const Wall& a, const Wall& b);
-  static bool bendsOn(const Wall& a, const Wall& b);
+  void addWall(const Feature& segment);
+  void addWallEnd(const Feature& wall_end);
 
   std::vector<Wall> walls_;
   std::vector<WallEnd> wall_ends_;
