@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <array>
-#include <bitset>
 #include <cmath>
 #include <memory>
 
@@ -105,23 +104,26 @@ class CoarseField::TurnedReturns
   template <std::size_t returns>
   std::vector<CoarseScore> firstScores(const std::vector<PoseProposal>& proposals)
   {
-    std::vector<CoarseScore> scores(proposals.size());
-    std::size_t count = 0;
+    std::vector<CoarseScore> scores;
+    scores.reserve(proposals.size());
     PlacedBlock placed;
+    std::array<std::uint32_t, PlacedBlock::kSize> standing;
+    std::array<CoarseScore, PlacedBlock::kSize> of_block;
     for (std::size_t first = 0; first < proposals.size(); first += PlacedBlock::kSize)
     {
       const std::size_t size = std::min(PlacedBlock::kSize, proposals.size() - first);
       placeOn(place_, &proposals[first], size, placed);
-      const std::size_t begin = count;
-      count = keepStanding(placed, size, static_cast<std::uint32_t>(first), scores, count);
-      for (std::size_t k = begin; k < count; ++k)
+      const std::size_t count = findStanding(placed, size, standing);
+      for (std::size_t k = 0; k < count; ++k)
       {
-        const std::size_t i = scores[k].index - first;
-        scores[k].score =
-            sumAt<0, returns>(placed.column[i], placed.row[i], turnedTo(placed.heading[i]));
+        const std::uint32_t i = standing[k];
+        const Turned& turned = turnedTo(placed.heading[i]);
+        of_block[k] = {sumAt<0, returns>(placed.column[i], placed.row[i], turned),
+                       static_cast<std::uint32_t>(first + i)};
       }
+      scores.insert(scores.end(), of_block.begin(),
+                    of_block.begin() + static_cast<std::ptrdiff_t>(count));
     }
-    scores.resize(count);
     return scores;
   }
 
@@ -147,19 +149,21 @@ class CoarseField::TurnedReturns
  private:
   struct alignas(64) Turned
   {
-    std::int32_t left, right, bottom, top;  // within these cells all returns fall on the raster
+    // At this many cells from these on all returns fall on the raster.
+    std::int32_t left, bottom;
+    std::uint32_t columns, rows;
     std::array<std::int32_t, kReturns> flat, dx, dy;
   };
 
-  /// Appends the indices of the proposals at which a robot could be to `count` scores. Returns how
-  /// many there are then.
-  std::size_t keepStanding(const PlacedBlock& placed, std::size_t size, std::uint32_t first,
-                           std::vector<CoarseScore>& scores, std::size_t count) const
+  /// Finds the proposals of a block at which a robot could be. Returns how many these are.
+  std::size_t findStanding(const PlacedBlock& placed, std::size_t size,
+                           std::array<std::uint32_t, PlacedBlock::kSize>& standing) const
   {
-    // An entry is kept or overwritten by the next one: a branch here could not be predicted.
+    // An index is kept or overwritten by the next one: a branch here could not be predicted.
+    std::size_t count = 0;
     for (std::uint32_t i = 0; i < size; ++i)
     {
-      scores[count].index = first + i;
+      standing[count] = i;
       count += byteAt(placed.column[i], placed.row[i]) & kStanding;
     }
     return count;
@@ -180,7 +184,8 @@ class CoarseField::TurnedReturns
   std::uint32_t sumAt(std::int32_t x, std::int32_t y, const Turned& turned) const
   {
     std::uint32_t sum = 0;
-    if (x >= turned.left && x < turned.right && y >= turned.bottom && y < turned.top)
+    if (static_cast<std::uint32_t>(x - turned.left) < turned.columns &&
+        static_cast<std::uint32_t>(y - turned.bottom) < turned.rows)
     {
       if (tiles_ != nullptr)
       {
@@ -219,10 +224,10 @@ class CoarseField::TurnedReturns
   const Turned& turnedTo(std::int32_t heading)
   {
     const std::uint32_t row = static_cast<std::uint32_t>(heading) % kHeadings;
-    if (!ready_[row])
+    if (ready_[row] == 0)
     {
       turn(static_cast<float>(heading) / kHeadingsPerRadian, table_[row]);
-      ready_[row] = true;
+      ready_[row] = 1;
     }
     return table_[row];
   }
@@ -253,9 +258,9 @@ class CoarseField::TurnedReturns
       most_y = std::max(most_y, dy);
     }
     turned.left = -least_x;
-    turned.right = width_ - most_x;
     turned.bottom = -least_y;
-    turned.top = height_ - most_y;
+    turned.columns = static_cast<std::uint32_t>(std::max(0, width_ - (most_x - least_x)));
+    turned.rows = static_cast<std::uint32_t>(std::max(0, height_ - (most_y - least_y)));
   }
 
   const std::uint8_t* bytes_;
@@ -264,7 +269,7 @@ class CoarseField::TurnedReturns
   RasterPlace place_;
   std::int32_t width_, height_;
   std::array<float, kReturns> x_, y_;  // [cells], robot frame
-  std::bitset<kHeadings> ready_;
+  std::array<std::uint8_t, kHeadings> ready_{};
   std::unique_ptr<Turned[]> table_;  // a row is not initialised before it is ready
 };
 

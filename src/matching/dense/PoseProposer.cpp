@@ -197,7 +197,13 @@ void PoseProposer::slide(const Feature& wall, std::vector<PoseProposal>& out) co
   const TPoint2D normal = directionVector(wall);
   const double inside = wall.size * (0.5 - kOverhang);
   // Appended many at a time, because the compiler keeps nothing in registers across push_back.
-  std::array<PoseProposal, 32> some;
+  std::array<PoseProposal, 256> some;
+  std::size_t count = 0;
+  const auto append = [&]
+  {
+    out.insert(out.end(), some.begin(), some.begin() + static_cast<std::ptrdiff_t>(count));
+    count = 0;
+  };
   for (const MappedWall& mapped : walls_)
   {
     const bool is_long = mapped.length + kLengthTolerance >= wall.size * (1.0 - kOverhang);
@@ -213,18 +219,15 @@ void PoseProposer::slide(const Feature& wall, std::vector<PoseProposal>& out) co
     PoseProposal next = poseCarrying(wall.position, mapped.start + tangent * low, phi, c, s);
     const auto dx = static_cast<float>(tangent.x * step);
     const auto dy = static_cast<float>(tangent.y * step);
-    for (int left = steps + 1; left > 0; left -= static_cast<int>(some.size()))
+    for (int i = 0; i <= steps; ++i)
     {
-      const auto end = some.begin() + std::min(left, static_cast<int>(some.size()));
-      for (auto to = some.begin(); to != end; ++to)
-      {
-        *to = next;
-        next.x += dx;
-        next.y += dy;
-      }
-      out.insert(out.end(), some.begin(), end);
+      if (count == some.size()) append();
+      some[count++] = next;
+      next.x += dx;
+      next.y += dy;
     }
   }
+  append();
 }
 
 /// Proposes by pairs of observed circles, from the `first` rarest up to before the `last`.
