@@ -20,8 +20,8 @@ struct BeliefGrounds
 
 /// Returns what is published of the tracks, which must be sorted: their poses with the map's common
 /// error, and their weights. In a dense field they share the probability of being in the map by
-/// their weights, because the floor of "somewhere else" starts new tracks and says nothing about
-/// where the robot is. Without a verdict. Eq. (8.25)
+/// their weights. The floor of "somewhere else" starts new tracks, and says nothing about where the
+/// robot is. Without a verdict. Eq. (8.25)
 Belief beliefOf(const TrackSet& set, const FeatureMap& map, const TrackerOptions& options);
 
 /// The dense field of a map, or null.

@@ -20,8 +20,8 @@ Track trackAtCandidate(const RelocationResult& result, std::size_t k, const Dens
                        const DenseVerifier& verifier, double travelled);
 
 /// Adds what a relocation says to the in-map log-odds of the tracks. Evidence for a track counts by
-/// the share of structure that is new to the track, because a second scan of a room repeats the
-/// likeness of the first; evidence against it by `fresh_share` in [0, 1]. Eq. (8.7)
+/// the share of structure that is new to the track: a second scan of a room repeats the likeness of
+/// the first. Evidence against it counts by `fresh_share` in [0, 1]. Eq. (8.7)
 void confirmTracks(TrackSet& set, const RelocationResult& result, const DenseScan& scan,
                    double travelled, double fresh_share);
 
