@@ -7,15 +7,15 @@ namespace sigloc
 namespace
 {
 // In the map or not, eq. (8.22): a logistic regression by scripts/fit_evidence.
-constexpr double kOffset = -0.85;  // log-odds without the prior
-constexpr double kRelocationSlope = 0.97;  // per unit of kappa
-constexpr double kWaySlope = 0.18;  // per unit of gamma
-constexpr double kUnexplainedSlope = 2.9;  // per unexplained share of the mapped area seen
-constexpr double kFollowedSlope = 4.0;  // for kFullWay followed with nothing unexplained
+constexpr double kOffset = -0.29;  // log-odds without the prior
+constexpr double kRelocationSlope = 0.89;  // per unit of kappa
+constexpr double kWaySlope = 0.23;  // per unit of gamma
+constexpr double kUnexplainedSlope = 4.3;  // per unexplained share of the mapped area seen
+constexpr double kFollowedSlope = 4.3;  // for kFullWay followed with nothing unexplained
 constexpr double kFullWay = 20.0;  // [m]
-constexpr double kSearchedSlope = 1.6;  // for kFullWay driven unlocalized before
+constexpr double kSearchedSlope = 1.3;  // for kFullWay driven unlocalized before
 constexpr double kMostUnexplained = 0.2;  // unexplained share from which the way does not count
-constexpr double kPriorHere = 1.5;  // log-odds of being in the map, of a robot that is tracked
+constexpr double kPriorHere = 1.3;  // log-odds of being in the map, of a robot that is tracked
 
 // The way driven, eq. (8.21): bounds of its log-odds.
 constexpr double kMinTracked = -8.0;
