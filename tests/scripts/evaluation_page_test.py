@@ -103,7 +103,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         once, drives = pathlib.Path(folder) / "once", pathlib.Path(folder) / "drives"
         for arguments in (
-            ["relocate", *OFFICE, "--method", "signature,signature-plain", "--max-queries", "20",
+            ["relocate", *OFFICE, "--method", "signature,signature-anchors", "--max-queries", "20",
              "--out", once],
             ["track", *OFFICE, "--starts", "3", "--travel", "3", "--method", "signature",
              "--out", drives],
@@ -119,7 +119,7 @@ def main():
                     what(driver, out)
                     if len(sys.argv) > 3:
                         driver.save_screenshot(sys.argv[3])
-                    check_methods(driver, ["signature", "signature-plain"])
+                    check_methods(driver, ["signature", "signature-anchors"])
                 check(listed(driver), "no place is listed")
             runs = rows_of(drives / "runs.csv")
             check(len(listed(driver)) == len(runs), "not every run is listed")
