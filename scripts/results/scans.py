@@ -22,7 +22,7 @@ DATA = (
     "The tracker's other constants come from simulated seeds below 401, and from 501 to 802.",
     "lab and dlr set no constant, but were looked at during development.",
     "Misses of acapulco led to sliding parallel walls; how many was chosen with orebro, fhw and campus in view.",
-    "Only reported: single scans of infinite-corridor, simulated seeds 401 to 413 and 4102 to 4433.",
+    "Only reported: single scans of infinite-corridor, simulated seeds 401 to 415 and 4102 to 4433.",
     "city joins fhw, acapulco, infinite-corridor, orebro, intel and aces in one map.",
 )
 

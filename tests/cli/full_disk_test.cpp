@@ -108,7 +108,7 @@ TEST(FullDisk, aReportIsWholeOrNotThere)
                                "--quiet",
                                "--out",
                                "out"};
-  expectOneLine(runLimited(folder, 8192, "sigloc-eval", arguments), "out/errors.png");
+  expectOneLine(runLimited(folder, 8192, "sigloc-eval", arguments), "out/report.html");
   EXPECT_TRUE(listing(folder).empty());
   EXPECT_EQ(run(folder, "sigloc-eval", arguments).exit_code, 0);
 }
