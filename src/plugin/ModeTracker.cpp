@@ -113,7 +113,7 @@ bool ModeTracker::judge(const ObservedScene& scene, const SignatureMatcher& matc
     set_.noteChange(travel);
     set_.showToAll(scan, *verifier, schedule_.travelled());
   }
-  bool relocated = schedule_.isDue(set_, set_.isSuspicious());
+  bool relocated = schedule_.isDue(set_.isSuspicious());
   if (relocated)
   {
     relocated = verifier != nullptr
@@ -188,7 +188,7 @@ Belief ModeTracker::publish(const SignatureMatcher& matcher, bool blind)
     grounds.doubtful = set_.isDoubtful();
   }
   setVerdict(belief, grounds, options_.localized_probability, fieldOf(matcher.map()));
-  if (belief.verdict == Verdict::localized) schedule_.endSearch();
+  schedule_.noteVerdict(belief.verdict == Verdict::localized);
   return belief;
 }
 }  // namespace sigloc

@@ -135,7 +135,7 @@ void HypothesisTracker::State::trackDensely(const std::optional<MotionIncrement>
   relocation.remember(scan, schedule.travelled());
   set.follow(scan, schedule.travelled(), travel, driven);
   set.weigh(scan, *matcher->verifier(), schedule.travelled(), travel);
-  if (schedule.isDue(set, suspicious()))
+  if (schedule.isDue(suspicious()))
   {
     relocated = relocation.run(set, schedule, *matcher, scene, scan, regionToSearch(), next_id);
   }
@@ -150,7 +150,7 @@ void HypothesisTracker::State::trackByFeatures(const std::optional<MotionIncreme
   if (!motion) travel = schedule.travelSeen(set, 0, suspicious(), travel);
   schedule.countTravel(travel);
   landmark_tracker->weigh(set, travel);
-  if (schedule.isDue(set, suspicious()))
+  if (schedule.isDue(suspicious()))
   {
     const bool settled = belief.verdict == Verdict::localized && !suspicious();
     relocated =
@@ -211,6 +211,6 @@ void HypothesisTracker::State::publish(const ObservedScene& scene)
     grounds.doubtful = doubtful();
   }
   setVerdict(belief, grounds, options.localized_probability, fieldOf(matcher->map()));
-  if (belief.verdict == Verdict::localized) schedule.endSearch();
+  schedule.noteVerdict(belief.verdict == Verdict::localized);
 }
 }  // namespace sigloc

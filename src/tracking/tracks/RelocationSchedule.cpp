@@ -30,14 +30,17 @@ void RelocationSchedule::countTravel(double travel)
   travelled_ += travel;
 }
 
-bool RelocationSchedule::isDue(const TrackSet& set, bool suspicious) const
+void RelocationSchedule::noteVerdict(bool localized)
+{
+  localized_ = localized;
+  if (localized) searched_ = 0;
+}
+
+bool RelocationSchedule::isDue(bool suspicious) const
 {
   if (waking_up_ || suspicious) return true;
-  const bool retained = !set.tracks.empty() &&
-                        set.heaviest().hypothesis.weight >= options_.localized_probability &&
-                        set.heaviest().retained();
   return since_relocation_ >=
-         (retained ? options_.confirmation_distance : options_.relocation_distance);
+         (localized_ ? options_.confirmation_distance : options_.relocation_distance);
 }
 
 void RelocationSchedule::noteRelocation()

@@ -24,12 +24,12 @@ class RelocationSchedule
   void countTravel(double travel);
   /// Counts the distance [m] of a step that was driven unlocalized.
   void countSearched(double driven) { searched_ += driven; }
-  /// Notes that the robot is localized.
-  void endSearch() { searched_ = 0; }
+  /// Notes whether the last step ended *localized*, which ends the search.
+  void noteVerdict(bool localized);
 
   /// True at the start and on suspicion. Else relocations come at a steady rate, and at a lower one
-  /// while the heaviest track has nearly all the weight and is retained.
-  bool isDue(const TrackSet& set, bool suspicious) const;
+  /// while the robot is localized.
+  bool isDue(bool suspicious) const;
   /// Notes that a relocation has given an answer.
   void noteRelocation();
   /// How much a relocation counts as new evidence, in [0, 1]: phi of section 8.
@@ -45,6 +45,7 @@ class RelocationSchedule
  private:
   TrackerOptions options_;
   bool waking_up_ = true;
+  bool localized_ = false;  // at the last step
   double since_relocation_ = 0;  // [m]
   double travelled_ = 0;
   double searched_ = 0;
