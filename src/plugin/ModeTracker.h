@@ -57,7 +57,6 @@ class ModeTracker
   TrackSet set_;
   DenseRelocation relocation_;
   RelocationSchedule schedule_;
-  DenseScan scan_;  // the last one, in a map with a dense field
   std::optional<MotionIncrement> motion_;  // of the last step
   std::uint64_t next_id_ = 1;
 };

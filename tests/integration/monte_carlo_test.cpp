@@ -114,7 +114,8 @@ TEST(MonteCarlo, TheBestUsesAllBeamsAndTempersThem)
   EXPECT_EQ(monteCarloSettings("mcl-best", 500, options).tempering, 0.25);
 }
 
-TEST(MonteCarlo, TheBestClaimsWhereTheScanIsReliable)
+/// The first three metres of the office's drive.
+WakeupOptions officeDrive()
 {
   const std::filesystem::path source = SIGLOC_SOURCE_DIR;
   WakeupOptions options;
@@ -123,6 +124,12 @@ TEST(MonteCarlo, TheBestClaimsWhereTheScanIsReliable)
   options.ground_truth = source / "rawlogs" / "office-truth.txt";
   options.starts = 1;
   options.travel = 3;
+  return options;
+}
+
+TEST(MonteCarlo, TheBestClaimsWhereTheScanIsReliable)
+{
+  WakeupOptions options = officeDrive();
   options.methods = {"signature"};
   const auto first = runWakeups(options).methods.front().runs.front().steps.front().claim.pose;
   options.methods = {"mcl-best"};
@@ -147,13 +154,7 @@ TEST(MonteCarlo, TheBestClaimsWhereTheScanIsReliable)
 
 TEST(MonteCarlo, ProgramAndFilterFollowTheSameDrive)
 {
-  const std::filesystem::path source = SIGLOC_SOURCE_DIR;
-  WakeupOptions options;
-  options.map = source / "maps" / "office.simplemap";
-  options.rawlog = source / "rawlogs" / "office.rawlog";
-  options.ground_truth = source / "rawlogs" / "office-truth.txt";
-  options.starts = 1;
-  options.travel = 3;
+  WakeupOptions options = officeDrive();
   options.methods = {"signature", "mcl", "mcl-stock"};
   options.method.particles = 2000;
   const auto first = runWakeups(options).methods.front().runs.front().steps.front().claim.pose;
