@@ -28,3 +28,15 @@ own_files()
     if [ -f "$file" ]; then echo "$file"; fi
   done
 }
+
+# What scripts/test_sanitized runs beside the tests with threads, and scripts/coverage --sanitized
+# counts: the labels, and the names of tests that are too slow for it. Each of those takes a second or
+# more in a Release build, and several times that under the sanitizers. CampusMaps took 45 % of the time
+# of all tests of unit, bridge and fuzz; that maps of every kind are read is tested without it.
+# shellcheck disable=SC2034  # for the scripts beside this one
+{
+  sanitized_kinds=(unit bridge laws fuzz)
+  slow_tests='^CampusMaps|APlaceFoundLate|WorkGrowsWithTheScans|IsTheSameInOneGo|OnGatedDrives'
+  slow_tests+='|WakesUpInTwenty|IsSeldomLocalized|ClutterInAWideHall|IsSeldomConfident'
+  slow_tests+='|IsNotConfidentlyWrong|FewReturnsTellLittle|KeepsTheCovarianceExactlyHonest'
+}
