@@ -12,6 +12,7 @@
 #include <cmath>
 
 #include "command_line.h"
+#include "io/key_frames.h"
 #include "picture_pixels.h"
 #include "sigloc/geometry/GaussianPose.h"
 
@@ -36,13 +37,11 @@ void writePart(const std::filesystem::path& source, const TPose2D& a_from_b, std
   mrpt::maps::CSimpleMap part;
   for (std::size_t i = first; i < whole.size(); i += of)
   {
-    mrpt::poses::CPose3DPDF::Ptr pose;
-    mrpt::obs::CSensoryFrame::Ptr frame;
-    whole.get(i, pose, frame);
-    mrpt::poses::CPose3DPDFGaussian turned;
-    turned.copyFrom(*pose);
-    turned.mean = turned.mean - a_from_b_3d;
-    part.insert(turned, *frame);
+    const KeyFrame entry = keyFrameOf(whole, i);
+    const auto turned = mrpt::poses::CPose3DPDFGaussian::Create();
+    turned->copyFrom(*entry.pose);
+    turned->mean = turned->mean - a_from_b_3d;
+    part.insert(turned, mrpt::obs::CSensoryFrame::Create(*entry.frame));
   }
   ASSERT_TRUE(part.saveToFile(path.string()));
 }
