@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // What later versions of MRPT write is read as what version 2.5 writes. The golden simplemap was
-// written by MRPT 2.14.7 on Debian 13; it has four key frames, two of them with a speed. The other
-// files are made by hand: scans of version 8 end with the duration of the sweep, and grid maps of
-// version 7 differ by their version alone.
+// written by MRPT 2.14.7 on Debian 13; it has four key frames, two of them with a speed. So was the
+// golden log: a rotating scan made of a planar one, and the same with its ranges in another file.
+// The other files are made by hand: scans of version 8 end with the duration of the sweep, and grid
+// maps of version 7 differ by their version alone.
 #include <gtest/gtest.h>
 #include <mrpt/io/CFileGZInputStream.h>
 #include <mrpt/io/CMemoryStream.h>
@@ -29,6 +30,8 @@ using namespace sigloc::test;
 
 const std::filesystem::path kGolden =
     std::filesystem::path(SIGLOC_GOLDEN_FOLDER) / "mrpt_2_14_7.simplemap";
+const std::filesystem::path kGoldenLog =
+    std::filesystem::path(SIGLOC_GOLDEN_FOLDER) / "mrpt_2_14_7_rotating.rawlog";
 
 std::string bytesOf(const mrpt::serialization::CSerializable& object)
 {
@@ -115,6 +118,32 @@ TEST(NewerFiles, aSimplemapOfMrpt214CutOffIsRefused)
     writeText(folder / "m.simplemap", whole.substr(0, size));
     EXPECT_THROW(readMapSource(folder / "m.simplemap"), std::runtime_error) << size;
   }
+}
+
+TEST(NewerFiles, rotatingScansOfMrpt214AreRead)
+{
+  RawlogReader log(kGoldenLog);
+  const auto step = log.next();
+  ASSERT_TRUE(step);
+  ASSERT_EQ(step->scans.size(), 1U);
+  const LaserScan& scan = step->scans.front();
+  EXPECT_DOUBLE_EQ(scan.max_range, 20);
+  EXPECT_DOUBLE_EQ(scan.robot_from_sensor.x, 0.2);
+  std::size_t beam = 0;
+  for (std::size_t i = 0; i < scan.ranges.size(); ++i)
+  {
+    if (scan.valid[i] == 0) continue;
+    if (beam == 90) ++beam;  // its maker set no range there
+    EXPECT_NEAR(static_cast<double>(scan.ranges[i]), 2 + 0.01 * static_cast<double>(beam), 1e-5);
+    const double bearing = scan.first_angle + static_cast<double>(i) * scan.angle_step;
+    EXPECT_NEAR(bearing, (static_cast<double>(beam) - 90) * M_PI / 180, scan.angle_step);
+    ++beam;
+  }
+  EXPECT_EQ(beam, 181U);
+  EXPECT_FALSE(log.next() || log.truncated());
+  EXPECT_NE(log.contents().find("1 CObservationRotatingScan (its ranges are in another file)"),
+            std::string::npos)
+      << log.contents();
 }
 
 TEST(NewerFiles, aLogWithScansOfMrpt215IsReadAsTheOlderOne)

@@ -99,6 +99,33 @@ struct RangeRows
     return 0;
   }
 };
+
+/// Reads a range image of the size that its observation tells. MRPT 2.14 has a byte before it,
+/// under the version that 2.5 has without: 0 for an image that follows, else the name of a file
+/// does.
+RangeRows takeRows(ContentReader& in, std::uint16_t rows, std::uint16_t columns)
+{
+  const auto size_in = [](ContentReader& reader)
+  {
+    RangeRows image;
+    image.columns = reader.value<std::uint16_t>();
+    image.rows = reader.value<std::uint16_t>();
+    return image;
+  };
+  ContentReader ahead = in;
+  RangeRows image = size_in(ahead);
+  if (image.rows != rows || image.columns != columns)
+  {
+    if (in.flag()) throw Unusable("its ranges are in another file");
+    image = size_in(in);
+  }
+  else
+  {
+    in = ahead;
+  }
+  image.units = in.items(image.rows * image.columns, sizeof(std::uint16_t));
+  return image;
+}
 }  // namespace
 
 SolidView readVelodyne(std::string_view content, int version)
@@ -142,7 +169,8 @@ SolidView readRotatingScan(std::string_view content, int version)
   SolidView view;
   view.time = timeIn(in);
   view.label = in.text();
-  in.items(2, sizeof(std::uint16_t));  // the size is with the image
+  const auto rows = in.value<std::uint16_t>();
+  const auto columns_told = in.value<std::uint16_t>();
   const auto unit = in.value<double>();
   const auto start = in.value<double>();
   const auto span = in.value<double>();
@@ -153,10 +181,7 @@ SolidView readRotatingScan(std::string_view content, int version)
   view.robot_from_sensor = in.pose();
   in.value<std::int64_t>();
   in.flag();
-  RangeRows image;
-  image.columns = in.value<std::uint16_t>();
-  image.rows = in.value<std::uint16_t>();
-  image.units = in.items(image.rows * image.columns, sizeof(std::uint16_t));
+  const RangeRows image = takeRows(in, rows, columns_told);
   if (!(std::abs(start) <= 4 * M_PI && std::abs(span) <= 4 * M_PI && unit > 0))
     throw Unusable("damaged");
   view.planar = image.rows == 1;
