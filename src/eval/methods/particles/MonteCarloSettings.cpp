@@ -40,7 +40,6 @@ constexpr const char* kMapSections = R"(
 [MetricMap]
 occupancyGrid_count=1
 gasGrid_count=0
-landmarksMap_count=0
 pointsMap_count=0
 beaconMap_count=0
 likelihoodMapSelection=-1
