@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "geometry/simd.h"
+
 namespace sigloc
 {
 namespace
@@ -12,41 +14,53 @@ namespace
 constexpr std::uint8_t kMostRings = 255;
 constexpr std::uint32_t kWanted = ~0U;  // a tile that is stored, but has no place yet
 
-/// Computes the chessboard distance [cells] to the nearest zero cell, in two passes, exact up to
-/// 255.
+/// Lowers each of n rings to one more than the least of the three cells above, or below, it.
+SIGLOC_WIDE_VECTORS void spreadFromRow(std::uint8_t* row, const std::uint8_t* beside, std::size_t n)
+{
+  const auto next = [](std::uint8_t ring)
+  { return static_cast<std::uint8_t>(ring < kMostRings ? ring + 1 : kMostRings); };
+  if (n > 1) row[0] = std::min(row[0], next(std::min(beside[0], beside[1])));
+  if (n == 1) row[0] = std::min(row[0], next(beside[0]));
+  for (std::size_t x = 1; x + 1 < n; ++x)
+  {
+    const std::uint8_t least = std::min(std::min(beside[x - 1], beside[x]), beside[x + 1]);
+    row[x] = std::min(row[x], next(least));
+  }
+  if (n > 1) row[n - 1] = std::min(row[n - 1], next(std::min(beside[n - 2], beside[n - 1])));
+}
+
+/// Lowers each of n rings in `row` to what those left and right of it allow. `other` is as long.
+SIGLOC_WIDE_VECTORS void spreadAlongRow(std::uint8_t* row, std::uint8_t* other, std::size_t n)
+{
+  // A way of up to 255 cells is a sum of these steps, each taken at most once.
+  for (std::size_t step = 1; step < n && step <= 128; step *= 2)
+  {
+    const auto add = static_cast<std::uint8_t>(step);
+    const auto most = static_cast<std::uint8_t>(kMostRings - step);
+    std::copy_n(row, n, other);
+    for (std::size_t x = step; x < n; ++x)
+    {
+      const auto by_left = static_cast<std::uint8_t>(std::min(other[x - step], most) + add);
+      row[x] = std::min(row[x], by_left);
+    }
+    for (std::size_t x = 0; x + step < n; ++x)
+    {
+      const auto by_right = static_cast<std::uint8_t>(std::min(other[x + step], most) + add);
+      row[x] = std::min(row[x], by_right);
+    }
+  }
+}
+
+/// Computes the chessboard distance [cells] to the nearest zero cell, exact up to 255. Down and up
+/// the rows it goes straight or over corners, which reaches all that are at least as far above or
+/// below as beside. From there the others are reached along the row.
 void spreadRings(std::vector<std::uint8_t>& rings, std::uint32_t width, std::uint32_t height)
 {
-  const auto relax = [&](std::size_t cell, std::size_t neighbour)
-  {
-    if (rings[neighbour] + 1 < rings[cell])
-    {
-      rings[cell] = static_cast<std::uint8_t>(rings[neighbour] + 1);
-    }
-  };
-  for (std::uint32_t y = 0; y < height; ++y)
-  {
-    for (std::uint32_t x = 0; x < width; ++x)
-    {
-      const std::size_t cell = static_cast<std::size_t>(y) * width + x;
-      if (x > 0) relax(cell, cell - 1);
-      if (y == 0) continue;
-      relax(cell, cell - width);
-      if (x > 0) relax(cell, cell - width - 1);
-      if (x + 1 < width) relax(cell, cell - width + 1);
-    }
-  }
-  for (std::uint32_t y = height; y-- > 0;)
-  {
-    for (std::uint32_t x = width; x-- > 0;)
-    {
-      const std::size_t cell = static_cast<std::size_t>(y) * width + x;
-      if (x + 1 < width) relax(cell, cell + 1);
-      if (y + 1 == height) continue;
-      relax(cell, cell + width);
-      if (x > 0) relax(cell, cell + width - 1);
-      if (x + 1 < width) relax(cell, cell + width + 1);
-    }
-  }
+  const auto row = [&](std::uint32_t y) { return &rings[std::size_t{y} * width]; };
+  for (std::uint32_t y = 1; y < height; ++y) spreadFromRow(row(y), row(y - 1), width);
+  for (std::uint32_t y = height - 1; y-- > 0;) spreadFromRow(row(y), row(y + 1), width);
+  std::vector<std::uint8_t> other(width);
+  for (std::uint32_t y = 0; y < height; ++y) spreadAlongRow(row(y), other.data(), width);
 }
 
 std::uint8_t ringsAt(const DenseCell& cell)
@@ -60,10 +74,10 @@ ClearRings::ClearRings(const DenseField& field)
   const RasterFrame& frame = field.frame;
   if (!field.isTiled())
   {
-    rings_.reserve(field.cells.size() + 1);
-    for (const DenseCell& cell : field.cells) rings_.push_back(ringsAt(cell));
+    rings_.resize(field.cells.size() + 1);
+    std::transform(field.cells.begin(), field.cells.end(), rings_.begin(), ringsAt);
     spreadRings(rings_, frame.width, frame.height);
-    rings_.push_back(kOutside);
+    rings_.back() = kOutside;
     return;
   }
   columns_ = static_cast<std::int32_t>((frame.width + kTileSide - 1) / kTileSide);

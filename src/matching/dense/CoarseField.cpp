@@ -36,6 +36,20 @@ RasterFrame likelihoodFrame(const RasterFrame& field)
   return cellCount(frame) <= kCachedCells ? frame : coarserFrame(field, kLargestCell);
 }
 
+/// Calls `visit(column, begin, end)` for each column of blocks that a row of stored cells, from
+/// `first` on, passes through: [begin, end) are the cells in it, counted from the first one.
+template <class Visit>
+void forEachBlock(std::uint32_t first, std::uint32_t width, std::uint32_t ratio, const Visit& visit)
+{
+  for (std::uint32_t begin = 0; begin < width;)
+  {
+    const std::uint32_t column = (first + begin) / ratio;
+    const std::uint32_t end = std::min((column + 1) * ratio - first, width);
+    visit(column, begin, end);
+    begin = end;
+  }
+}
+
 /// Returns the blocks of the field with free space, and those around them: a map may end a little
 /// before the free space does.
 ByteRaster standingBlocks(const DenseField& field, const RasterFrame& blocks)
@@ -47,11 +61,15 @@ ByteRaster standingBlocks(const DenseField& field, const RasterFrame& blocks)
     for (std::uint32_t y = 0; y < stored.height; ++y)
     {
       const DenseCell* row = stored.row(y);
-      for (std::uint32_t x = 0; x < stored.width; ++x)
-      {
-        if (row[x].state != CellState::free) continue;
-        free.at((stored.x + x) / ratio, (stored.y + y) / ratio) = kStanding;
-      }
+      const std::uint32_t block_row = (stored.y + y) / ratio;
+      forEachBlock(stored.x, stored.width, ratio,
+                   [&](std::uint32_t column, std::uint32_t begin, std::uint32_t end)
+                   {
+                     const bool has_free = std::any_of(
+                         row + begin, row + end,
+                         [](const DenseCell& cell) { return cell.state == CellState::free; });
+                     if (has_free) free.at(column, block_row) = kStanding;
+                   });
     }
   }
   ByteRaster standing(blocks.width, blocks.height, field.isTiled());
@@ -118,14 +136,17 @@ void CoarseField::fillLikelihoods(const DenseField& field)
     for (std::uint32_t y = 0; y < stored.height; ++y)
     {
       const DenseCell* row = stored.row(y);
-      for (std::uint32_t x = 0; x < stored.width; ++x)
-      {
-        const std::uint8_t byte = bytes[row[x].distance];
-        if (byte == 0) continue;
-        std::uint8_t& best =
-            likelihoods_.at((stored.x + x) / ratio + border_, (stored.y + y) / ratio + border_);
-        best = std::max(best, byte);
-      }
+      const std::uint32_t coarse_row = (stored.y + y) / ratio + border_;
+      forEachBlock(stored.x, stored.width, ratio,
+                   [&](std::uint32_t column, std::uint32_t begin, std::uint32_t end)
+                   {
+                     std::uint8_t byte = 0;
+                     for (std::uint32_t x = begin; x < end; ++x)
+                       byte = std::max(byte, bytes[row[x].distance]);
+                     if (byte == 0) return;
+                     std::uint8_t& best = likelihoods_.at(column + border_, coarse_row);
+                     best = std::max(best, byte);
+                   });
     }
   }
 }

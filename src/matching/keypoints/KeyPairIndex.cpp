@@ -55,9 +55,12 @@ const std::array<float, kCodes>& codedVariances()
 /// Returns the code of the least variance that is not below the given one, or the last code.
 std::uint32_t codeOf(double variance)
 {
+  // A binary search without branches: no processor foresees which way it goes.
   const auto& variances = codedVariances();
-  const auto at = std::lower_bound(variances.begin(), variances.end() - 1, variance);
-  return static_cast<std::uint32_t>(at - variances.begin());
+  std::uint32_t code = 0;
+  for (std::uint32_t step = kCodes / 2; step > 0; step /= 2)
+    code += variances[code + step - 1] < variance ? step : 0;
+  return code;
 }
 
 std::size_t tableOf(KeyPointKind first, KeyPointKind second)
@@ -75,17 +78,16 @@ double along(const Symmetric2& covariance, double x, double y)
   return covariance.xx * x * x + 2 * covariance.xy * x * y + covariance.yy * y * y;
 }
 
-/// Finds the partners of key points. What it reads to do so lies together in memory.
+/// The key points of one kind by place, to find the partners of others among them.
 class Neighbourhood
 {
  public:
-  explicit Neighbourhood(const std::vector<KeyPoint>& points) : points_(points)
+  Neighbourhood(const std::vector<KeyPoint>& points, KeyPointKind kind) : points_(points)
   {
-    places_.reserve(points.size());
     for (std::uint32_t k = 0; k < points.size(); ++k)
     {
       const TPoint2D& at = points[k].position;
-      places_.push_back({at.x, at.y, cellOf(at.x), cellOf(at.y), k});
+      if (points[k].kind == kind) places_.push_back({at.x, at.y, cellOf(at.x), cellOf(at.y), k});
     }
     std::sort(places_.begin(), places_.end(),
               [](const Place& a, const Place& b)
@@ -94,32 +96,37 @@ class Neighbourhood
                        : a.row != b.row     ? a.row < b.row
                                             : a.index < b.index;
               });
+    for (std::uint32_t k = 0; k < places_.size(); ++k)
+    {
+      if (k == 0 || places_[k].column != places_[k - 1].column)
+        columns_.push_back({places_[k].column, k});
+    }
+    columns_.push_back({INT64_MAX, static_cast<std::uint32_t>(places_.size())});
   }
 
-  /// Calls visit(a, b) for the ordered pairs of points within a range [m] that the index may hold,
-  /// where a is every `stride`-th point.
+  /// Calls `visit(b)` for the points of this kind that the index may pair with point `i`: within a
+  /// range [m]. In an order that does not depend on the range.
   template <class Visit>
-  void forEachPair(double range, std::size_t stride, Visit&& visit) const
+  void forEachPartner(std::size_t i, double range, const Visit& visit) const
   {
-    const auto reach = static_cast<std::int64_t>(std::ceil(range / kCell));
-    for (std::size_t i = 0; i < points_.size(); i += stride)
+    const TPoint2D& from = points_[i].position;
+    const double reach = range + 1e-6;  // rounding takes no point away
+    const std::int64_t lowest = cellOf(from.y - reach);
+    const std::int64_t highest = cellOf(from.y + reach);
+    const std::int64_t last = cellOf(from.x + reach);
+    auto column = std::lower_bound(columns_.begin(), columns_.end(), cellOf(from.x - reach),
+                                   [](const Column& c, std::int64_t x) { return c.column < x; });
+    for (; column->column <= last; ++column)
     {
-      const TPoint2D& from = points_[i].position;
-      const std::int64_t row = cellOf(from.y);
-      for (std::int64_t column = cellOf(from.x) - reach; column <= cellOf(from.x) + reach; ++column)
+      const Place* const end = places_.data() + (column + 1)->first;
+      const Place* to =
+          std::lower_bound(places_.data() + column->first, end, lowest,
+                           [](const Place& place, std::int64_t row) { return place.row < row; });
+      for (; to != end && to->row <= highest; ++to)
       {
-        const auto first = std::lower_bound(
-            places_.begin(), places_.end(), row - reach,
-            [&](const Place& place, std::int64_t lowest)
-            { return place.column != column ? place.column < column : place.row < lowest; });
-        for (auto to = first; to != places_.end() && to->column == column && to->row <= row + reach;
-             ++to)
-        {
-          const double squared = square(to->x - from.x) + square(to->y - from.y);
-          if (squared < square(KeyPairIndex::kMinDistance) || squared >= square(range)) continue;
-          if (i == to->index || points_[to->index].kind < points_[i].kind) continue;
-          visit(points_[i], points_[to->index]);
-        }
+        const double squared = square(to->x - from.x) + square(to->y - from.y);
+        if (squared < square(KeyPairIndex::kMinDistance) || squared >= square(range)) continue;
+        if (i != to->index) visit(points_[to->index]);
       }
     }
   }
@@ -131,6 +138,11 @@ class Neighbourhood
     std::int64_t column, row;  // of kCell
     std::uint32_t index;
   };
+  struct Column
+  {
+    std::int64_t column;
+    std::uint32_t first;  // of its places
+  };
 
   static std::int64_t cellOf(double metres)
   {
@@ -139,15 +151,55 @@ class Neighbourhood
 
   const std::vector<KeyPoint>& points_;
   std::vector<Place> places_;  // by column, then by row
+  std::vector<Column> columns_;  // those with places, and an end
+};
+
+/// The key points by place, each kind apart.
+class Neighbourhoods
+{
+ public:
+  explicit Neighbourhoods(const std::vector<KeyPoint>& points) : points_(points)
+  {
+    for (std::size_t kind = 0; kind < kKeyPointKinds; ++kind)
+      of_kind_.emplace_back(points, static_cast<KeyPointKind>(kind));
+  }
+
+  /// Calls `visit(a, b)` for the ordered pairs of two kinds within a range [m] that the index may
+  /// hold.
+  template <class Visit>
+  void forEachPair(std::size_t first, std::size_t second, double range, const Visit& visit) const
+  {
+    for (std::size_t i = 0; i < points_.size(); ++i)
+    {
+      if (static_cast<std::size_t>(points_[i].kind) != first) continue;
+      of_kind_[second].forEachPartner(i, range, [&](const KeyPoint& b) { visit(points_[i], b); });
+    }
+  }
+
+  /// Calls `visit(a, b)` for those of all kinds, where a is every `stride`-th point.
+  template <class Visit>
+  void forEachPair(double range, std::size_t stride, const Visit& visit) const
+  {
+    for (std::size_t i = 0; i < points_.size(); i += stride)
+    {
+      // The second kind of a pair is not before the first one.
+      for (auto kind = static_cast<std::size_t>(points_[i].kind); kind < kKeyPointKinds; ++kind)
+        of_kind_[kind].forEachPartner(i, range, [&](const KeyPoint& b) { visit(points_[i], b); });
+    }
+  }
+
+ private:
+  const std::vector<KeyPoint>& points_;
+  std::vector<Neighbourhood> of_kind_;
 };
 
 /// Returns the range [m] of the index. In a sparse map it is longer, because near partners are few,
 /// and the pairs that tell most are those of far ones.
-double chosenRange(const std::vector<KeyPoint>& points, const Neighbourhood& neighbourhood)
+double chosenRange(const std::vector<KeyPoint>& points, const Neighbourhoods& neighbourhoods)
 {
   const std::size_t stride = 1 + points.size() / kRangeSample;
   std::vector<std::size_t> counts(kRangeSteps, 0);
-  neighbourhood.forEachPair(
+  neighbourhoods.forEachPair(
       kMaxRange, stride,
       [&](const KeyPoint& a, const KeyPoint& b)
       {
@@ -206,27 +258,55 @@ KeyPair keyPair(const KeyPoint& first, const KeyPoint& second)
 KeyPairIndex::KeyPairIndex(const std::vector<KeyPoint>& points, const MapErrorModel& error)
 {
   layOutTables();
-  const Neighbourhood neighbourhood(points);
-  range_ = chosenRange(points, neighbourhood);
+  const Neighbourhoods neighbourhoods(points);
+  range_ = chosenRange(points, neighbourhoods);
   std::size_t pairs = 0;
-  neighbourhood.forEachPair(range_, 1, [&](const KeyPoint&, const KeyPoint&) { ++pairs; });
+  neighbourhoods.forEachPair(range_, 1, [&](const KeyPoint&, const KeyPoint&) { ++pairs; });
   distance_bins_ = static_cast<std::uint32_t>(std::clamp<std::size_t>(
       pairs / (rows_ * kEntriesPerCell), kMinDistanceBins, kMaxDistanceBins));
-  // Pairs are counted by cell first, so that the entries are allocated once.
   cells_.assign(std::size_t{rows_} * distance_bins_ + 1, 0);
-  neighbourhood.forEachPair(
-      range_, 1, [&](const KeyPoint& a, const KeyPoint& b) { ++cells_[cellOf(keyPair(a, b))]; });
-  std::exclusive_scan(cells_.begin(), cells_.end(), cells_.begin(), 0U);
   entries_.resize(pairs);
-  std::vector<std::uint32_t> next(cells_.begin(), cells_.end() - 1);
-  neighbourhood.forEachPair(range_, 1,
-                            [&](const KeyPoint& a, const KeyPoint& b)
-                            {
-                              const KeyPair pair = keyPair(a, b);
-                              Entry& entry = entries_[next[cellOf(pair)]++];
-                              entry = entryOf(pair, error);
-                              noteVariances(pair.table, entry);
-                            });
+  // One table after the other, so that what waits to be sorted takes little memory.
+  std::vector<Placed> placed;
+  std::uint32_t done = 0;
+  for (std::size_t a = 0; a < kKeyPointKinds; ++a)
+  {
+    for (std::size_t b = a; b < kKeyPointKinds; ++b)
+    {
+      placed.clear();
+      neighbourhoods.forEachPair(a, b, range_,
+                                 [&](const KeyPoint& first, const KeyPoint& second)
+                                 {
+                                   placed.push_back(placedEntry(keyPair(first, second), error));
+                                 });
+      sortInto(tables_[a * kKeyPointKinds + b], placed, done);
+      done += static_cast<std::uint32_t>(placed.size());
+    }
+  }
+}
+
+/// Sorts the entries of a table by cell, and keeps those of a cell in their order. `done` entries
+/// of earlier tables come before them.
+void KeyPairIndex::sortInto(Table& table, const std::vector<Placed>& placed, std::uint32_t done)
+{
+  // While entries are put in, the element after a cell's own says where its next one goes. In the
+  // end that is where the next cell begins.
+  std::uint32_t* const next = cells_.data() + 1;
+  for (const Placed& one : placed) ++next[one.cell];
+  const std::size_t first = std::size_t{table.row} * distance_bins_;
+  const std::size_t end = first + std::size_t{table.first.bins} * table.second.bins * distance_bins_;
+  std::exclusive_scan(next + first, next + end, next + first, done);
+  std::array<std::uint32_t, 3> largest{};  // codes of standard deviations
+  for (const Placed& one : placed)
+  {
+    entries_[next[one.cell]++] = one.entry;
+    for (std::uint32_t k = 0; k < largest.size(); ++k)
+      largest[k] = std::max(largest[k], one.entry.deviations >> 5 * k & 31U);
+  }
+  if (placed.empty()) return;
+  table.distance_variance = codedVariances()[largest[0]];
+  table.first_variance = codedVariances()[largest[1]];
+  table.second_variance = codedVariances()[largest[2]];
 }
 
 /// Gives each table its axes and rows.
@@ -256,13 +336,6 @@ KeyPairIndex::Binned KeyPairIndex::binned(const Axis& axis, double value)
   return {bin, static_cast<std::uint8_t>((at - bin) * 256)};
 }
 
-std::uint32_t KeyPairIndex::rowOf(const KeyPair& pair) const
-{
-  const Table& table = tables_[pair.table];
-  return table.row + binned(table.first, pair.first).bin * table.second.bins +
-         binned(table.second, pair.second).bin;
-}
-
 std::uint32_t KeyPairIndex::distanceBin(double distance) const
 {
   const double share = (distance - kMinDistance) / (range_ - kMinDistance);
@@ -270,40 +343,31 @@ std::uint32_t KeyPairIndex::distanceBin(double distance) const
   return static_cast<std::uint32_t>(std::clamp(share * distance_bins_, 0.0, last));
 }
 
-std::size_t KeyPairIndex::cellOf(const KeyPair& pair) const
-{
-  return std::size_t{rowOf(pair)} * distance_bins_ + distanceBin(pair.distance);
-}
-
-KeyPairIndex::Entry KeyPairIndex::entryOf(const KeyPair& pair, const MapErrorModel& error) const
+KeyPairIndex::Placed KeyPairIndex::placedEntry(const KeyPair& pair,
+                                               const MapErrorModel& error) const
 {
   const Table& table = tables_[pair.table];
+  const Binned first = binned(table.first, pair.first);
+  const Binned second = binned(table.second, pair.second);
   const double relative = square(error.relativeSigma(pair.distance));
   const double turned = table.first.is_angle ? relative / square(pair.distance) : 0.0;
   const std::uint32_t deviations =
       codeOf(std::min(pair.distance_variance + relative, kMostOfDistance)) |
       codeOf(std::min(pair.first_variance + turned, kMostOfOthers)) << 5U |
       codeOf(std::min(pair.second_variance, kMostOfOthers)) << 10U;
-  Entry entry{};
+  Placed placed{};
+  const std::uint32_t row = table.row + first.bin * table.second.bins + second.bin;
+  placed.cell = row * distance_bins_ + distanceBin(pair.distance);
+  Entry& entry = placed.entry;
   entry.x = static_cast<float>(pair.x);
   entry.y = static_cast<float>(pair.y);
   entry.distance = static_cast<std::uint16_t>(std::lround(pair.distance / kDistanceUnit));
   entry.bearing = static_cast<std::uint16_t>(
       static_cast<std::int32_t>(std::lround(pair.bearing / (2 * M_PI) * kFullTurn)));
-  entry.first = binned(table.first, pair.first).residue;
-  entry.second = binned(table.second, pair.second).residue;
+  entry.first = first.residue;
+  entry.second = second.residue;
   entry.deviations = static_cast<std::uint16_t>(deviations);
-  return entry;
-}
-
-void KeyPairIndex::noteVariances(std::size_t table, const Entry& entry)
-{
-  const auto& variances = codedVariances();
-  const auto note = [&](double& largest, std::uint32_t shift)
-  { largest = std::max<double>(largest, variances[entry.deviations >> shift & 31U]); };
-  note(tables_[table].distance_variance, 0);
-  note(tables_[table].first_variance, 5);
-  note(tables_[table].second_variance, 10);
+  return placed;
 }
 
 std::size_t KeyPairIndex::find(const KeyPair& observed, std::vector<Run>& runs) const

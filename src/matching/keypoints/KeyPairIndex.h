@@ -84,6 +84,13 @@ class KeyPairIndex
   };
   static_assert(sizeof(Entry) == 16, "four entries a cache line");
 
+  /// An entry on its way to its cell.
+  struct Placed
+  {
+    std::uint32_t cell;
+    Entry entry;
+  };
+
   /// How a coordinate is cut into bins: directions turn around, radii have one bin.
   struct Axis
   {
@@ -110,11 +117,9 @@ class KeyPairIndex
   static Binned binned(const Axis& axis, double value);
 
   void layOutTables();
-  std::uint32_t rowOf(const KeyPair& pair) const;
   std::uint32_t distanceBin(double distance) const;
-  std::size_t cellOf(const KeyPair& pair) const;
-  Entry entryOf(const KeyPair& pair, const MapErrorModel& error) const;
-  void noteVariances(std::size_t table, const Entry& entry);
+  Placed placedEntry(const KeyPair& pair, const MapErrorModel& error) const;
+  void sortInto(Table& table, const std::vector<Placed>& placed, std::uint32_t done);
 
   std::array<Table, kTables> tables_{};
   double range_ = 0;  // [m]
