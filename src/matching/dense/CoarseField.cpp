@@ -41,13 +41,10 @@ RasterFrame likelihoodFrame(const RasterFrame& field)
 template <class Visit>
 void forEachBlock(std::uint32_t first, std::uint32_t width, std::uint32_t ratio, const Visit& visit)
 {
-  for (std::uint32_t begin = 0; begin < width;)
-  {
-    const std::uint32_t column = (first + begin) / ratio;
-    const std::uint32_t end = std::min((column + 1) * ratio - first, width);
-    visit(column, begin, end);
-    begin = end;
-  }
+  std::uint32_t column = first / ratio;
+  std::uint32_t end = (column + 1) * ratio - first;
+  for (std::uint32_t begin = 0; begin < width; begin = end, end += ratio, ++column)
+    visit(column, begin, std::min(end, width));
 }
 
 /// Returns the blocks of the field with free space, and those around them: a map may end a little
@@ -65,9 +62,9 @@ ByteRaster standingBlocks(const DenseField& field, const RasterFrame& blocks)
       forEachBlock(stored.x, stored.width, ratio,
                    [&](std::uint32_t column, std::uint32_t begin, std::uint32_t end)
                    {
-                     const bool has_free = std::any_of(
-                         row + begin, row + end,
-                         [](const DenseCell& cell) { return cell.state == CellState::free; });
+                     bool has_free = false;
+                     for (std::uint32_t x = begin; x < end; ++x)
+                       has_free |= row[x].state == CellState::free;
                      if (has_free) free.at(column, block_row) = kStanding;
                    });
     }
