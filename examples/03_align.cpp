@@ -15,8 +15,8 @@
 
 #include "sigloc/io/map_files.h"
 #include "sigloc/io/RawlogReader.h"
-#include "sigloc/plugin/SignatureAligner.h"
 #include "sigloc/plugin/SignatureMap.h"
+#include "sigloc/slam/SignatureAligner.h"
 
 namespace
 {

@@ -29,12 +29,13 @@ CORE = [
 ]  # fmt: skip
 BRIDGE = CORE + ["io/archive", "io/solid", "io", "io/points", "io/maps", "plugin", "localize"]
 EVAL = BRIDGE + [
-    "eval/process", "eval/data", "eval/worlds", "eval/worlds/buildings", "eval/methods/lattice",
+    "slam", "eval/process", "eval/data", "eval/worlds", "eval/worlds/buildings", "eval/methods/lattice",
     "eval/methods/features", "eval/methods/particles", "eval/methods", "eval/scoring",
     "eval/protocols", "eval/wakeup", "eval/reports",
 ]  # fmt: skip
 ROOMS = {room: line[: line.index(room) + 1] for line in (EVAL, BRIDGE, CORE) for room in line}
 ROOMS["render"] = BRIDGE + ["render"]
+ROOMS["slam"] = BRIDGE + ["slam"]
 ROOMS["hwdrivers"] = BRIDGE + ["hwdrivers"]
 ROOMS["bindings"] = BRIDGE + ["bindings"]  # of python/
 ROOMS["ros1"] = BRIDGE + ["ros1"]  # of ros/
@@ -58,10 +59,12 @@ PRODUCT_APPS = {"sigloc-map", "sigloc-localize", "sigloc-align"}
 MRPT_CORE = {"core", "math", "config", "version"}  # the last is a header by itself
 MRPT_BRIDGE = MRPT_CORE | {
     "bayes", "containers", "img", "io", "maps", "obs", "opengl", "poses", "random", "rtti",
-    "serialization", "slam", "system", "tfest", "topography", "typemeta",
+    "serialization", "system", "tfest", "topography", "typemeta",
 }  # fmt: skip
 MRPT_MODULES = {room: MRPT_CORE if room in CORE else MRPT_BRIDGE for room in ROOMS}
 MRPT_MODULES["hwdrivers"] = MRPT_BRIDGE | {"hwdrivers"}
+WITH_SLAM = MRPT_BRIDGE | {"slam"}
+MRPT_MODULES |= {room: WITH_SLAM for room in EVAL if room == "slam" or room.startswith("eval/")}
 
 # Tests of the core stay as light as the core.
 CORE_TESTS = {"unit", "threads"}
@@ -125,7 +128,9 @@ def place(path):
 def allowed_rooms(kind, name):
     if kind == "room":
         return set(ROOMS[name])
-    if kind in ("examples", "umbrella") or (kind == "apps" and name in PRODUCT_APPS):
+    if kind in ("examples", "umbrella"):
+        return set(ROOMS["slam"])
+    if kind == "apps" and name in PRODUCT_APPS:
         return set(ROOMS["render"])
     if kind == "tests" and name in CORE_TESTS:
         return set(CORE)
@@ -137,7 +142,7 @@ def allowed_modules(kind, name):
         return MRPT_MODULES[name]
     if kind == "tests" and name in CORE_TESTS:
         return MRPT_CORE
-    return MRPT_BRIDGE
+    return WITH_SLAM if kind in ("tests", "examples") else MRPT_BRIDGE
 
 
 def own_include_violations(path, kind, name, header):
@@ -273,6 +278,10 @@ def binary_violations(folder):
                 yield f"{path.name} links {library}"
             if is_library and library.startswith("libOSMesa"):
                 yield f"{path.name} links {library}: only executables may"
+            if library.startswith(("libmrpt-slam", "libsigloc-slam")) and re.match(
+                r"libsigloc-mrpt|libsigloc-hw|sigloc-(map|localize|align|ros1)", path.name
+            ):
+                yield f"{path.name} links {library}, which takes long to load"
             if library.startswith("libmrpt-hwdrivers") and "hwdrivers" not in path.name:
                 yield f"{path.name} links {library}"
 

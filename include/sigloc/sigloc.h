@@ -25,10 +25,14 @@
 #include "sigloc/plugin/map_drawing.h"
 #include "sigloc/plugin/ObservationSignatures.h"
 #include "sigloc/plugin/pose_pdf.h"
-#include "sigloc/plugin/SignatureAligner.h"
 #include "sigloc/plugin/SignatureMap.h"
-#include "sigloc/plugin/SignatureMonteCarlo2D.h"
 #include "sigloc/signature/Signature.h"
 #include "sigloc/tracking/Belief.h"
 #include "sigloc/tracking/HypothesisTracker.h"
 #include "sigloc/tracking/TrackerOptions.h"
+
+// What is in libsigloc-slam, where MRPT's mrpt-slam is at hand.
+#if __has_include(<mrpt/slam/CMonteCarloLocalization2D.h>)
+#include "sigloc/slam/SignatureAligner.h"
+#include "sigloc/slam/SignatureMonteCarlo2D.h"
+#endif

@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "io/GroundTruth.h"
-#include "plugin/ParticleTracker.h"
+#include "localize/particle_library.h"
 #include "sigloc/io/map_files.h"
 #include "sigloc/plugin/pose_pdf.h"
 #include "sigloc/plugin/SignatureMap.h"
@@ -146,7 +146,7 @@ struct LocalizationRun::State
   std::optional<RawlogStep> pending;  // read, not yet taken; none at the end
   std::optional<GroundTruth> truth;
   std::unique_ptr<HypothesisTracker> tracker;  // the one or
-  std::unique_ptr<ParticleTracker> particles;  // the other
+  std::unique_ptr<LogTracker> particles;  // the other
   bool map_reused = false;
   double map_seconds = 0;
 };
@@ -164,8 +164,8 @@ LocalizationRun::LocalizationRun(const LocalizationSetup& setup, const fs::path&
   if (setup_.use_particles)
   {
     const auto map = std::make_shared<const SignatureMap>(FeatureMap(*map_));
-    state_->particles = std::make_unique<ParticleTracker>(
-        map, matcher, setup_.tracker, setup_.particles, setup_.matcher.seed, setup_.features);
+    state_->particles = loadParticleTracker(
+        {map, matcher, setup_.tracker, setup_.particles, setup_.matcher.seed, setup_.features});
     state_->particles->reset(setup_.prior);
     return;
   }

@@ -22,11 +22,11 @@ constexpr double kLinkAngle = 0.08;  // [rad] between normals of fragments of on
 constexpr double kLinkGap = 4.0;  // [m] opening beyond which two walls are separate
 constexpr double kHashCell = 2 * kSegmentReach;  // [m]; segments are hashed at this spacing
 
-/// True when both ends of `fragment` are on the line of `wall` and both face the same way.
-bool onLine(const Feature& wall, const Feature& fragment)
+/// True when both ends of `fragment` are on the line of `wall`, which has this normal, and both face
+/// the same way.
+bool onLine(const Feature& wall, const TPoint2D& normal, const Feature& fragment)
 {
   if (std::abs(wrapToPi(wall.direction - fragment.direction)) > kLinkAngle) return false;
-  const TPoint2D normal = directionVector(wall);
   const TPoint2D a = segmentStart(fragment) - wall.position;
   const TPoint2D b = segmentEnd(fragment) - wall.position;
   return std::abs(normal.x * a.x + normal.y * a.y) < kLinkOffset &&
@@ -44,6 +44,7 @@ class WallGatherer
         hash_(hash),
         linked_(linked),
         wall_(features[longest]),
+        normal_(directionVector(wall_)),
         tangent_(tangentVector(wall_))
   {
     take(longest);
@@ -92,7 +93,7 @@ class WallGatherer
                       [&](std::uint32_t k)
                       {
                         const Feature& fragment = features_[k];
-                        if (linked_[k] || !onLine(wall_, fragment)) return;
+                        if (linked_[k] || !onLine(wall_, normal_, fragment)) return;
                         if (along(segmentStart(fragment)) > high_ + kLinkGap) return;
                         if (along(segmentEnd(fragment)) < low_ - kLinkGap) return;
                         take(k);
@@ -103,7 +104,7 @@ class WallGatherer
   const CellHash& hash_;
   std::vector<bool>& linked_;
   const Feature& wall_;
-  TPoint2D tangent_;
+  TPoint2D normal_, tangent_;
   std::vector<std::pair<double, std::uint32_t>> members_;
   double low_ = 0;  // [m] along the tangent from the middle of the longest
   double high_ = 0;

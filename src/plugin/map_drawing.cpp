@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include <Eigen/Eigenvalues>
@@ -290,9 +291,16 @@ PlanarBox boundsOf(const FeatureMap& map)
     {
       for (std::uint32_t y = 0; y < stored.height; ++y)
       {
-        for (std::uint32_t x = 0; x < stored.width; ++x)
+        const auto known = [](const DenseCell& cell) { return cell.state != CellState::unknown; };
+        const DenseCell* const row = stored.row(y);
+        const DenseCell* const end = row + stored.width;
+        const DenseCell* const first = std::find_if(row, end, known);
+        if (first == end) continue;
+        const auto last = std::find_if(std::make_reverse_iterator(end),
+                                       std::make_reverse_iterator(row), known);
+        for (const DenseCell* cell : {first, &*last})
         {
-          if (stored.row(y)[x].state == CellState::unknown) continue;
+          const auto x = static_cast<std::uint32_t>(cell - row);
           include(frame.origin.x + frame.resolution * (stored.x + x + 0.5),
                   frame.origin.y + frame.resolution * (stored.y + y + 0.5));
         }

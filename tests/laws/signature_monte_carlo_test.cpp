@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/plugin/SignatureMonteCarlo2D.h"
+#include "sigloc/slam/SignatureMonteCarlo2D.h"
 
 #include <gtest/gtest.h>
 #include <mrpt/maps/CMultiMetricMap.h>
@@ -10,9 +10,9 @@
 #include <cmath>
 
 #include "io/GroundTruth.h"
-#include "plugin/particle_modes.h"
-#include "plugin/ParticleTracker.h"
 #include "sigloc/io/map_files.h"
+#include "slam/particle_modes.h"
+#include "slam/ParticleTracker.h"
 
 namespace sigloc
 {

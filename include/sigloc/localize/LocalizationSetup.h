@@ -15,7 +15,6 @@
 #include "sigloc/io/RawlogReader.h"
 #include "sigloc/map/map_building.h"
 #include "sigloc/matching/SignatureMatcher.h"
-#include "sigloc/plugin/SignatureMonteCarlo2D.h"
 #include "sigloc/tracking/TrackerOptions.h"
 
 namespace sigloc

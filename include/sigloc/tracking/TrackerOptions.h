@@ -67,4 +67,27 @@ struct TrackerOptions
                       "[rad] standard deviation of the turn of a step without odometry"});
   }
 };
+
+/// Section [sigloc.particles]: MRPT's filter where `tracker = particles`.
+struct ParticleOptions
+{
+  static constexpr std::uint32_t kMostParticles = 10000000;
+
+  std::uint32_t particles = 500;
+  double motion_sigma = 0.05;
+  double motion_turn_sigma = 0.05;
+
+  template <class V>
+  static void visitFields(V&& visit)
+  {
+    using O = ParticleOptions;
+    visit(OptionField{"particles", &O::particles, 1U, kMostParticles,
+                      "[-] how many are drawn when the robot is lost"});
+    visit(OptionField{"motion_sigma", &O::motion_sigma, 0.0, 1.0,
+                      "[m] standard deviation that a metre of travel adds to the odometry's own"});
+    visit(
+        OptionField{"motion_turn_sigma", &O::motion_turn_sigma, 0.0, 1.0,
+                    "[rad] standard deviation that a metre of travel adds to the odometry's own"});
+  }
+};
 }  // namespace sigloc

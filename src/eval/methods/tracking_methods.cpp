@@ -6,8 +6,8 @@
 #include "eval/data/method_names.h"
 #include "eval/methods/TrackingMethod.h"
 #include "eval/process/cpu_time.h"
-#include "plugin/ParticleTracker.h"
 #include "sigloc/tracking/HypothesisTracker.h"
+#include "slam/ParticleTracker.h"
 
 namespace sigloc
 {

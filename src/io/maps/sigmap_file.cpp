@@ -61,10 +61,38 @@ void writeCells(const std::vector<DenseCell>& cells, std::size_t from, CArchive&
   }
 }
 
-/// Appends cells until there are `count`.
-void readCells(CArchive& in, std::size_t count, std::vector<DenseCell>& cells)
+/// How many cells of a field are free, and how many are walls.
+struct CellCounts
 {
+  std::uint64_t free = 0, walls = 0;
+};
+
+/// Adds the counts of a plane of states.
+void countStates(const std::uint8_t* states, std::size_t n, CellCounts& counts)
+{
+  std::uint32_t free = 0;
+  std::uint32_t walls = 0;
+  std::uint8_t largest = 0;
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    free += states[i] == static_cast<std::uint8_t>(CellState::free) ? 1 : 0;
+    walls += states[i] >= static_cast<std::uint8_t>(CellState::wall) ? 1 : 0;
+    largest = std::max(largest, states[i]);
+  }
+  if (largest > static_cast<std::uint8_t>(CellState::solid_wall))
+  {
+    throw detail::BadContent("a cell of no known state");
+  }
+  counts.free += free;
+  counts.walls += walls;
+}
+
+/// Appends cells until there are `count`, and returns the counts of those.
+CellCounts readCells(CArchive& in, std::size_t count, std::vector<DenseCell>& cells)
+{
+  CellCounts counts;
   std::vector<std::uint8_t> planes(4 * kBlockCells);
+  std::vector<DenseCell> block(kBlockCells);
   while (cells.size() < count)
   {
     const std::size_t first = cells.size();
@@ -72,20 +100,16 @@ void readCells(CArchive& in, std::size_t count, std::vector<DenseCell>& cells)
     if (in.ReadBuffer(planes.data(), 4 * n) != 4 * n) throw std::runtime_error("raster cut off");
     // No more is allocated than eight times what the file has shown to hold.
     if (first + n > cells.capacity()) cells.reserve(std::min(count, 8 * (first + n)));
-    cells.resize(first + n);
+    countStates(&planes[3 * n], n, counts);
     for (std::size_t i = 0; i < n; ++i)
     {
-      DenseCell& cell = cells[first + i];
-      cell.distance = planes[i];
-      cell.dx = static_cast<std::int8_t>(planes[n + i]);
-      cell.dy = static_cast<std::int8_t>(planes[2 * n + i]);
-      if (planes[3 * n + i] > static_cast<std::uint8_t>(CellState::solid_wall))
-      {
-        throw detail::BadContent("a cell of no known state");
-      }
-      cell.state = static_cast<CellState>(planes[3 * n + i]);
+      block[i] = {planes[i], static_cast<std::int8_t>(planes[n + i]),
+                  static_cast<std::int8_t>(planes[2 * n + i]),
+                  static_cast<CellState>(planes[3 * n + i])};
     }
+    cells.insert(cells.end(), block.begin(), block.begin() + static_cast<std::ptrdiff_t>(n));
   }
+  return counts;
 }
 
 /// Writes which tiles are stored, by their place in the frame.
@@ -129,17 +153,13 @@ void writeField(const DenseField& field, CArchive& out)
 }
 
 /// Throws where the sums of a field are not those of its cells.
-void checkSums(const DenseField& field, double free_area, std::uint32_t wall_cells)
+void checkSums(const CellCounts& cells, double resolution, double free_area,
+               std::uint32_t wall_cells)
 {
-  const auto count = [&](auto&& counts)
-  { return std::count_if(field.cells.begin(), field.cells.end(), counts); };
-  const auto walls = count([](const DenseCell& cell) { return isWall(cell.state); });
-  const auto free_cells =
-      count([](const DenseCell& cell) { return cell.state == CellState::free; });
-  const double cell_area = field.frame.resolution * field.frame.resolution;
-  const double counted = static_cast<double>(free_cells) * cell_area;
+  const double cell_area = resolution * resolution;
+  const double counted = static_cast<double>(cells.free) * cell_area;
   constexpr double kRounding = 1e-6;
-  if (static_cast<std::int64_t>(wall_cells) != walls ||
+  if (wall_cells != cells.walls ||
       !(std::abs(free_area - counted) <= kRounding * (cell_area + counted)))
   {
     throw detail::BadContent("the raster's free area or wall cells are not those of its cells");
@@ -159,8 +179,8 @@ DenseField readField(CArchive& in, bool in_tiles)
   }
   std::size_t count = std::size_t{field.frame.width} * field.frame.height;
   if (in_tiles) count = (std::size_t{readTiles(in, field)} + 1) * DenseField::kTileCells;
-  readCells(in, count, field.cells);
-  checkSums(field, free_area, wall_cells);
+  const CellCounts counts = readCells(in, count, field.cells);
+  checkSums(counts, field.frame.resolution, free_area, wall_cells);
   field.free_area = free_area;
   field.wall_cells = wall_cells;
   return field;

@@ -113,12 +113,22 @@ PoseProposer::PoseProposer(const FeatureMap& map)
   std::stable_sort(walls_.begin(), walls_.end(),
                    [](const MappedWall& a, const MappedWall& b)
                    { return isBefore(a.start, b.start); });
+  // From west to east, so that partners are looked for among few. Rounding takes none away.
+  constexpr double kReach = kPairRange + 1e-9;
+  std::sort(circles.begin(), circles.end(),
+            [&](std::uint32_t a, std::uint32_t b)
+            { return features[a].position.x < features[b].position.x; });
+  auto nearby = circles.begin();
   for (const std::uint32_t a : circles)
   {
-    for (const std::uint32_t b : circles)
+    const TPoint2D& from = features[a].position;
+    while (from.x - features[*nearby].position.x > kReach) ++nearby;
+    for (auto to = nearby; to != circles.end(); ++to)
     {
-      if (a == b) continue;
-      const TPoint2D d = features[b].position - features[a].position;
+      const std::uint32_t b = *to;
+      const TPoint2D d = features[b].position - from;
+      if (d.x > kReach) break;
+      if (a == b || std::abs(d.y) > kReach) continue;
       const double distance = d.norm();
       if (distance < kMinPairDistance || distance > kPairRange) continue;
       pairs_.push_back({distance, a, b, (features[a].position + features[b].position) * 0.5,

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "matching/keypoints/NeighbouringKeyPoints.h"
+
 namespace sigloc
 {
 using mrpt::math::TPoint2D;
@@ -28,7 +30,6 @@ constexpr std::size_t kEntriesPerCell = 2;  // on average, before distances are 
 constexpr std::size_t kMinDistanceBins = 8;
 constexpr std::size_t kMaxDistanceBins = 128;
 constexpr double kMaxRadius = 2.55;  // [m]; larger circles count as of this radius
-constexpr double kCell = 4.0;  // [m] of the hash that finds neighbours
 constexpr double kFullTurn = 65536;  // parts of a stored bearing
 
 constexpr std::size_t kCodes = 32;  // of a standard deviation, in five bits
@@ -78,129 +79,14 @@ double along(const Symmetric2& covariance, double x, double y)
   return covariance.xx * x * x + 2 * covariance.xy * x * y + covariance.yy * y * y;
 }
 
-/// The key points of one kind by place, to find the partners of others among them.
-class Neighbourhood
-{
- public:
-  Neighbourhood(const std::vector<KeyPoint>& points, KeyPointKind kind) : points_(points)
-  {
-    for (std::uint32_t k = 0; k < points.size(); ++k)
-    {
-      const TPoint2D& at = points[k].position;
-      if (points[k].kind == kind) places_.push_back({at.x, at.y, cellOf(at.x), cellOf(at.y), k});
-    }
-    std::sort(places_.begin(), places_.end(),
-              [](const Place& a, const Place& b)
-              {
-                return a.column != b.column ? a.column < b.column
-                       : a.row != b.row     ? a.row < b.row
-                                            : a.index < b.index;
-              });
-    for (std::uint32_t k = 0; k < places_.size(); ++k)
-    {
-      if (k == 0 || places_[k].column != places_[k - 1].column)
-        columns_.push_back({places_[k].column, k});
-    }
-    columns_.push_back({INT64_MAX, static_cast<std::uint32_t>(places_.size())});
-  }
-
-  /// Calls `visit(b)` for the points of this kind that the index may pair with point `i`: within a
-  /// range [m]. In an order that does not depend on the range.
-  template <class Visit>
-  void forEachPartner(std::size_t i, double range, const Visit& visit) const
-  {
-    const TPoint2D& from = points_[i].position;
-    const double reach = range + 1e-6;  // rounding takes no point away
-    const std::int64_t lowest = cellOf(from.y - reach);
-    const std::int64_t highest = cellOf(from.y + reach);
-    const std::int64_t last = cellOf(from.x + reach);
-    auto column = std::lower_bound(columns_.begin(), columns_.end(), cellOf(from.x - reach),
-                                   [](const Column& c, std::int64_t x) { return c.column < x; });
-    for (; column->column <= last; ++column)
-    {
-      const Place* const end = places_.data() + (column + 1)->first;
-      const Place* to =
-          std::lower_bound(places_.data() + column->first, end, lowest,
-                           [](const Place& place, std::int64_t row) { return place.row < row; });
-      for (; to != end && to->row <= highest; ++to)
-      {
-        const double squared = square(to->x - from.x) + square(to->y - from.y);
-        if (squared < square(KeyPairIndex::kMinDistance) || squared >= square(range)) continue;
-        if (i != to->index) visit(points_[to->index]);
-      }
-    }
-  }
-
- private:
-  struct Place
-  {
-    double x, y;  // [m]
-    std::int64_t column, row;  // of kCell
-    std::uint32_t index;
-  };
-  struct Column
-  {
-    std::int64_t column;
-    std::uint32_t first;  // of its places
-  };
-
-  static std::int64_t cellOf(double metres)
-  {
-    return static_cast<std::int64_t>(std::floor(metres / kCell));
-  }
-
-  const std::vector<KeyPoint>& points_;
-  std::vector<Place> places_;  // by column, then by row
-  std::vector<Column> columns_;  // those with places, and an end
-};
-
-/// The key points by place, each kind apart.
-class Neighbourhoods
-{
- public:
-  explicit Neighbourhoods(const std::vector<KeyPoint>& points) : points_(points)
-  {
-    for (std::size_t kind = 0; kind < kKeyPointKinds; ++kind)
-      of_kind_.emplace_back(points, static_cast<KeyPointKind>(kind));
-  }
-
-  /// Calls `visit(a, b)` for the ordered pairs of two kinds within a range [m] that the index may
-  /// hold.
-  template <class Visit>
-  void forEachPair(std::size_t first, std::size_t second, double range, const Visit& visit) const
-  {
-    for (std::size_t i = 0; i < points_.size(); ++i)
-    {
-      if (static_cast<std::size_t>(points_[i].kind) != first) continue;
-      of_kind_[second].forEachPartner(i, range, [&](const KeyPoint& b) { visit(points_[i], b); });
-    }
-  }
-
-  /// Calls `visit(a, b)` for those of all kinds, where a is every `stride`-th point.
-  template <class Visit>
-  void forEachPair(double range, std::size_t stride, const Visit& visit) const
-  {
-    for (std::size_t i = 0; i < points_.size(); i += stride)
-    {
-      // The second kind of a pair is not before the first one.
-      for (auto kind = static_cast<std::size_t>(points_[i].kind); kind < kKeyPointKinds; ++kind)
-        of_kind_[kind].forEachPartner(i, range, [&](const KeyPoint& b) { visit(points_[i], b); });
-    }
-  }
-
- private:
-  const std::vector<KeyPoint>& points_;
-  std::vector<Neighbourhood> of_kind_;
-};
-
 /// Returns the range [m] of the index. In a sparse map it is longer, because near partners are few,
 /// and the pairs that tell most are those of far ones.
-double chosenRange(const std::vector<KeyPoint>& points, const Neighbourhoods& neighbourhoods)
+double chosenRange(const std::vector<KeyPoint>& points, const NeighbouringKeyPoints& neighbours)
 {
   const std::size_t stride = 1 + points.size() / kRangeSample;
   std::vector<std::size_t> counts(kRangeSteps, 0);
-  neighbourhoods.forEachPair(
-      kMaxRange, stride,
+  neighbours.forEachPair(
+      {KeyPairIndex::kMinDistance, kMaxRange}, stride,
       [&](const KeyPoint& a, const KeyPoint& b)
       {
         const double share = (b.position - a.position).norm() / kMaxRange;
@@ -258,10 +144,11 @@ KeyPair keyPair(const KeyPoint& first, const KeyPoint& second)
 KeyPairIndex::KeyPairIndex(const std::vector<KeyPoint>& points, const MapErrorModel& error)
 {
   layOutTables();
-  const Neighbourhoods neighbourhoods(points);
-  range_ = chosenRange(points, neighbourhoods);
+  const NeighbouringKeyPoints neighbours(points);
+  range_ = chosenRange(points, neighbours);
   std::size_t pairs = 0;
-  neighbourhoods.forEachPair(range_, 1, [&](const KeyPoint&, const KeyPoint&) { ++pairs; });
+  neighbours.forEachPair({kMinDistance, range_}, 1,
+                         [&](const KeyPoint&, const KeyPoint&) { ++pairs; });
   distance_bins_ = static_cast<std::uint32_t>(std::clamp<std::size_t>(
       pairs / (rows_ * kEntriesPerCell), kMinDistanceBins, kMaxDistanceBins));
   cells_.assign(std::size_t{rows_} * distance_bins_ + 1, 0);
@@ -274,11 +161,9 @@ KeyPairIndex::KeyPairIndex(const std::vector<KeyPoint>& points, const MapErrorMo
     for (std::size_t b = a; b < kKeyPointKinds; ++b)
     {
       placed.clear();
-      neighbourhoods.forEachPair(a, b, range_,
-                                 [&](const KeyPoint& first, const KeyPoint& second)
-                                 {
-                                   placed.push_back(placedEntry(keyPair(first, second), error));
-                                 });
+      neighbours.forEachPair(a, b, {kMinDistance, range_},
+                             [&](const KeyPoint& first, const KeyPoint& second)
+                             { placed.push_back(placedEntry(keyPair(first, second), error)); });
       sortInto(tables_[a * kKeyPointKinds + b], placed, done);
       done += static_cast<std::uint32_t>(placed.size());
     }
@@ -294,7 +179,8 @@ void KeyPairIndex::sortInto(Table& table, const std::vector<Placed>& placed, std
   std::uint32_t* const next = cells_.data() + 1;
   for (const Placed& one : placed) ++next[one.cell];
   const std::size_t first = std::size_t{table.row} * distance_bins_;
-  const std::size_t end = first + std::size_t{table.first.bins} * table.second.bins * distance_bins_;
+  const std::size_t end =
+      first + std::size_t{table.first.bins} * table.second.bins * distance_bins_;
   std::exclusive_scan(next + first, next + end, next + first, done);
   std::array<std::uint32_t, 3> largest{};  // codes of standard deviations
   for (const Placed& one : placed)

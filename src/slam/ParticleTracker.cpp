@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "plugin/ParticleTracker.h"
+#include "slam/ParticleTracker.h"
 
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CActionRobotMovement2D.h>
@@ -70,3 +70,10 @@ const Belief& ParticleTracker::step(const RawlogStep& step)
   return filter_.belief();
 }
 }  // namespace sigloc
+
+sigloc::LogTracker* siglocMakeParticleTracker(const sigloc::ParticleTrackerParts& parts)
+{
+  return std::make_unique<sigloc::ParticleTracker>(parts.map, parts.matcher, parts.tracking,
+                                                   parts.particles, parts.seed, parts.extraction)
+      .release();
+}

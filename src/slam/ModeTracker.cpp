@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "plugin/ModeTracker.h"
+#include "slam/ModeTracker.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,10 +6,10 @@
 #include <optional>
 #include <vector>
 
-#include "plugin/particle_modes.h"
 #include "sigloc/matching/SignatureMatcher.h"
 #include "sigloc/tracking/Belief.h"
 #include "sigloc/tracking/TrackerOptions.h"
+#include "slam/particle_modes.h"
 #include "tracking/DenseRelocation.h"
 #include "tracking/tracks/RelocationSchedule.h"
 #include "tracking/tracks/TrackSet.h"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sigloc/plugin/SignatureMonteCarlo2D.h"
+#include "sigloc/slam/SignatureMonteCarlo2D.h"
 
 #include <mrpt/maps/CMultiMetricMap.h>
 #include <mrpt/math/wrap2pi.h>
@@ -12,10 +12,10 @@
 
 #include "io/motion_conversion.h"
 #include "io/scan_conversion.h"
-#include "plugin/ModeTracker.h"
-#include "plugin/particle_modes.h"
 #include "sigloc/plugin/pose_pdf.h"
 #include "sigloc/plugin/SignatureMap.h"
+#include "slam/ModeTracker.h"
+#include "slam/particle_modes.h"
 
 namespace sigloc
 {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "plugin/particle_modes.h"
+#include "slam/particle_modes.h"
 
 #include "geometry/same_place.h"
 

@@ -5,13 +5,11 @@
 #include <mrpt/slam/CMonteCarloLocalization2D.h>
 
 #include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
 
-#include "sigloc/config/option_fields.h"
 #include "sigloc/features/observe_scans.h"
 #include "sigloc/features/ObservedScene.h"
 #include "sigloc/geometry/GaussianPose.h"
@@ -22,29 +20,6 @@
 namespace sigloc
 {
 class ModeTracker;
-
-/// Section [sigloc.particles]: MRPT's filter where `tracker = particles`.
-struct ParticleOptions
-{
-  static constexpr std::uint32_t kMostParticles = 10000000;
-
-  std::uint32_t particles = 500;
-  double motion_sigma = 0.05;
-  double motion_turn_sigma = 0.05;
-
-  template <class V>
-  static void visitFields(V&& visit)
-  {
-    using O = ParticleOptions;
-    visit(OptionField{"particles", &O::particles, 1U, kMostParticles,
-                      "[-] how many are drawn when the robot is lost"});
-    visit(OptionField{"motion_sigma", &O::motion_sigma, 0.0, 1.0,
-                      "[m] standard deviation that a metre of travel adds to the odometry's own"});
-    visit(
-        OptionField{"motion_turn_sigma", &O::motion_turn_sigma, 0.0, 1.0,
-                    "[rad] standard deviation that a metre of travel adds to the odometry's own"});
-  }
-};
 
 /// MRPT's particle filter with a start and a recovery of its own. While the robot is lost,
 /// particles are drawn around the candidate poses of a relocation instead of all over the map. So a

@@ -8,9 +8,10 @@
 #include <memory>
 #include <optional>
 
+#include "localize/particle_library.h"
 #include "sigloc/io/RawlogReader.h"
 #include "sigloc/plugin/SignatureMap.h"
-#include "sigloc/plugin/SignatureMonteCarlo2D.h"
+#include "sigloc/slam/SignatureMonteCarlo2D.h"
 
 namespace sigloc
 {
@@ -19,7 +20,7 @@ namespace sigloc
 ///
 /// The constructor seeds MRPT's random generator of the calling thread, and each step draws from
 /// it. The results depend on the seed alone as long as nothing else draws between the steps.
-class ParticleTracker
+class ParticleTracker : public LogTracker
 {
  public:
   /// Throws std::invalid_argument for a null map or matcher, or options outside their ranges.
@@ -29,13 +30,16 @@ class ParticleTracker
                   std::uint32_t seed = 1, const FeatureExtractorOptions& extraction = {});
 
   /// Advances by one step and returns the belief after it. Without a motion a wide prior is used.
-  const Belief& step(const RawlogStep& step);
+  const Belief& step(const RawlogStep& step) override;
 
   /// Starts anew: the robot is lost anywhere, or inside a region.
-  void reset(const std::optional<PoseRegion>& region = std::nullopt) { filter_.forget(region); }
+  void reset(const std::optional<PoseRegion>& region = std::nullopt) override
+  {
+    filter_.forget(region);
+  }
 
   /// True when the last step ran a relocation.
-  bool relocated() const { return filter_.relocated(); }
+  bool relocated() const override { return filter_.relocated(); }
   /// The particles themselves.
   const SignatureMonteCarlo2D& filter() const { return filter_; }
 
@@ -46,3 +50,6 @@ class ParticleTracker
   mrpt::bayes::CParticleFilter executor_;
 };
 }  // namespace sigloc
+
+/// What loadParticleTracker() finds by this name; its caller owns the tracker.
+extern "C" sigloc::LogTracker* siglocMakeParticleTracker(const sigloc::ParticleTrackerParts& parts);
