@@ -22,8 +22,8 @@ constexpr double kLinkAngle = 0.08;  // [rad] between normals of fragments of on
 constexpr double kLinkGap = 4.0;  // [m] opening beyond which two walls are separate
 constexpr double kHashCell = 2 * kSegmentReach;  // [m]; segments are hashed at this spacing
 
-/// True when both ends of `fragment` are on the line of `wall`, which has this normal, and both face
-/// the same way.
+/// True when both ends of `fragment` are on the line of `wall`, which has this normal, and both
+/// face the same way.
 bool onLine(const Feature& wall, const TPoint2D& normal, const Feature& fragment)
 {
   if (std::abs(wrapToPi(wall.direction - fragment.direction)) > kLinkAngle) return false;

@@ -296,8 +296,8 @@ PlanarBox boundsOf(const FeatureMap& map)
         const DenseCell* const end = row + stored.width;
         const DenseCell* const first = std::find_if(row, end, known);
         if (first == end) continue;
-        const auto last = std::find_if(std::make_reverse_iterator(end),
-                                       std::make_reverse_iterator(row), known);
+        const auto last =
+            std::find_if(std::make_reverse_iterator(end), std::make_reverse_iterator(row), known);
         for (const DenseCell* cell : {first, &*last})
         {
           const auto x = static_cast<std::uint32_t>(cell - row);

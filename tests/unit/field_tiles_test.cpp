@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "bridge/sample_maps.h"
@@ -105,6 +107,36 @@ TEST(FieldTiles, AreMadeOnlyOfLargeSparseFields)
   raster.frame = {{0, 0}, 0.05, 300, 200};
   raster.cells.assign(std::size_t{300} * 200, CellState::free);
   EXPECT_FALSE(inTilesWhereSparse(buildDenseField(raster), 0).isTiled()) << "all of it is mapped";
+}
+
+// In frames of any shape, with few walls and farther from them than a byte tells.
+TEST(ClearRings, AreTheChessboardDistances)
+{
+  std::mt19937 random(11);
+  for (const auto& [width, height] : std::vector<std::pair<std::uint32_t, std::uint32_t>>{
+           {1, 1}, {1, 300}, {300, 1}, {2, 7}, {37, 41}, {3, 290}, {64, 64}, {290, 3}})
+  {
+    DenseField field;
+    field.frame = {{0, 0}, 0.05, width, height};
+    field.cells.resize(std::size_t{width} * height);
+    std::vector<std::pair<std::int32_t, std::int32_t>> walls;
+    for (std::uint32_t k = random() % 4; k > 0; --k)
+    {
+      const std::size_t cell = random() % field.cells.size();
+      field.cells[cell].state = CellState::solid_wall;
+      walls.emplace_back(cell % width, cell / width);
+    }
+    const ClearRings rings(field);
+    for (std::int32_t k = 0; k < static_cast<std::int32_t>(field.cells.size()); ++k)
+    {
+      const auto columns = static_cast<std::int32_t>(width);
+      std::int32_t nearest = 255;
+      for (const auto& [x, y] : walls)
+        nearest = std::min(nearest, std::max(std::abs(k % columns - x), std::abs(k / columns - y)));
+      ASSERT_EQ(rings.whole()[k], nearest) << width << " x " << height << ", cell " << k;
+    }
+    EXPECT_EQ(rings.whole()[field.cells.size()], ClearRings::kOutside);
+  }
 }
 
 TEST(FieldTiles, HaveTheSameClearRings)

@@ -98,8 +98,9 @@ CellCounts readCells(CArchive& in, std::size_t count, std::vector<DenseCell>& ce
     const std::size_t first = cells.size();
     const std::size_t n = std::min<std::size_t>(kBlockCells, count - first);
     if (in.ReadBuffer(planes.data(), 4 * n) != 4 * n) throw std::runtime_error("raster cut off");
-    // No more is allocated than eight times what the file has shown to hold.
-    if (first + n > cells.capacity()) cells.reserve(std::min(count, 8 * (first + n)));
+    // No more is allocated than sixteen times what the file has shown to hold. A field whose frame
+    // is stored whole is then moved once at most, early on.
+    if (first + n > cells.capacity()) cells.reserve(std::min(count, 16 * (first + n)));
     countStates(&planes[3 * n], n, counts);
     for (std::size_t i = 0; i < n; ++i)
     {

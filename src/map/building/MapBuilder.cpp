@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 #include <utility>
 
@@ -120,17 +121,19 @@ FeatureMap buildMapFromScans(const std::vector<PosedScans>& scans,
 {
   checkOptions(options);
   refuseOutlier(scans, options);
-  FeatureMerger merger(options);
+  auto merger = std::make_unique<FeatureMerger>(options);
   BeamCounts counts(options.raster_resolution, {0, 0}, kMostTiledCells);
   for (std::size_t i = 0; i < scans.size(); ++i)
   {
-    addTo(merger, counts, scans[i], options, extraction);
+    addTo(*merger, counts, scans[i], options, extraction);
     if (progress) progress(static_cast<double>(i + 1) / static_cast<double>(scans.size()));
   }
   if (counts.empty())
   {
     throw std::invalid_argument("buildMapFromScans: no scan has a valid return");
   }
-  return FeatureMap(featuresOf(merger), denseFieldOf(counts, options.min_hits), {}, provenance);
+  std::vector<Feature> features = featuresOf(*merger);
+  merger.reset();  // before the field, beside which the counts alone are needed
+  return FeatureMap(std::move(features), denseFieldOf(counts, options.min_hits), {}, provenance);
 }
 }  // namespace sigloc
