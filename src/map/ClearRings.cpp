@@ -58,7 +58,7 @@ void spreadRings(std::vector<std::uint8_t>& rings, std::uint32_t width, std::uin
 {
   const auto row = [&](std::uint32_t y) { return &rings[std::size_t{y} * width]; };
   for (std::uint32_t y = 1; y < height; ++y) spreadFromRow(row(y), row(y - 1), width);
-  for (std::uint32_t y = height - 1; y-- > 0;) spreadFromRow(row(y), row(y + 1), width);
+  for (std::uint32_t y = height; y-- > 1;) spreadFromRow(row(y - 1), row(y), width);
   std::vector<std::uint8_t> other(width);
   for (std::uint32_t y = 0; y < height; ++y) spreadAlongRow(row(y), other.data(), width);
 }
