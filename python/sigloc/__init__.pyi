@@ -209,13 +209,11 @@ class Tracker:
         evidence_distance: float = ...,
         evidence_turn: float = ...,
         lost_distance: float = ...,
-        lost_score: float = ...,
         min_elsewhere: float = ...,
         relocation_distance: float = ...,
         confirmation_distance: float = ...,
         score_drop: float = ...,
         suspicion: float = ...,
-        confirmation: float = ...,
         free_motion_sigma: float = ...,
         free_turn_sigma: float = ...,
     ) -> None: ...

@@ -16,7 +16,6 @@ constexpr double kScoreSlope = 15.0;  // log-likelihood per unit of score, eq. (
 constexpr double kMisfitPower = 5.0;  // power of the unexplained share, eq. (7.1)
 constexpr double kMisfitFloor =
     0.02;  // share that even the right pose leaves unexplained, eq. (7.1)
-constexpr double kSharpening = 1.0;  // of candidates against each other, eq. (7.3)
 // The log-odds of being in the map, fitted on simulated worlds too, eq. (7.2).
 constexpr double kExplainedSlope = 12.7;  // per share of explained or occluded returns
 constexpr double kThroughSlope = 15.2;  // per share of beams through walls
@@ -45,12 +44,11 @@ double rivalScore(const RelocationResult& result, std::size_t k)
   return rival < result.candidates.size() ? result.candidates[rival].score : kBackgroundScore;
 }
 
-/// Returns the share of the returns that remain when those in free space count as occlusions: the
-/// denominator of eq. (8.11).
-double unhiddenShare(const DenseEvidence& evidence)
+/// Returns what a share of the returns is of those that remain when the ones in free space count as
+/// occlusions.
+double ofUnhidden(const DenseEvidence& evidence, double share)
 {
-  constexpr double kLeastSeen = 0.25;
-  return std::max(kLeastSeen, 1.0 - evidence.in_free);
+  return evidence.in_free < 1 ? share / (1.0 - evidence.in_free) : 0.0;
 }
 
 /// Sets the verdict by the probabilities.
@@ -82,14 +80,15 @@ double logLikelihoodOfScore(double score)
 
 double reliabilityOf(const DenseEvidence& evidence)
 {
-  return std::clamp((evidence.fine - 0.5 * evidence.through_wall) / unhiddenShare(evidence), 0.0,
-                    1.0);
+  const double explained = evidence.fine - DenseEvidence::kThroughPenalty * evidence.through_wall;
+  return std::clamp(ofUnhidden(evidence, explained), 0.0, 1.0);
 }
 
 double scoreOfUnhidden(const DenseEvidence& evidence)
 {
-  const double explained = 0.5 * (evidence.fine + evidence.coarse);
-  return std::min(1.0, (explained - 0.5 * evidence.through_wall) / unhiddenShare(evidence));
+  const double explained = (evidence.fine + evidence.coarse) / 2 -
+                           DenseEvidence::kThroughPenalty * evidence.through_wall;
+  return std::min(1.0, ofUnhidden(evidence, explained));
 }
 
 double unexplainedShare(const DenseEvidence& evidence)
@@ -101,12 +100,8 @@ double unexplainedShare(const DenseEvidence& evidence)
 double trackedLogOdds(const DenseEvidence& evidence)
 {
   constexpr double kNeutralMisfit = 0.25;  // misfit with its floor, also usual in a foreign map
-  constexpr double kFloor = 0.03;  // share that even the right pose leaves unexplained
-  constexpr double kSlope = 1.17;  // log-odds per unit of the logarithm of the misfit
-  constexpr double kThrough = 5.0;  // log-odds lost per share of beams through walls
-  const double misfit = unexplainedShare(evidence);
-  return (1.0 - evidence.unknown) *
-         (kSlope * std::log(kNeutralMisfit / (misfit + kFloor)) - kThrough * evidence.through_wall);
+  const double misfit = unexplainedShare(evidence) + kMisfitFloor;
+  return (1.0 - evidence.unknown) * std::log(kNeutralMisfit / misfit);
 }
 
 double fitLogOdds(const Candidate& candidate)
@@ -137,7 +132,7 @@ void weighCandidates(RelocationResult& result, const std::vector<Candidate>& out
   if (candidates.empty()) return decide(result);
   const double best = logLikelihoodOfScore(candidates.front().score);
   const auto weight_of = [&](const Candidate& candidate)
-  { return std::exp(kSharpening * (logLikelihoodOfScore(candidate.score) - best)); };
+  { return std::exp(logLikelihoodOfScore(candidate.score) - best); };
   double sum = 0;
   for (Candidate& candidate : candidates) sum += candidate.probability = weight_of(candidate);
   double sum_outside = 0;

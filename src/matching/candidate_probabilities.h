@@ -28,8 +28,7 @@ double scoreOfUnhidden(const DenseEvidence& evidence);
 double unexplainedShare(const DenseEvidence& evidence);
 
 /// Returns what the scan of a tracked pose adds to the in-map log-odds if all that it sees is new
-/// to the track. It grows with the share that the map explains and falls with the beams through
-/// walls. \cite algorithm eq. (8.21)
+/// to the track. It grows with the share that the map explains. \cite algorithm eq. (8.21)
 double trackedLogOdds(const DenseEvidence& evidence);
 
 /// Prior log-odds that the robot is in the map: one wake-up in fourteen is somewhere else.

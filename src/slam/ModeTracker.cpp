@@ -16,7 +16,6 @@ using mrpt::math::TPose2D;
 
 namespace
 {
-constexpr std::size_t kScoreBeams = 180;  // used to score a mode
 constexpr double kLeastProbability = 0.001;  // of a candidate that the relocation left out
 constexpr double kSameDistance = 0.75;  // [m], a mode from one step to the next
 constexpr double kSameAngle = 20.0 * M_PI / 180.0;
@@ -40,7 +39,7 @@ void confirmByProbability(TrackSet& set, const RelocationResult& result, double 
       if (set.trackAt(candidate.pose.mean) == &track) p += candidate.probability;
     }
     track.confirmed =
-        std::clamp(track.confirmed + fresh_share * gainOf(p), kMinConfirmed, kMaxConfirmed);
+        std::clamp(track.confirmed + fresh_share * gainOf(p), kMinInMap, kMaxConfirmed);
   }
 }
 }  // namespace
@@ -98,18 +97,17 @@ bool ModeTracker::judge(const ObservedScene& scene, const SignatureMatcher& matc
   DenseScan scan;
   if (verifier != nullptr)
   {
-    scan = makeDenseScan(scene, kScoreBeams);
+    scan = makeDenseScan(scene, kUpdateBeams);
     set_.score(scan, *verifier);
   }
-  const double least_score = verifier != nullptr ? options_.lost_score : 0.0;
-  if (!motion_) travel = schedule_.travelSeen(set_, least_score, set_.isSuspicious(), travel);
+  if (!motion_) travel = schedule_.travelSeen(set_, set_.isSuspicious(), travel);
   const double driven = motion_ ? motion_->mean.norm() : travel;
   schedule_.countTravel(travel);
   schedule_.countSearched(driven);
   if (verifier != nullptr)
   {
     relocation_.remember(scan, schedule_.travelled());
-    set_.follow(scan, schedule_.travelled(), travel, driven);
+    set_.follow(scan, schedule_.travelled(), driven);
     set_.noteChange(travel);
     set_.showToAll(scan, *verifier, schedule_.travelled());
   }
@@ -143,9 +141,9 @@ bool ModeTracker::relocateByFeatures(const ObservedScene& scene, const Signature
   set_.noteFound(result);
   confirmByProbability(set_, result, fresh_share);
   const double lead = std::log(rival / covered);
-  const bool beaten = lead > kFarBetter;
-  const double most = set_.holdsAgainst(beaten) ? 0.0 : kMaxLost;
-  set_.elsewhere *= std::exp(fresh_share * std::clamp(lead, -kMaxLost, most));
+  const bool beaten = lead > sureLogOdds(options_);
+  const double counted = set_.holdsAgainst(beaten) ? std::min(0.0, lead) : lead;
+  set_.elsewhere *= std::exp(fresh_share * counted);
   set_.normalise();
   set_.overrule(result, beaten);
   set_.dealOut(result,

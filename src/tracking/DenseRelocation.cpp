@@ -20,7 +20,7 @@ bool DenseRelocation::run(TrackSet& set, RelocationSchedule& schedule,
 
   set.noteFound(result);
   confirmTracks(set, result, scan, travelled, fresh_share);
-  set.overrule(result, leadOfUntracked(set, result, options_.lost_score) > kFarBetter);
+  set.overrule(result, leadOfUntracked(set, result) > sureLogOdds(options_));
   set.dealOut(result,
               [&](std::size_t k)
               {

@@ -17,11 +17,6 @@
 
 namespace sigloc
 {
-namespace
-{
-constexpr std::size_t kUpdateBeams = 180;  // returns that update a track
-}  // namespace
-
 struct HypothesisTracker::State
 {
   State(std::shared_ptr<const SignatureMatcher> m, const TrackerOptions& o)
@@ -128,12 +123,12 @@ void HypothesisTracker::State::trackDensely(const std::optional<MotionIncrement>
 {
   const DenseScan scan = makeDenseScan(scene, kUpdateBeams);
   set.update(scan, *matcher->verifier());
-  if (!motion) travel = schedule.travelSeen(set, options.lost_score, suspicious(), travel);
+  if (!motion) travel = schedule.travelSeen(set, suspicious(), travel);
   schedule.countTravel(travel);
   const double driven = motion ? motion->mean.norm() : travel;
   schedule.countSearched(driven);
   relocation.remember(scan, schedule.travelled());
-  set.follow(scan, schedule.travelled(), travel, driven);
+  set.follow(scan, schedule.travelled(), driven);
   set.weigh(scan, *matcher->verifier(), schedule.travelled(), travel);
   if (schedule.isDue(suspicious()))
   {
@@ -147,7 +142,7 @@ void HypothesisTracker::State::trackByFeatures(const std::optional<MotionIncreme
                                                double travel)
 {
   landmark_tracker->update(set, schedule.travelled() + travel, next_id);
-  if (!motion) travel = schedule.travelSeen(set, 0, suspicious(), travel);
+  if (!motion) travel = schedule.travelSeen(set, suspicious(), travel);
   schedule.countTravel(travel);
   landmark_tracker->weigh(set, travel);
   if (schedule.isDue(suspicious()))

@@ -18,9 +18,10 @@ bool isFinite(const mrpt::math::TPoint2D& point)
 void checkMotion(const MotionIncrement& motion)
 {
   bool sound = isFinite({motion.mean.x, motion.mean.y}) && std::isfinite(motion.mean.phi);
-  for (int r = 0; r < 3; ++r)
+  for (int r = 0; r < motion.covariance.rows(); ++r)
   {
-    for (int c = 0; c < 3; ++c) sound = sound && std::isfinite(motion.covariance(r, c));
+    for (int c = 0; c < motion.covariance.cols(); ++c)
+      sound = sound && std::isfinite(motion.covariance(r, c));
     sound = sound && motion.covariance(r, r) >= 0;
   }
   if (!sound) throw std::invalid_argument("a motion is not finite or has a negative variance");

@@ -19,13 +19,11 @@ struct TrackerOptions
   double evidence_distance = 1.0;
   double evidence_turn = 3.0;
   double lost_distance = 0.3;
-  double lost_score = 0.4;
   double min_elsewhere = 0.002;
   double relocation_distance = 0.5;
   double confirmation_distance = 2.0;
   double score_drop = 0.2;
   double suspicion = 0.3;
-  double confirmation = 5.0;
   double free_motion_sigma = 0.3;
   double free_turn_sigma = 0.2;
 
@@ -46,8 +44,6 @@ struct TrackerOptions
                       "[rad] turn that counts as much as the distance"});
     visit(OptionField{"lost_distance", &O::lost_distance, 0.01, 100.0,
                       "[m] travel after which a scan is fresh evidence of being lost"});
-    visit(OptionField{"lost_score", &O::lost_score, 0.0, 1.0,
-                      "[-] dense score below which a scan is evidence of being elsewhere"});
     visit(OptionField{"min_elsewhere", &O::min_elsewhere, 0.0, 0.5,
                       "[-] the weight of somewhere else never falls below this"});
     visit(OptionField{"relocation_distance", &O::relocation_distance, 0.0, 100.0,
@@ -59,8 +55,6 @@ struct TrackerOptions
     visit(OptionField{
         "suspicion", &O::suspicion, 0.0, 1.0,
         "[-] weight of somewhere else when relocation finds the robot far from all tracks"});
-    visit(OptionField{"confirmation", &O::confirmation, 0.0, 20.0,
-                      "[-] least log-odds of being in the map for a claim without a dense field"});
     visit(OptionField{"free_motion_sigma", &O::free_motion_sigma, 0.001, 10.0,
                       "[m] standard deviation of a step without odometry"});
     visit(OptionField{"free_turn_sigma", &O::free_turn_sigma, 0.001, 3.0,

@@ -10,8 +10,6 @@ namespace sigloc
 namespace
 {
 constexpr float kFullReturns = 3;  // returns from which on a cell counts in full, eq. (8.26)
-constexpr double kFewCells = 5;  // fewer cells of mapped area count as that many
-constexpr double kMemory = 10.0;  // [m] of travel after which a cell is forgotten
 }  // namespace
 
 double CellEvidence::Cell::seen() const
@@ -36,7 +34,7 @@ double CellEvidence::Cell::offWalls() const
 
 double CellEvidence::offWallShare() const
 {
-  return std::clamp(off_walls_ / std::max(kFewCells, known_), 0.0, 1.0);
+  return std::clamp(off_walls_ / std::max(1.0, known_), 0.0, 1.0);
 }
 
 double CellEvidence::addScan(const ObservedCells& view,

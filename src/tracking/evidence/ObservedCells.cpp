@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "geometry/cell_key.h"
 
@@ -17,7 +18,7 @@ std::uint64_t cellAt(double x, double y)
 {
   const auto at = [](double along)
   {
-    constexpr double kFarthest = 1e9;  // [cells], keeps the index within 32 bits
+    constexpr double kFarthest = std::numeric_limits<std::int32_t>::max();
     return static_cast<std::int32_t>(std::clamp(std::floor(along / kCell), -kFarthest, kFarthest));
   };
   return cellKey(at(x), at(y));

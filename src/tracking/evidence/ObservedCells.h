@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "matching/dense/DenseVerifier.h"
@@ -16,7 +17,7 @@ namespace sigloc
 /// in.
 struct ObservedCells
 {
-  static constexpr std::uint32_t kNowhere = 0xFFFFFFFF;
+  static constexpr std::uint32_t kNowhere = std::numeric_limits<std::uint32_t>::max();
 
   std::vector<std::uint64_t> cells;  ///< every cell once, ascending
   std::vector<std::uint32_t> cell_of;  ///< of each return: index into cells, kNowhere if isolated
@@ -24,6 +25,10 @@ struct ObservedCells
 
 /// Number of cells from which on a scan counts in full: 7 m of walls. \cite algorithm eq. (8.7)
 constexpr std::size_t kCellsOfView = 14;
+
+/// [m] of travel after which what was seen is forgotten: the errors of the odometry have grown, and
+/// what has changed since is told anew. \cite algorithm section 8
+constexpr double kMemory = 10.0;
 
 /// Returns the cells of a scan seen from `frame_from_robot`.
 ObservedCells observedCells(const DenseScan& scan, const mrpt::math::TPose2D& frame_from_robot);

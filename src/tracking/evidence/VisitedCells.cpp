@@ -9,11 +9,6 @@
 
 namespace sigloc
 {
-namespace
-{
-constexpr double kMemory = 10.0;  // [m] of travel after which a cell counts as new, eq. (8.7)
-}  // namespace
-
 double VisitedCells::add(const DenseScan& scan, const mrpt::math::TPose2D& map_from_robot,
                          double travelled)
 {

@@ -16,7 +16,6 @@ namespace
 constexpr double kSuspicious =
     -3.0;  // log-odds lost, below which a track is suspicious, eq. (8.20)
 constexpr double kContradicted = -1.0;  // log-odds lost, below which it is not claimed, eq. (8.20)
-constexpr double kMemory = 10.0;  // [m] of travel after which a feature is forgotten
 constexpr double kSharedErrors = 4.0;  // factor of the covariance of a candidate, see startAt
 constexpr std::size_t kRecentSteps = 20;  // that a local map holds
 constexpr double kStepTravel = 0.1;  // [m] of travel between two steps of a local map
@@ -127,15 +126,15 @@ void LandmarkTracker::weigh(TrackSet& set, double travel) const
   const double between = std::min(1.0, travel / options_.evidence_distance);
   for (Track& track : set.tracks)
   {
-    const double deficit = std::max(kFeatureTempering * (track.score - best), -kMaxRelative);
+    const double deficit = kFeatureTempering * (track.score - best);
     track.hypothesis.weight *= std::exp(between * deficit);
     const double evidence = kFeatureTempering * track.score;
     const double gain = evidence > 0 ? track.features.fresh_share * evidence
                                      : between * std::max(evidence, -kMaxAgainst);
-    track.confirmed = std::clamp(track.confirmed + gain, kMinConfirmed, kMaxConfirmed);
+    track.confirmed = std::clamp(track.confirmed + gain, kMinInMap, kMaxConfirmed);
   }
   const double lost = std::min(1.0, travel / options_.lost_distance);
-  set.elsewhere *= std::exp(lost * std::clamp(-kFeatureTempering * best, -kMaxLost, kMaxLost));
+  set.elsewhere *= std::exp(-lost * kFeatureTempering * best);
   set.normalise();
 }
 
@@ -179,7 +178,7 @@ bool LandmarkTracker::relocate(TrackSet& set, const std::optional<PoseRegion>& r
 /// A new track has explained the gathered features already. So has the heaviest older one, and what
 /// came before. The new one may weigh as much where its log-odds are no lower, unless the older one
 /// is retained: look-alikes explain a part of the way as well. Eq. (8.24)
-void LandmarkTracker::weighNewcomers(TrackSet& set)
+void LandmarkTracker::weighNewcomers(TrackSet& set) const
 {
   const Track* heaviest = nullptr;
   for (const Track& track : set.tracks)
@@ -190,7 +189,7 @@ void LandmarkTracker::weighNewcomers(TrackSet& set)
       heaviest = &track;
     }
   }
-  if (heaviest == nullptr || heaviest->retained()) return;
+  if (heaviest == nullptr || heaviest->retained(sureLogOdds(options_))) return;
   const double weight = heaviest->hypothesis.weight;
   const double log_odds = heaviest->confirmed;
   for (Track& track : set.tracks)
@@ -216,9 +215,9 @@ void LandmarkTracker::weighElsewhere(TrackSet& set, const RelocationResult& resu
     best = std::max(best, candidate.score);
   }
   const double lead = kFeatureTempering * (best_tracked - best_untracked);
-  const bool beaten = lead < -kFarBetter;
-  const double least = set.holdsAgainst(beaten) ? 0.0 : -kMaxLost;
-  set.elsewhere *= std::exp(-fresh_share * std::clamp(lead, least, kMaxLost));
+  const bool beaten = lead < -sureLogOdds(options_);
+  const double counted = set.holdsAgainst(beaten) ? std::max(0.0, lead) : lead;
+  set.elsewhere *= std::exp(-fresh_share * counted);
   set.overrule(result, beaten);
   set.normalise();
 }
@@ -233,7 +232,7 @@ Track LandmarkTracker::startAt(const Candidate& candidate, std::uint64_t id) con
   track.hypothesis.pose.covariance *= kSharedErrors;
   track.hypothesis.id = id;
   track.score = track.mean_score = candidate.score;
-  track.confirmed = std::clamp(kFeatureTempering * candidate.score, kMinConfirmed, kMaxConfirmed);
+  track.confirmed = std::clamp(kFeatureTempering * candidate.score, kMinInMap, kMaxConfirmed);
   track.features.paired = candidate.pairings.size();
   return track;
 }

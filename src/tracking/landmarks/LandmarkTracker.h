@@ -67,7 +67,7 @@ class LandmarkTracker
   std::vector<Feature> gathered() const;
   RelocationResult localize(const std::optional<PoseRegion>& region, bool settled) const;
   void weighElsewhere(TrackSet& set, const RelocationResult& result, double fresh_share) const;
-  static void weighNewcomers(TrackSet& set);
+  void weighNewcomers(TrackSet& set) const;
   Track startAt(const Candidate& candidate, std::uint64_t id) const;
 
   std::shared_ptr<const SignatureMatcher> matcher_;

@@ -8,13 +8,12 @@
 
 namespace sigloc
 {
-double RelocationSchedule::travelSeen(const TrackSet& set, double least_score, bool suspicious,
-                                      double assumed)
+double RelocationSchedule::travelSeen(const TrackSet& set, bool suspicious, double assumed)
 {
   constexpr double kMoved = 0.15;  // [m], more than the jitter of the poses of a robot at rest
   if (set.tracks.empty() || suspicious) return assumed;
   const Track& first = set.heaviest();
-  if (first.score < least_score) return assumed;
+  if (first.score < 0) return assumed;
   const mrpt::math::TPose2D& pose = first.hypothesis.pose.mean;
   const bool same = first.hypothesis.id == seen_id_;
   const double moved = travelBetween(seen_pose_, pose, options_);

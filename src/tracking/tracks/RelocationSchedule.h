@@ -16,9 +16,9 @@ class RelocationSchedule
   explicit RelocationSchedule(const TrackerOptions& options) : options_(options) {}
 
   /// Returns the travel [m] of a step without odometry, where only the scans show whether the robot
-  /// moves. While the heaviest track stays where it is and scores `least_score`, another scan is no
+  /// moves. While the heaviest track stays where it is and scores at least 0, another scan is no
   /// new evidence. Where it explains the scans no more, the `assumed` travel counts. Eq. (8.2)
-  double travelSeen(const TrackSet& set, double least_score, bool suspicious, double assumed);
+  double travelSeen(const TrackSet& set, bool suspicious, double assumed);
 
   /// Counts the `travel` [m] of a step, turns included.
   void countTravel(double travel);

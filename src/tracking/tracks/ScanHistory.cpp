@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tracking/tracks/ScanHistory.h"
 
-#include <mrpt/math/wrap2pi.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -20,9 +18,6 @@ namespace
 constexpr std::size_t kMaxScans = 60;  // that are stored
 constexpr double kSpacing = 0.5;  // [m] of travel between stored scans
 constexpr int kSteps = 3;  // of refinement at each stored scan
-constexpr double kWaySigma = 0.1;  // [m] deviation of a scan's pose from the odometry, eq. (8.24)
-constexpr double kWayTurnSigma = 0.05;  // [rad] the same for the heading, eq. (8.24)
-constexpr double kBranches = 0.5;  // log-odds above which the older track has slipped, eq. (8.24)
 }  // namespace
 
 /// Replays the stored scans backwards along the odometry. At each scan the pose is refined.
@@ -39,13 +34,10 @@ class ScanHistory::Replay
     const TPose2D predicted = pose_ + (stored.odometry - odometry_);
     pose_ = verifier_.refine(stored.scan, predicted, kSteps, stored.scan.size());
     odometry_ = stored.odometry;
-    const double off = std::hypot(pose_.x - predicted.x, pose_.y - predicted.y) / kWaySigma;
-    const double turned = mrpt::math::wrapToPi(pose_.phi - predicted.phi) / kWayTurnSigma;
-    const double detour = std::min(kMaxRelative, 0.5 * (off * off + turned * turned));
     auto explained = verifier_.explainedReturns(stored.scan, pose_);
     const double unexplained = explained_.addScan(stored.view, explained, -stored.travelled);
     return {pose_, logLikelihoodOfScore(verifier_.evaluate(stored.scan, pose_).score), unexplained,
-            detour, std::move(explained)};
+            std::move(explained)};
   }
 
  private:
@@ -107,19 +99,16 @@ std::optional<ScanHistory::Comparison> ScanHistory::compareWith(const std::vecto
     const Visit& own = visits.emplace_back(way.visit(stored));
     if (samePlace(own.pose, rival[k].pose))
     {
-      if (sum.smaller() <= kBranches) return {};
+      if (sum.smaller() <= 0) return {};
       return Comparison{{}, true, {}};
     }
     // The first scan counts in full, as the first relocation does.
     const bool is_first = k + 1 == rival.size();
     const double travel =
         is_first ? options_.evidence_distance : stored.travelled - storedScan(k + 1).travelled;
-    const auto bounded = [](double lead) { return std::clamp(lead, -kMaxRelative, kMaxRelative); };
-    const double detour = own.detour - rival[k].detour;
-    sum.by_score += shareBetweenRivals(stored.scan, travel, options_) *
-                    bounded(own.log_likelihood - rival[k].log_likelihood - detour);
-    sum.by_cells += bounded(cost_of_unexplained * (rival[k].unexplained - own.unexplained)) -
-                    std::min(1.0, travel / options_.evidence_distance) * detour;
+    sum.by_score +=
+        shareBetweenRivals(travel, options_) * (own.log_likelihood - rival[k].log_likelihood);
+    sum.by_cells += cost_of_unexplained * (rival[k].unexplained - own.unexplained);
     if (sum.smaller() < least) return {};
   }
   return Comparison{sum, false, rememberedOf(visits)};

@@ -54,7 +54,6 @@ class ScanHistory
     mrpt::math::TPose2D pose;
     double log_likelihood;  // of its score, eq. (7.1)
     double unexplained;  // growth of the unexplained cells by this scan
-    double detour;  // penalty p of eq. (8.24) for the deviation from the odometry
     std::vector<ExplainedReturn> explained;  // each return
   };
   class Replay;

@@ -7,7 +7,7 @@ namespace sigloc
 namespace
 {
 // In the map or not, eq. (8.22): a logistic regression by scripts/fit_evidence.
-constexpr double kOffset = -0.29;  // log-odds without the prior
+constexpr double kOffset = -1.79;  // log-odds without the prior
 constexpr double kRelocationSlope = 0.89;  // per unit of kappa
 constexpr double kWaySlope = 0.23;  // per unit of gamma
 constexpr double kUnexplainedSlope = 4.3;  // per unexplained share of the mapped area seen
@@ -15,16 +15,13 @@ constexpr double kFollowedSlope = 4.3;  // for kFullWay followed with nothing un
 constexpr double kFullWay = 20.0;  // [m]
 constexpr double kSearchedSlope = 1.3;  // for kFullWay driven unlocalized before
 constexpr double kMostUnexplained = 0.2;  // unexplained share from which the way does not count
+constexpr double kMaxTracked = 16.0;  // bound of gamma
 constexpr double kPriorHere = 1.3;  // log-odds of being in the map, of a robot that is tracked
-
-// The way driven, eq. (8.21): bounds of its log-odds.
-constexpr double kMinTracked = -8.0;
-constexpr double kMaxTracked = 12.0;
 }  // namespace
 
 void Track::addTrackedLogOdds(double log_odds)
 {
-  tracked_log_odds = std::clamp(tracked_log_odds + log_odds, kMinTracked, kMaxTracked);
+  tracked_log_odds = std::clamp(tracked_log_odds + log_odds, kMinInMap, kMaxTracked);
 }
 
 void Track::inherit(const Track& parent)

@@ -15,13 +15,9 @@ namespace sigloc
 {
 // Bounds in log-odds, with a dense field and without. The equations are those of sections 8 to 10
 // of docs/algorithm.md.
-constexpr double kMaxRelative = 3.0;  // largest loss to the best rival in a step, (8.5), (8.16)
-constexpr double kMaxLost = 3.0;  // largest change of "somewhere else" in a step, (8.17), (8.19)
 constexpr double kMaxConfirmed = 12.0;  // of kappa, so that a confirmed track can be lost, (8.7)
-constexpr double kMinConfirmed = -1.0;  // of kappa, so that a doubtful one can be confirmed, (8.7)
+constexpr double kMinInMap = -1.0;  // of kappa and gamma, so that a doubtful track can be confirmed
 constexpr double kMaxAgainst = 2.0;  // largest loss of kappa per metre of travel, (8.7), (8.18)
-constexpr double kRetained = 4.0;  // in-map log-odds from which on a track is retained
-constexpr double kFarBetter = 4.0;  // lead of a pose that overrules a retained track
 
 /// What a track remembers of the mapped features that it has paired.
 struct FeatureMemory
@@ -92,8 +88,8 @@ struct Track
             score};
   }
 
-  /// True when the log-odds are so high that the track is not given up because of look-alikes.
-  bool retained() const { return std::max(confirmed, inMapLogOdds()) >= kRetained; }
+  /// True when the log-odds reach `sure`: the track is not given up because of look-alikes.
+  bool retained(double sure) const { return std::max(confirmed, inMapLogOdds()) >= sure; }
 
   /// True when the score `now` of the last scan is lower than the running mean by more than `drop`.
   bool hasFallenTo(double now, double drop) const

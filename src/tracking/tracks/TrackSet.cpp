@@ -21,12 +21,10 @@ namespace
 {
 constexpr double kMergeDistance = 0.3;  // [m] within which tracks are merged, eq. (8.10)
 constexpr double kMergeAngle = 10.0 * M_PI / 180.0;  // [rad] within which tracks are merged
-constexpr double kScanMemory = 10.0;  // [m] of travel over which means of scans fade
 constexpr double kLeastChange = 0.02;  // share that has changed even in a new map, eq. (8.26)
 constexpr double kMostChange = 0.3;  // largest share that is taken to have changed, eq. (8.26)
 constexpr double kCellIndependence = 0.7;  // neighbouring cells share their evidence, eq. (8.26)
 constexpr double kSure = 0.9;  // probability of a candidate that overrules all tracks, section 8
-constexpr double kMaxNoveltyPerMetre = 4.0;  // [1/m] bound of the share that is new, eq. (8.21)
 constexpr double kScoreMemory = 0.9;  // of the running mean of the score, per step
 constexpr double kMinSigma = 0.005;  // [m] added to the motion of a step, eq. (8.1)
 constexpr double kMinTurnSigma = 0.002;  // [rad] added to the turn of a step, eq. (8.1)
@@ -38,13 +36,16 @@ bool heavier(const Track& a, const Track& b)
 }
 }  // namespace
 
-double shareBetweenRivals(const DenseScan& scan, double travel, const TrackerOptions& options)
+double shareBetweenRivals(double travel, const TrackerOptions& options)
 {
-  constexpr double kFullReturns = 60;  // returns from which on a scan counts in full
   constexpr double kRivalDistance = 0.7;  // share of evidence_distance
-  const auto seen = std::count(scan.isolated.begin(), scan.isolated.end(), 0);
-  return std::min(1.0, static_cast<double>(seen) / kFullReturns) *
-         std::min(1.0, travel / (kRivalDistance * options.evidence_distance));
+  return std::min(1.0, travel / (kRivalDistance * options.evidence_distance));
+}
+
+double sureLogOdds(const TrackerOptions& options)
+{
+  const double sure = options.localized_probability;
+  return std::log(sure / (1.0 - sure));
 }
 
 bool wouldMerge(const TPose2D& a, const TPose2D& b)
@@ -109,14 +110,12 @@ void TrackSet::look(const DenseScan& scan)
   view_ = observedCells(scan, ground_);
 }
 
-void TrackSet::follow(const DenseScan& scan, double travelled, double travel, double driven)
+void TrackSet::follow(const DenseScan& scan, double travelled, double driven)
 {
-  // A robot at rest sees new cells through noise alone.
-  const double most = kMaxNoveltyPerMetre * travel;
   for (Track& track : tracks)
   {
     const double novelty =
-        std::min(most, track.seen_while_tracked.add(scan, track.hypothesis.pose.mean, travelled));
+        track.seen_while_tracked.add(scan, track.hypothesis.pose.mean, travelled);
     track.addTrackedLogOdds(novelty * trackedLogOdds(track.evidence));
     track.tracked_distance += driven;
   }
@@ -134,7 +133,7 @@ void TrackSet::weigh(const DenseScan& scan, const DenseVerifier& verifier, doubl
 void TrackSet::noteChange(double travel)
 {
   if (tracks.empty()) return;
-  const double fresh = 1.0 - std::exp(-travel / kScanMemory);
+  const double fresh = 1.0 - std::exp(-travel / kMemory);
   unexplained_ += fresh * (std::max(0.0, 1.0 - bestScore()) - unexplained_);
 }
 
@@ -153,14 +152,14 @@ void TrackSet::weighRivals(const DenseScan& scan, const DenseVerifier& verifier,
   const std::vector<double> unexplained = showToAll(scan, verifier, travelled);
   const double least = *std::min_element(unexplained.begin(), unexplained.end());
   const double best = logLikelihoodOfScore(bestScore());
-  const double share = shareBetweenRivals(scan, travel, options_);
+  const double share = shareBetweenRivals(travel, options_);
   for (std::size_t k = 0; k < tracks.size(); ++k)
   {
     LogLikelihoodDeficit& deficit = tracks[k].deficit;
     const double before = deficit.smaller();
     const double lead = logLikelihoodOfScore(tracks[k].score) - best;
-    deficit.by_score += share * std::max(lead, -kMaxRelative);
-    deficit.by_cells -= std::min(kMaxRelative, costOfUnexplained() * (unexplained[k] - least));
+    deficit.by_score += share * lead;
+    deficit.by_cells -= costOfUnexplained() * (unexplained[k] - least);
     tracks[k].hypothesis.weight *= std::exp(deficit.smaller() - before);
   }
 }
@@ -258,7 +257,9 @@ void TrackSet::noteFound(const RelocationResult& result)
 
 bool TrackSet::holdsAgainst(bool beaten) const
 {
-  return !beaten && std::any_of(tracks.begin(), tracks.end(), std::mem_fn(&Track::retained));
+  return !beaten &&
+         std::any_of(tracks.begin(), tracks.end(),
+                     [&](const Track& track) { return track.retained(sureLogOdds(options_)); });
 }
 
 void TrackSet::overrule(const RelocationResult& result, bool beaten)
@@ -353,9 +354,7 @@ double TrackSet::probabilityHere() const
 
 bool TrackSet::isConfirmed() const
 {
-  const Track& first = tracks.front();
-  return first.in_field ? probabilityHere() >= options_.localized_probability
-                        : first.inMapLogOdds() >= options_.confirmation;
+  return tracks.front().inMapLogOdds() >= sureLogOdds(options_);
 }
 
 bool TrackSet::isSuspicious() const

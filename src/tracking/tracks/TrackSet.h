@@ -15,10 +15,15 @@
 
 namespace sigloc
 {
+constexpr std::size_t kUpdateBeams = 180;  // returns that update or score a track
+
 /// Returns how far the score of a scan counts between rivals, in [0, 1], `travel` [m] after the
-/// scan before. A scan of few returns counts less, because three specks may be half of its score.
-/// \cite algorithm eq. (8.5)
-double shareBetweenRivals(const DenseScan& scan, double travel, const TrackerOptions& options);
+/// scan before. \cite algorithm eq. (8.5)
+double shareBetweenRivals(double travel, const TrackerOptions& options);
+
+/// Returns the log-odds from which a probability is high enough for a claim. They also tell which
+/// track is retained, and by how much a pose must lead to overrule it. \cite algorithm section 8
+double sureLogOdds(const TrackerOptions& options);
 
 /// True for poses so near to each other that their tracks are merged. Eq. (8.10)
 bool wouldMerge(const mrpt::math::TPose2D& a, const mrpt::math::TPose2D& b);
@@ -66,9 +71,9 @@ class TrackSet
   double costOfUnexplained() const;
 
   /// Adds to the log-odds of every track by the part of the scan that came into view with the last
-  /// `travel` [m] of `travelled` [m]. The robot has moved by `driven` [m], turns not counted.
+  /// step, after `travelled` [m] in all. The robot has moved by `driven` [m], turns not counted.
   /// Eq. (8.21)
-  void follow(const DenseScan& scan, double travelled, double travel, double driven);
+  void follow(const DenseScan& scan, double travelled, double driven);
 
   /// Scales all weights so that they sum to one.
   void normalise();

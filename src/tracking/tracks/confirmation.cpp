@@ -11,7 +11,6 @@ namespace sigloc
 namespace
 {
 constexpr double kMissWeight = 0.5;  // factor of the evidence against a track, eq. (8.7)
-constexpr double kInitialTrackedLogOdds = -6.5;  // of a new track from the way driven, eq. (8.21)
 
 /// What a relocation says of a track: the log-odds of the candidate that it found there. A track
 /// that it did not find has the fit of the best candidate and its own score.
@@ -31,7 +30,6 @@ Track unprovenTrack(const GaussianPose& pose)
 {
   Track track;
   track.hypothesis.pose = pose;
-  track.tracked_log_odds = kInitialTrackedLogOdds;
   track.in_field = true;
   return track;
 }
@@ -46,7 +44,7 @@ Track trackAtCandidate(const RelocationResult& result, std::size_t k, const Dens
   track.seen_while_tracked = track.seen;
   const double evidence = inMapLogOdds(result, k);
   track.confirmed = std::clamp(kPriorHereLogOdds + std::min(evidence, novelty * evidence),
-                               kMinConfirmed, kMaxConfirmed);
+                               kMinInMap, kMaxConfirmed);
   track.evidence = verifier.evaluate(scan, candidate.pose.mean);
   track.addTrackedLogOdds(novelty * trackedLogOdds(track.evidence));
   return track;
@@ -63,15 +61,15 @@ void confirmTracks(TrackSet& set, const RelocationResult& result, const DenseSca
                             ? novelty * std::min(evidence, kMaxConfirmed)
                             : fresh_share * kMissWeight *
                                   std::clamp(evidence + kPriorHereLogOdds, -kMaxAgainst, 0.0);
-    track.confirmed = std::clamp(track.confirmed + gain, kMinConfirmed, kMaxConfirmed);
+    track.confirmed = std::clamp(track.confirmed + gain, kMinInMap, kMaxConfirmed);
   }
 }
 
-double leadOfUntracked(TrackSet& set, const RelocationResult& result, double lost_score)
+double leadOfUntracked(TrackSet& set, const RelocationResult& result)
 {
   double tracked = -1;
   for (const Track& track : set.tracks) tracked = std::max(tracked, track.score);
-  double untracked = lost_score;
+  double untracked = -1;
   for (const Candidate& candidate : result.candidates)
   {
     if (set.trackAt(candidate.pose.mean) != nullptr) continue;

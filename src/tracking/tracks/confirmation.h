@@ -26,6 +26,6 @@ void confirmTracks(TrackSet& set, const RelocationResult& result, const DenseSca
                    double travelled, double fresh_share);
 
 /// Returns the lead, in log-likelihood of scores (7.1), of the best candidate without a track over
-/// the best track. A candidate scores at least `lost_score`. \cite algorithm section 8, "Relocate"
-double leadOfUntracked(TrackSet& set, const RelocationResult& result, double lost_score);
+/// the best track. \cite algorithm section 8, "Relocate"
+double leadOfUntracked(TrackSet& set, const RelocationResult& result);
 }  // namespace sigloc
