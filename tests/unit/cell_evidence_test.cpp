@@ -118,12 +118,12 @@ TEST(CellEvidence, UnknownAreaIsOffNoWall)
   EXPECT_NEAR(structure.known(), 20, 1e-6);
 }
 
-TEST(CellEvidence, FewCellsAreNoShare)
+TEST(CellEvidence, OneCellOffAllWallsIsAll)
 {
   const DenseScan scan = wallAhead(1);
   CellEvidence structure;
   structure.addScan(observedCells(scan, {0, 0, 0}), allExplained(scan, 0), 0);
-  EXPECT_NEAR(structure.offWallShare(), 1.0 / 5.0, 1e-6);
+  EXPECT_NEAR(structure.offWallShare(), 1.0, 1e-6);
 }
 
 TEST(CellEvidence, TheShareStaysOneWhenCountedAnew)

@@ -7,16 +7,16 @@ namespace sigloc
 namespace
 {
 // In the map or not, eq. (8.22): a logistic regression by scripts/fit_evidence.
-constexpr double kOffset = -1.79;  // log-odds without the prior
-constexpr double kRelocationSlope = 0.89;  // per unit of kappa
-constexpr double kWaySlope = 0.23;  // per unit of gamma
-constexpr double kUnexplainedSlope = 4.3;  // per unexplained share of the mapped area seen
-constexpr double kFollowedSlope = 4.3;  // for kFullWay followed with nothing unexplained
+constexpr double kOffset = -2.06;  // log-odds without the prior
+constexpr double kRelocationSlope = 0.97;  // per unit of kappa
+constexpr double kWaySlope = 0.21;  // per unit of gamma
+constexpr double kUnexplainedSlope = 3.8;  // per unexplained share of the mapped area seen
+constexpr double kFollowedSlope = 4.2;  // for kFullWay followed with nothing unexplained
 constexpr double kFullWay = 20.0;  // [m]
 constexpr double kSearchedSlope = 1.3;  // for kFullWay driven unlocalized before
 constexpr double kMostUnexplained = 0.2;  // unexplained share from which the way does not count
 constexpr double kMaxTracked = 16.0;  // bound of gamma
-constexpr double kPriorHere = 1.3;  // log-odds of being in the map, of a robot that is tracked
+constexpr double kPriorHere = 1.6;  // log-odds of being in the map, of a robot that is tracked
 }  // namespace
 
 void Track::addTrackedLogOdds(double log_odds)
