@@ -12,8 +12,6 @@
 
 namespace sigloc
 {
-using mrpt::math::TPose2D;
-
 namespace
 {
 constexpr double kLeastProbability = 0.001;  // of a candidate that the relocation left out
