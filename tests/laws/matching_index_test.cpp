@@ -2,18 +2,39 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <numeric>
+
 #include "eval/worlds/FeatureWorld.h"
+#include "matching/features/FeatureGrid.h"
 #include "matching/features/FeatureVerifier.h"
 #include "matching/features/PairLists.h"
 #include "matching/generation/pattern_order.h"
 #include "matching/generation/PatternIndex.h"
 #include "matching/generation/PlainGenerator.h"
+#include "matching/generators.h"
 #include "signature/unary_constraint.h"
 
 namespace sigloc
 {
 namespace
 {
+/// Returns the places of a feature and of the `size` - 1 nearest to it, which are a pattern.
+std::array<mrpt::math::TPoint2D, kLargestPattern> patternAround(const PreparedMap& map,
+                                                                std::uint32_t root,
+                                                                std::size_t size)
+{
+  std::vector<std::uint32_t> nearest(map.size());
+  std::iota(nearest.begin(), nearest.end(), 0U);
+  const auto distance = [&](std::uint32_t k)
+  { return (map.view(k).position() - map.view(root).position()).norm(); };
+  std::sort(nearest.begin(), nearest.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return distance(a) < distance(b); });
+  std::array<mrpt::math::TPoint2D, kLargestPattern> places;
+  for (std::size_t k = 0; k < size; ++k) places[k] = map.view(nearest[k]).position();
+  return places;
+}
+
 TEST(PatternIndex, LookUpEqualsBruteForce)
 {
   Random random(22);
@@ -31,10 +52,9 @@ TEST(PatternIndex, LookUpEqualsBruteForce)
     PatternIndex::Gate wide{0.3, 1e9};
     std::size_t found = 0;
     std::size_t expected = 0;
-    for (std::uint32_t a = 0; a + size <= 60; a += 7)
+    for (std::uint32_t root = 0; root < map.size(); root += 7)
     {
-      std::array<mrpt::math::TPoint2D, kLargestPattern> at;
-      for (std::size_t k = 0; k < size; ++k) at[k] = map.view(a + k).position();
+      const auto at = patternAround(map, root, size);
       const PatternOrder order = canonicalOrder(at.data(), size);
       std::array<mrpt::math::TPoint2D, kLargestPattern> ordered;
       for (std::size_t k = 0; k < size; ++k) ordered[k] = at[order[k]];
@@ -67,6 +87,7 @@ TEST(PatternIndex, LookUpEqualsBruteForce)
             expected += fits;
           });
     }
+    EXPECT_GT(expected, 0U);
     EXPECT_GE(found, expected);
   }
 }
@@ -85,6 +106,7 @@ TEST(PairLists, BinarySearchEqualsBruteForce)
   const auto observed = observeFeatures(world, randomPose(world, options, random), options, random);
   const PreparedScene scene(observed, *map, {}, {});
   std::vector<std::uint32_t> candidates;
+  MatchingCounters counters;
   std::size_t total = 0;
   for (std::uint32_t i = 0; i < scene.size(); ++i)
   {
@@ -94,7 +116,7 @@ TEST(PairLists, BinarySearchEqualsBruteForce)
       for (std::uint32_t j = 0; j < scene.size(); ++j)
       {
         if (j == i) continue;
-        gatherCandidates(scene, *map, verifier.gates(), lists, {i, k}, j, candidates);
+        gatherCandidates(scene, *map, verifier.gates(), lists, {i, k}, j, candidates, counters);
         std::vector<std::uint32_t> expected;
         for (std::uint32_t l = 0; l < map->size(); ++l)
         {
@@ -111,6 +133,41 @@ TEST(PairLists, BinarySearchEqualsBruteForce)
     }
   }
   EXPECT_GT(total, 100U);
+  EXPECT_GT(counters.visits, total);  // whatever is found was read
+}
+
+TEST(FeatureGrid, TellsHowMuchItReads)
+{
+  Random random(23);
+  const FeatureWorld world = makeFeatureWorld(60, {}, random);
+  const FeatureGrid grid(world.mapped);
+  const auto type = world.mapped.front().type;
+  std::uint64_t visited = 0;
+  const auto count = [&](std::uint32_t) { ++visited; };
+  // 60 features are in 16 x 16 cells, the least power of two that has twice as many.
+  EXPECT_EQ(grid.visitNear({0, 0}, 1e3, type, count), 16U * 16U + 60U);
+  EXPECT_EQ(visited, 60U);
+  // A small reach touches one to four cells, and the few features that are in them.
+  const std::uint64_t read = grid.visitNear(world.mapped.front().position, 0.01, type, count);
+  EXPECT_GE(read, 2U);
+  EXPECT_LT(read, 20U);
+}
+
+TEST(MatchingCounters, EveryCheckOfAnIndexedModeIsReadFromTheIndex)
+{
+  FeatureWorldOptions options;
+  Random random(24);
+  const FeatureWorld world = makeFeatureWorld(300, options, random);
+  const FeatureMap map(world.mapped);
+  const auto pose = randomPose(world, options, random);
+  const auto observed = observeFeatures(world, pose, options, random, 12);
+  for (const auto mode : {GenerationMode::anchors, GenerationMode::pairs, GenerationMode::patterns})
+  {
+    MatchingCounters counters;
+    makeGenerator(mode, map)->generate(observed, counters);
+    EXPECT_GT(counters.checks, 0U) << static_cast<int>(mode);
+    EXPECT_GE(counters.visits, counters.checks) << static_cast<int>(mode);
+  }
 }
 }  // namespace
 }  // namespace sigloc

@@ -38,6 +38,7 @@ struct MatchingCounters
   std::uint64_t signature_pairs = 0;  ///< (observed, mapped) signatures compared
   std::uint64_t hypotheses = 0;  ///< bases (the first pairings) turned into a pose
   std::uint64_t checks = 0;  ///< location-dependent checks of a pairing at a pose
+  std::uint64_t visits = 0;  ///< cells and list entries read to find map features
   std::uint64_t poses_scored = 0;  ///< poses scored in the dense field
   std::uint64_t cut_short = 0;  ///< searches that ended at their budget, before they were complete
 };

@@ -86,6 +86,7 @@ ScaleRow GrowthMeter::row() const
   row.signature_pairs = static_cast<double>(counters_.signature_pairs) / scenes;
   row.hypotheses = static_cast<double>(counters_.hypotheses) / scenes;
   row.checks = static_cast<double>(counters_.checks) / scenes;
+  row.visits = static_cast<double>(counters_.visits) / scenes;
   return row;
 }
 }  // namespace sigloc::detail

@@ -83,7 +83,8 @@ Asked ask(const FeatureHypothesisGenerator& method, const LocalMap& local, std::
   asked.found = method.generate(asked.features, counters);
   LandmarkRecord& record = asked.record;
   record.times_ms = {1e3 * (threadCpuSeconds() - before)};
-  record.operations = counters.signature_pairs + counters.hypotheses + counters.checks;
+  record.operations =
+      counters.signature_pairs + counters.hypotheses + counters.checks + counters.visits;
   record.cut_short = counters.cut_short > 0;
   record.step = step;
   record.features = asked.features.size();

@@ -52,7 +52,8 @@ struct LandmarkRecord : Outcome
   bool answered = false;
   PoseError first_error;  ///< of the answer, right or not
   bool truth_sure = true;  ///< see LandmarkStep
-  std::uint64_t operations = 0;  ///< pairs tried, hypotheses generated and checks
+  /// Pairs tried, hypotheses generated, checks, and cells and list entries read.
+  std::uint64_t operations = 0;
 };
 
 struct LandmarksReport

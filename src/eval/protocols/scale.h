@@ -61,13 +61,14 @@ struct ScaleRow
   double signature_pairs = 0;  ///< means over the poses
   double hypotheses = 0;
   double checks = 0;
+  double visits = 0;
   double build_seconds = 0;
   double reference_ms = 0;  ///< median time that time_ratio refers to
   double bytes_per_feature = 0;  ///< of the map and its index, as allocated
   double bytes_per_m2 = kNone;  ///< the same over the area
   double map_seconds = kNone;  ///< CPU time of building the map from scans
 
-  double operations() const { return signature_pairs + hypotheses + checks; }
+  double operations() const { return signature_pairs + hypotheses + checks + visits; }
 };
 
 /// Slope of log y over log x with its 95 % interval: Student's t with two degrees of freedom fewer

@@ -21,9 +21,10 @@ class FeatureGrid
 
   /// Calls visit(index) for every feature of the type within `radius` [m] of the place. For a
   /// segment, a sample point must be within radius + cell, and it may be visited more than once.
+  /// Returns how many cells and entries of them were read.
   template <class Visit>
-  void visitNear(const mrpt::math::TPoint2D& place, double radius, FeatureType type,
-                 Visit&& visit) const;
+  std::uint64_t visitNear(const mrpt::math::TPoint2D& place, double radius, FeatureType type,
+                          Visit&& visit) const;
 
   /// Prefetches the memory of the place's cell before a visit.
   void prefetch(const mrpt::math::TPoint2D& place) const
@@ -59,8 +60,8 @@ class FeatureGrid
 };
 
 template <class Visit>
-void FeatureGrid::visitNear(const mrpt::math::TPoint2D& place, double radius, FeatureType type,
-                            Visit&& visit) const
+std::uint64_t FeatureGrid::visitNear(const mrpt::math::TPoint2D& place, double radius,
+                                     FeatureType type, Visit&& visit) const
 {
   const double reach = isSegment(type) ? radius + cell_ : radius;
   const double x = place.x - origin_.x;
@@ -72,11 +73,13 @@ void FeatureGrid::visitNear(const mrpt::math::TPoint2D& place, double radius, Fe
   const std::int64_t ix1 =
       std::min(cellOf(x + reach), ix0 + static_cast<std::int64_t>(column_mask_));
   const std::int64_t iy1 = std::min(cellOf(y + reach), iy0 + static_cast<std::int64_t>(row_mask_));
+  auto read = static_cast<std::uint64_t>((ix1 - ix0 + 1) * (iy1 - iy0 + 1));
   for (std::int64_t iy = iy0; iy <= iy1; ++iy)
   {
     for (std::int64_t ix = ix0; ix <= ix1; ++ix)
     {
       const std::size_t slot = slotOf(ix, iy);
+      read += starts_[slot + 1] - starts_[slot];
       for (std::uint32_t e = starts_[slot]; e < starts_[slot + 1]; ++e)
       {
         const Entry& entry = entries_[e];
@@ -86,5 +89,6 @@ void FeatureGrid::visitNear(const mrpt::math::TPoint2D& place, double radius, Fe
       }
     }
   }
+  return read;
 }
 }  // namespace sigloc

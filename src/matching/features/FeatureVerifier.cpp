@@ -126,10 +126,11 @@ bool FeatureVerifier::gatePairing(const PreparedScene& scene, std::uint32_t q, s
   return true;
 }
 
+/// Returns how many cells and entries of the grid were read.
 template <class Visit>
-void FeatureVerifier::visitCandidates(const PreparedScene& scene, std::uint32_t q,
-                                      const PoseEstimate& pose, double relative_sigma,
-                                      Visit&& visit) const
+std::uint64_t FeatureVerifier::visitCandidates(const PreparedScene& scene, std::uint32_t q,
+                                               const PoseEstimate& pose, double relative_sigma,
+                                               Visit&& visit) const
 {
   const DirectedFeature& observed = scene.views[q];
   const FeatureType type = observed.type();
@@ -147,20 +148,21 @@ void FeatureVerifier::visitCandidates(const PreparedScene& scene, std::uint32_t 
   const double radius = std::sqrt(gates_.planar * std::max(0.0, longest)) + 1e-3;
   if (!isSegment(type))
   {
-    map_->grid().visitNear({pose.x + arm.x, pose.y + arm.y}, radius, type, visit);
-    return;
+    return map_->grid().visitNear({pose.x + arm.x, pose.y + arm.y}, radius, type, visit);
   }
   // The grid has samples along a mapped wall, so the search is along the observed piece as well.
   const double step = 2 * map_->grid().cellSize();
   const auto pieces = 1 + static_cast<int>(observed.length() / step);
   const TPoint2D tangent = pose.turn(observed.tangent());
   const double across = std::min(radius, 2.0);
+  std::uint64_t read = 0;
   for (int k = 0; k < pieces; ++k)
   {
     const double at = observed.start + observed.length() * (k + 0.5) / static_cast<double>(pieces);
-    map_->grid().visitNear({pose.x + arm.x + tangent.x * at, pose.y + arm.y + tangent.y * at},
-                           across, type, visit);
+    const TPoint2D place{pose.x + arm.x + tangent.x * at, pose.y + arm.y + tangent.y * at};
+    read += map_->grid().visitNear(place, across, type, visit);
   }
+  return read;
 }
 
 std::vector<FeatureVerifier::Workspace::Match> FeatureVerifier::compatibleAt(
@@ -201,10 +203,11 @@ std::uint32_t FeatureVerifier::bestCandidate(const PreparedScene& scene,
   if (lists)
   {
     for (const std::uint32_t p : (*lists)[q]) consider(p);
+    counters.visits += (*lists)[q].size();
   }
   else
   {
-    visitCandidates(scene, q, filter.pose, relative, consider);
+    counters.visits += visitCandidates(scene, q, filter.pose, relative, consider);
     checks = std::max<std::uint64_t>(checks, 1);  // a search without candidates is work as well
   }
   counters.checks += checks;
@@ -275,14 +278,14 @@ void FeatureVerifier::recount(const PreparedScene& scene, const PoseEstimate& po
   workspace.matches.clear();
   for (std::uint32_t q = 0; q < scene.size(); ++q)
   {
-    visitCandidates(scene, q, pose, scene.relative_sigma,
-                    [&](std::uint32_t p)
-                    {
-                      ++counters.checks;
-                      double distance = 0;
-                      if (!gatePairing(scene, q, p, pose, scene.relative_sigma, distance)) return;
-                      workspace.matches.push_back({distance, {q, p}});
-                    });
+    const auto consider = [&](std::uint32_t p)
+    {
+      ++counters.checks;
+      double distance = 0;
+      if (!gatePairing(scene, q, p, pose, scene.relative_sigma, distance)) return;
+      workspace.matches.push_back({distance, {q, p}});
+    };
+    counters.visits += visitCandidates(scene, q, pose, scene.relative_sigma, consider);
   }
   std::sort(workspace.matches.begin(), workspace.matches.end(),
             [](const Workspace::Match& a, const Workspace::Match& b)
@@ -309,7 +312,7 @@ void FeatureVerifier::recount(const PreparedScene& scene, const PoseEstimate& po
 }
 
 double FeatureVerifier::logOdds(const PreparedScene& scene, const PoseEstimate& pose,
-                                const Workspace& workspace) const
+                                const Workspace& workspace, MatchingCounters& counters) const
 {
   const double log_two_pi = std::log(2 * M_PI);
   // The prior of the pose over the mapped area, times the Laplace volume of its posterior.
@@ -329,7 +332,7 @@ double FeatureVerifier::logOdds(const PreparedScene& scene, const PoseEstimate& 
            density(placeMeasurement(pose, observed, mapped, scene.relative_sigma));
     if (hasBearing(observed.type())) sum += density(directionMeasurement(pose, observed, mapped));
   }
-  sum += static_cast<double>(countMissed(scene, *map_, pose, workspace.pairings)) *
+  sum += static_cast<double>(countMissed(scene, *map_, pose, workspace.pairings, counters)) *
          std::log1p(-options_.detection_probability);
   return sum;
 }
@@ -371,7 +374,7 @@ void FeatureVerifier::verify(const PreparedScene& scene, const CandidateLists* l
   hypothesis.pose = toGaussian(pose);
   hypothesis.pairings = workspace.pairings;
   hypothesis.support = supportOf(scene, workspace.pairings);
-  hypothesis.log_odds = logOdds(scene, pose, workspace);
+  hypothesis.log_odds = logOdds(scene, pose, workspace, counters);
   found.add(std::move(hypothesis));
 }
 

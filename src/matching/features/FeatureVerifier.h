@@ -92,14 +92,15 @@ class FeatureVerifier
                               std::uint32_t q, const Workspace& workspace, const Filter& filter,
                               double& squared_distance, MatchingCounters& counters) const;
   template <class Visit>
-  void visitCandidates(const PreparedScene& scene, std::uint32_t q, const PoseEstimate& pose,
-                       double relative_sigma, Visit&& visit) const;
+  std::uint64_t visitCandidates(const PreparedScene& scene, std::uint32_t q,
+                                const PoseEstimate& pose, double relative_sigma,
+                                Visit&& visit) const;
   void recount(const PreparedScene& scene, const PoseEstimate& pose, Workspace& workspace,
                MatchingCounters& counters) const;
   std::optional<PoseEstimate> fit(const PreparedScene& scene, const PoseEstimate& start,
                                   Workspace& workspace) const;
-  double logOdds(const PreparedScene& scene, const PoseEstimate& pose,
-                 const Workspace& workspace) const;
+  double logOdds(const PreparedScene& scene, const PoseEstimate& pose, const Workspace& workspace,
+                 MatchingCounters& counters) const;
 
   std::shared_ptr<const PreparedMap> map_;
   GeneratorOptions options_;

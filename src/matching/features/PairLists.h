@@ -32,10 +32,11 @@ class PairLists
 
   /// Calls visit(l) for every l of the type `second` whose b_kl is within `tolerance` of the
   /// observed b_ij. This is the list L_j(i, k) before its unary filter, found by binary search.
+  /// Returns how many entries were read, those of the search included.
   /// \cite algorithm eq. (4.1)
   template <class Visit>
-  void visit(std::size_t k, const BinaryKey& observed, FeatureType second, double tolerance,
-             Visit&& visit) const;
+  std::uint64_t visit(std::size_t k, const BinaryKey& observed, FeatureType second,
+                      double tolerance, Visit&& visit) const;
 
   /// Calls visit(key, l) for all neighbours l of k.
   template <class Visit>
@@ -61,7 +62,8 @@ class PairLists
     std::uint32_t feature;
   };
   template <class Visit>
-  void visitRange(std::size_t begin, std::size_t end, double low, double high, Visit&& visit) const;
+  std::uint64_t visitRange(std::size_t begin, std::size_t end, double low, double high,
+                           Visit&& visit) const;
 
   double cut_off_;
   std::vector<Entry> entries_;
@@ -70,20 +72,29 @@ class PairLists
 };
 
 template <class Visit>
-void PairLists::visitRange(std::size_t begin, std::size_t end, double low, double high,
-                           Visit&& visit) const
+std::uint64_t PairLists::visitRange(std::size_t begin, std::size_t end, double low, double high,
+                                    Visit&& visit) const
 {
   const auto first = entries_.begin() + static_cast<std::ptrdiff_t>(begin);
   const auto last = entries_.begin() + static_cast<std::ptrdiff_t>(end);
+  std::uint64_t read = 0;
   auto entry = std::lower_bound(first, last, low,
-                                [](const Entry& e, double value)
-                                { return static_cast<double>(e.key) < value; });
-  for (; entry != last && static_cast<double>(entry->key) <= high; ++entry) visit(entry->feature);
+                                [&](const Entry& e, double value)
+                                {
+                                  ++read;
+                                  return static_cast<double>(e.key) < value;
+                                });
+  for (; entry != last && static_cast<double>(entry->key) <= high; ++entry)
+  {
+    ++read;
+    visit(entry->feature);
+  }
+  return read;
 }
 
 template <class Visit>
-void PairLists::visit(std::size_t k, const BinaryKey& observed, FeatureType second,
-                      double tolerance, Visit&& visit) const
+std::uint64_t PairLists::visit(std::size_t k, const BinaryKey& observed, FeatureType second,
+                               double tolerance, Visit&& visit) const
 {
   // Keys are stored in single precision.
   const double slack = tolerance + 1e-5 * (1 + std::abs(observed.value));
@@ -92,10 +103,11 @@ void PairLists::visit(std::size_t k, const BinaryKey& observed, FeatureType seco
       typeIndex(second) + 1 < kFeatureTypes ? rows_[k][typeIndex(second) + 1] : rows_[k + 1][0];
   const double low = observed.value - slack;
   const double high = observed.value + slack;
-  visitRange(begin, end, low, high, visit);
-  if (!observed.is_angle) return;
+  std::uint64_t read = visitRange(begin, end, low, high, visit);
+  if (!observed.is_angle) return read;
   // Angles wrap: the part of the range beyond +-pi is at the other end.
-  if (low < -M_PI) visitRange(begin, end, std::max(low + 2 * M_PI, high), 4.0, visit);
-  if (high > M_PI) visitRange(begin, end, -4.0, std::min(high - 2 * M_PI, low), visit);
+  if (low < -M_PI) read += visitRange(begin, end, std::max(low + 2 * M_PI, high), 4.0, visit);
+  if (high > M_PI) read += visitRange(begin, end, -4.0, std::min(high - 2 * M_PI, low), visit);
+  return read;
 }
 }  // namespace sigloc

@@ -47,9 +47,10 @@ bool insideBy(const std::vector<TPoint2D>& hull, const TPoint2D& p, double margi
 using SeenTypes = std::array<bool, kFeatureTypes>;
 
 /// Returns the number of unpaired mapped places of these types inside the hull of `places` (map
-/// frame).
+/// frame), and adds what it reads of the grid to `visits`.
 std::size_t countMissedWithin(std::vector<TPoint2D> places, const SeenTypes& types,
-                              const PreparedMap& map, const std::vector<FeaturePairing>& pairings)
+                              const PreparedMap& map, const std::vector<FeaturePairing>& pairings,
+                              std::uint64_t& visits)
 {
   if (places.size() < 3) return 0;
   TPoint2D middle{0, 0};
@@ -67,21 +68,22 @@ std::size_t countMissedWithin(std::vector<TPoint2D> places, const SeenTypes& typ
   for (std::size_t t = 0; t < kFeatureTypes; ++t)
   {
     if (!types[t]) continue;
-    map.grid().visitNear(middle, reach, static_cast<FeatureType>(t),
-                         [&](std::uint32_t p)
-                         {
-                           const bool paired = std::any_of(pairings.begin(), pairings.end(),
-                                                           [&](const FeaturePairing& pairing)
-                                                           { return pairing.mapped == p; });
-                           missed += !paired && insideBy(hull, map.view(p).position(), kMargin);
-                         });
+    const auto count = [&](std::uint32_t p)
+    {
+      const bool paired =
+          std::any_of(pairings.begin(), pairings.end(),
+                      [&](const FeaturePairing& pairing) { return pairing.mapped == p; });
+      missed += !paired && insideBy(hull, map.view(p).position(), kMargin);
+    };
+    visits += map.grid().visitNear(middle, reach, static_cast<FeatureType>(t), count);
   }
   return missed;
 }
 }  // namespace
 
 std::size_t countMissed(const PreparedScene& scene, const PreparedMap& map,
-                        const PoseEstimate& pose, const std::vector<FeaturePairing>& pairings)
+                        const PoseEstimate& pose, const std::vector<FeaturePairing>& pairings,
+                        MatchingCounters& counters)
 {
   std::vector<TPoint2D> places;
   SeenTypes types{};
@@ -92,7 +94,7 @@ std::size_t countMissed(const PreparedScene& scene, const PreparedMap& map,
     places.push_back(pose.place(view.position()));
     types[typeIndex(view.type())] = true;
   }
-  return countMissedWithin(std::move(places), types, map, pairings);
+  return countMissedWithin(std::move(places), types, map, pairings, counters.visits);
 }
 
 std::size_t countMissedInView(const PreparedScene& scene, const PreparedMap& map,
@@ -106,6 +108,7 @@ std::size_t countMissedInView(const PreparedScene& scene, const PreparedMap& map
     places.push_back(pose.place(view.position()));
     types[typeIndex(view.type())] = true;
   }
-  return countMissedWithin(std::move(places), types, map, pairings);
+  std::uint64_t not_counted = 0;  // no part of a relocation
+  return countMissedWithin(std::move(places), types, map, pairings, not_counted);
 }
 }  // namespace sigloc

@@ -15,7 +15,8 @@ namespace sigloc
 /// paired. They lie more than 0.2 m inside the convex hull of the paired places and are of a type
 /// that is paired. This is M of \cite algorithm eq. (5.11).
 std::size_t countMissed(const PreparedScene& scene, const PreparedMap& map,
-                        const PoseEstimate& pose, const std::vector<FeaturePairing>& pairings);
+                        const PoseEstimate& pose, const std::vector<FeaturePairing>& pairings,
+                        MatchingCounters& counters);
 
 /// The same inside the hull of everything seen, paired or not, so that the area is the same for all
 /// poses that are compared. Only points and circles count, because walls hide the others.

@@ -69,13 +69,14 @@ void AnchorGenerator::search(const PreparedScene& scene, HypothesisSet& found,
     const auto partners = drawPartners(scene, i, lists_->cutOff(), options.partners, random);
     for (std::uint32_t k = 0; k < map.size(); ++k)
     {
+      ++counters.visits;
       if (!unaryCompatible(scene.views[i], map.view(k), verifier_->gates().scalar)) continue;
       ++counters.signature_pairs;
       if (counters.hypotheses - before >= budget) return;
       for (const std::uint32_t j : partners)
       {
         // 3. Every l in L_j(i, k) makes a base, verified over all observed features.
-        gatherCandidates(scene, map, verifier_->gates(), *lists_, {i, k}, j, candidates);
+        gatherCandidates(scene, map, verifier_->gates(), *lists_, {i, k}, j, candidates, counters);
         for (const std::uint32_t l : candidates)
         {
           if (!verifier_->makeBase(scene, {i, k}, {j, l}, workspace.base, counters)) continue;

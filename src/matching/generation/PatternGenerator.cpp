@@ -85,12 +85,12 @@ void PatternGenerator::tryPattern(const PreparedScene& scene, Query& query, Hypo
     // There are three passes, so that the memory of one hit is fetched while others are processed.
     ++counters.signature_pairs;
     query.hits.clear();
-    index_.visit(PatternIndex::shapeOf(ordered.data(), size), query.gate,
-                 [&](const std::uint32_t* mapped)
-                 {
-                   for (std::size_t k = 0; k < size; ++k) map.prefetch(mapped[k]);
-                   query.hits.push_back(mapped);
-                 });
+    const auto keep = [&](const std::uint32_t* mapped)
+    {
+      for (std::size_t k = 0; k < size; ++k) map.prefetch(mapped[k]);
+      query.hits.push_back(mapped);
+    };
+    counters.visits += index_.visit(PatternIndex::shapeOf(ordered.data(), size), query.gate, keep);
     counters.hypotheses += query.hits.size();
     query.poses.clear();
     const TPoint2D next = scene.views[scene.orderFrom(observed[0])[1]].position();

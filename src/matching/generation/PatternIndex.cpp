@@ -316,7 +316,8 @@ std::uint64_t PatternIndex::membersAlong(std::size_t v, std::uint64_t stem, std:
 }
 
 std::size_t PatternIndex::slotsNear(const PatternShape& shape, double tolerance,
-                                    std::array<std::size_t, kMostCells>& slots) const
+                                    std::array<std::size_t, kMostCells>& slots,
+                                    std::uint64_t& read) const
 {
   // 1. All groups that the tolerance reaches in each value, and which of their cells it reaches.
   struct Reached
@@ -366,6 +367,7 @@ std::size_t PatternIndex::slotsNear(const PatternShape& shape, double tolerance,
       slots[kept++] = slotOf(reached[k].group, static_cast<std::uint32_t>(__builtin_ctzll(held)));
     }
   }
+  read += count + kept;
   return kept;
 }
 

@@ -55,9 +55,10 @@ class PatternIndex
     double residual = 0;  ///< [m^2], sum of squares over the members after the best alignment
   };
   /// Calls visit(const std::uint32_t* members) for every mapped pattern whose shape fits the given
-  /// one. The caller checks the types. \cite algorithm eq. (4.7)
+  /// one. The caller checks the types. Returns how many groups, cells and patterns were read.
+  /// \cite algorithm eq. (4.7)
   template <class Visit>
-  void visit(const PatternShape& shape, const Gate& gate, Visit&& visit) const;
+  std::uint64_t visit(const PatternShape& shape, const Gate& gate, Visit&& visit) const;
 
   /// Calls visit(const std::uint32_t* members) for every mapped pattern.
   template <class Visit>
@@ -127,7 +128,7 @@ class PatternIndex
   double residualOf(const PatternShape& shape, const Alignment& alignment,
                     const std::int16_t* stored) const;
   std::size_t slotsNear(const PatternShape& shape, double tolerance,
-                        std::array<std::size_t, kMostCells>& slots) const;
+                        std::array<std::size_t, kMostCells>& slots, std::uint64_t& read) const;
   struct Draft;
   void chooseSize(const PreparedMap& map, const GeneratorOptions& options);
   void appendPattern(const PreparedMap& map, const PatternMembers& set, Draft& draft) const;
@@ -173,11 +174,12 @@ inline double PatternIndex::residualOf(const PatternShape& shape, const Alignmen
 }
 
 template <class Visit>
-void PatternIndex::visit(const PatternShape& shape, const Gate& gate, Visit&& visit) const
+std::uint64_t PatternIndex::visit(const PatternShape& shape, const Gate& gate, Visit&& visit) const
 {
-  if (members_.empty()) return;
+  if (members_.empty()) return 0;
+  std::uint64_t read = 0;
   std::array<std::size_t, kMostCells> slots;
-  const std::size_t slot_count = slotsNear(shape, gate.tolerance, slots);
+  const std::size_t slot_count = slotsNear(shape, gate.tolerance, slots, read);
   // The slots are far apart in memory, so all are prefetched before the first is read.
   for (std::size_t s = 0; s < slot_count; ++s) __builtin_prefetch(&starts_[slots[s]]);
   const std::size_t width = valueCount();
@@ -195,6 +197,7 @@ void PatternIndex::visit(const PatternShape& shape, const Gate& gate, Visit&& vi
   }
   for (std::size_t s = 0; s < slot_count; ++s)
   {
+    read += starts_[slots[s] + 1] - starts_[slots[s]];
     for (std::uint32_t e = starts_[slots[s]]; e < starts_[slots[s] + 1]; ++e)
     {
       const std::int16_t* values = &values_[e * width];
@@ -204,5 +207,6 @@ void PatternIndex::visit(const PatternShape& shape, const Gate& gate, Visit&& vi
       visit(&members_[e * size_]);
     }
   }
+  return read;
 }
 }  // namespace sigloc

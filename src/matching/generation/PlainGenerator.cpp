@@ -11,7 +11,7 @@ namespace sigloc
 {
 void gatherCandidates(const PreparedScene& scene, const PreparedMap& map, const BinaryGates& gates,
                       const PairLists& lists, const FeaturePairing& anchor, std::uint32_t j,
-                      std::vector<std::uint32_t>& candidates)
+                      std::vector<std::uint32_t>& candidates, MatchingCounters& counters)
 {
   const MapErrorModel& error = map.map().error();
   const DirectedFeature& first = scene.views[anchor.observed];
@@ -20,7 +20,7 @@ void gatherCandidates(const PreparedScene& scene, const PreparedMap& map, const 
   const double tolerance =
       keyTolerance(key, lists.largestKeyVariance(first.type(), second.type()), error, gates.scalar);
   candidates.clear();
-  lists.visit(
+  counters.visits += lists.visit(
       anchor.mapped, key, second.type(), tolerance,
       [&](std::uint32_t l)
       {
@@ -49,6 +49,7 @@ std::vector<FeatureHypothesis> PlainGenerator::generate(const std::vector<Featur
   {
     for (std::uint32_t k = 0; k < m; ++k)
     {
+      ++counters.visits;
       if (!unaryCompatible(scene.views[i], map.view(k), verifier_->gates().scalar)) continue;
       ++counters.signature_pairs;
 
@@ -58,7 +59,8 @@ std::vector<FeatureHypothesis> PlainGenerator::generate(const std::vector<Featur
       {
         candidates[j].clear();
         if (j == i) continue;
-        gatherCandidates(scene, map, verifier_->gates(), *lists_, {i, k}, j, candidates[j]);
+        gatherCandidates(scene, map, verifier_->gates(), *lists_, {i, k}, j, candidates[j],
+                         counters);
         if (!candidates[j].empty()) ++possible;
       }
       if (possible < needed) continue;

@@ -28,8 +28,9 @@ class PlainGenerator : public FeatureHypothesisGenerator
 };
 
 /// Returns the map features that observed feature j may be if observed i is mapped k: L_j(i, k),
-/// by its unary and binary constraints. \cite algorithm eq. (4.1)
+/// by its unary and binary constraints. The entries read count as visits.
+/// \cite algorithm eq. (4.1)
 void gatherCandidates(const PreparedScene& scene, const PreparedMap& map, const BinaryGates& gates,
                       const PairLists& lists, const FeaturePairing& anchor, std::uint32_t j,
-                      std::vector<std::uint32_t>& candidates);
+                      std::vector<std::uint32_t>& candidates, MatchingCounters& counters);
 }  // namespace sigloc

@@ -73,7 +73,7 @@ void FeatureOpponent::gather(Query& query, const FeaturePairing& anchor, std::ui
                              std::vector<std::uint32_t>& candidates) const
 {
   ++query.counters.checks;
-  gatherCandidates(query.scene, map_, gates_, lists_, anchor, j, candidates);
+  gatherCandidates(query.scene, map_, gates_, lists_, anchor, j, candidates, query.counters);
 }
 
 std::optional<FeatureOpponent::Fit> FeatureOpponent::fit(
