@@ -130,7 +130,7 @@ TEST(MetricMaps, LandmarksAreToldAndNotRead)
     map->maps.push_back(officePoints<mrpt::maps::CSimplePointsMap>());
     writeObjects(path, {map});
     const std::string before = warningOfMapSource(path);
-    writeText(path, unpacked(path) + landmarks);
+    writeText(path, unpacked(path) + landmarks + '\x88');
     EXPECT_EQ(warningOfMapSource(path), before + (grid ? "" : "; ") + "its landmarks are left out");
   }
 }
@@ -163,6 +163,12 @@ TEST(MetricMaps, OfNoUseAreRefusedInOneLine)
   const std::string whole = readBytes(path);
   writeText(path, whole.substr(0, whole.size() / 2));
   EXPECT_FALSE(errorOf(path).empty());
+  // With one byte less it ends as the last map in it does, and nothing that is used is missing.
+  for (const std::size_t cut : {std::size_t{2}, std::size_t{100}, bytes.size() / 2})
+  {
+    writeText(path, bytes.substr(0, bytes.size() - cut));
+    expectRefused("truncated or damaged");
+  }
   // A count of points that is not there.
   const std::size_t head = bytes.find("CSimplePointsMap") + 17;
   for (std::size_t i = head; i < head + 4; ++i) bytes[i] = '\xFF';

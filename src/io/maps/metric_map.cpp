@@ -24,6 +24,7 @@ namespace sigloc::detail
 {
 namespace
 {
+constexpr char kObjectEnd = '\x88';  // the last byte of each object that MRPT writes
 constexpr std::string_view kMulti = "CMultiMetricMap";
 constexpr std::string_view kGrid = "COccupancyGridMap2D";
 constexpr std::string_view kLandmarks = "CLandmarksMap";
@@ -142,6 +143,7 @@ Found lookIn(const std::filesystem::path& path)
     failIn(path, "holds a '" + std::string(header->name) + "', not a map of a grid or of points" +
                      (name == kLandmarks ? kAdvice : ""));
   }
+  if (bytes.back() != kObjectEnd) failIn(path, "truncated or damaged");
   const std::size_t from = single ? 0 : header->size + 1;
   Found found;
   const auto landmarks = findObject(bytes, from, kLandmarks);
