@@ -39,21 +39,27 @@ std::optional<double> occupancyOf(double shade, double alpha, const RosMapHeader
   return span > 0 ? std::rint((occupied - header.free_threshold) / span * kHundred) : kHundred;
 }
 
-/// True where the map server would take the shade of "never seen" for free.
-bool takesUnknownForFree(const RosMapHeader& header)
+/// Returns the shade that the map server takes for a pixel's: an alpha counts as a colour of it.
+double shadeOf(int shade, int alpha, bool has_alpha, const RosMapHeader& header)
 {
+  return has_alpha && header.mode == RosMapMode::trinary ? (3.0 * shade + alpha) / 4 : shade;
+}
+
+/// True where the map server would take the shade of "never seen" for free.
+bool takesUnknownForFree(const RosMapHeader& header, bool has_alpha)
+{
+  const double shade = shadeOf(kUnknownShade, static_cast<int>(kWhite), has_alpha, header);
   return header.mode != RosMapMode::raw && !header.negate &&
-         1 - kUnknownShade / kWhite < header.free_threshold;
+         1 - shade / kWhite < header.free_threshold;
 }
 
 CellState stateOfPixel(int shade, int alpha, bool has_alpha, const RosMapHeader& header)
 {
-  if (shade == kUnknownShade && alpha == 255 && takesUnknownForFree(header))
+  if (shade == kUnknownShade && alpha == 255 && takesUnknownForFree(header, has_alpha))
   {
     return CellState::unknown;
   }
-  const bool averaged = has_alpha && header.mode == RosMapMode::trinary;
-  const auto percent = occupancyOf(averaged ? (3.0 * shade + alpha) / 4 : shade, alpha, header);
+  const auto percent = occupancyOf(shadeOf(shade, alpha, has_alpha, header), alpha, header);
   return percent ? stateOfOccupancy(*percent / kHundred) : CellState::unknown;
 }
 
@@ -120,8 +126,8 @@ std::filesystem::path imageOfRosMap(const std::filesystem::path& path)
 std::string warningOfRosMap(const std::filesystem::path& path)
 {
   const RosMapHeader header = readRosMapHeader(path);
-  if (!takesUnknownForFree(header)) return {};
   const GrayImage image = readGrayImage(header.image);
+  if (!takesUnknownForFree(header, !image.alphas.empty())) return {};
   const auto unknown = std::count(image.shades.begin(), image.shades.end(), kUnknownShade);
   if (unknown == 0) return {};
   return "its free_thresh would make free what the image shows as never seen (shade 205); it is "
