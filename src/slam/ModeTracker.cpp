@@ -141,8 +141,7 @@ bool ModeTracker::relocateByFeatures(const ObservedScene& scene, const Signature
   const double lead = std::log(rival / covered);
   const bool beaten = lead > sureLogOdds(options_);
   const double counted = set_.holdsAgainst(beaten) ? std::min(0.0, lead) : lead;
-  set_.elsewhere *= std::exp(fresh_share * counted);
-  set_.normalise();
+  set_.weighElsewhere(fresh_share * counted);
   set_.overrule(result, beaten);
   set_.dealOut(result,
                [&](std::size_t k)

@@ -336,5 +336,43 @@ TEST(FeatureTracking, LeavesOutWhatTheMapDoesNotHold)
   const std::size_t held = with_walls.belief().hypotheses.size();
   EXPECT_EQ(with_walls.step(MotionIncrement{}, walls).hypotheses.size(), held);
 }
+
+// Evidence of a thousand landmarks at once is far beyond what a double holds as odds. The robot
+// that was carried away must still be found at once.
+TEST(FeatureTracking, OverwhelmingEvidenceLeavesWhatARelocationFinds)
+{
+  constexpr int kSide = 80;  // landmarks along a side of the map
+  constexpr double kApart = 2;  // [m]
+  constexpr double kView = 45;  // [m]
+  Random random(620, 1);
+  std::vector<Feature> map;
+  for (int k = 0; k < kSide * kSide; ++k)
+  {
+    const double x = kApart * (k % kSide) + random.uniform(-0.5, 0.5);
+    const double y = kApart * (k / kSide) + random.uniform(-0.5, 0.5);
+    map.push_back(landmarkAt({x, y}, 0.01));
+  }
+  const auto seenFrom = [&](const TPoint2D& robot)
+  {
+    std::vector<TPoint2D> seen;
+    for (const Feature& feature : map)
+    {
+      const TPoint2D at = feature.position - robot;
+      if (at.norm() < kView) seen.push_back(at);
+    }
+    return sceneOf(seen);
+  };
+  HypothesisTracker tracker(
+      std::make_shared<const SignatureMatcher>(std::make_shared<const FeatureMap>(map)));
+  MotionIncrement motion;
+  motion.mean = {1, 0, 0};
+  for (const TPoint2D& robot : {TPoint2D(60, 60), TPoint2D(100, 90)})
+  {
+    const Belief& belief = tracker.step(motion, seenFrom(robot));
+    ASSERT_FALSE(belief.hypotheses.empty()) << robot;
+    EXPECT_NEAR(belief.hypotheses[0].pose.mean.x, robot.x, 0.1);
+    EXPECT_NEAR(belief.hypotheses[0].pose.mean.y, robot.y, 0.1);
+  }
+}
 }  // namespace
 }  // namespace sigloc

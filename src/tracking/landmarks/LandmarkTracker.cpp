@@ -134,8 +134,7 @@ void LandmarkTracker::weigh(TrackSet& set, double travel) const
     track.confirmed = std::clamp(track.confirmed + gain, kMinInMap, kMaxConfirmed);
   }
   const double lost = std::min(1.0, travel / options_.lost_distance);
-  set.elsewhere *= std::exp(-lost * kFeatureTempering * best);
-  set.normalise();
+  set.weighElsewhere(-lost * kFeatureTempering * best);
 }
 
 std::vector<Feature> LandmarkTracker::gathered() const
@@ -217,9 +216,8 @@ void LandmarkTracker::weighElsewhere(TrackSet& set, const RelocationResult& resu
   const double lead = kFeatureTempering * (best_tracked - best_untracked);
   const bool beaten = lead < -sureLogOdds(options_);
   const double counted = set.holdsAgainst(beaten) ? std::max(0.0, lead) : lead;
-  set.elsewhere *= std::exp(-fresh_share * counted);
+  set.weighElsewhere(-fresh_share * counted);
   set.overrule(result, beaten);
-  set.normalise();
 }
 
 /// Returns a new track at a candidate. The features share the errors of the odometry that gathered

@@ -232,6 +232,14 @@ void TrackSet::normalise()
   elsewhere /= sum;
 }
 
+void TrackSet::weighElsewhere(double log_odds)
+{
+  // Only the loser's weight changes: a gain of e^log_odds may be more than a double holds.
+  elsewhere *= std::exp(std::min(0.0, log_odds));
+  for (Track& track : tracks) track.hypothesis.weight *= std::exp(std::min(0.0, -log_odds));
+  normalise();
+}
+
 void TrackSet::normaliseTracks()
 {
   double sum = 0;

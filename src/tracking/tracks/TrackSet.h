@@ -78,6 +78,10 @@ class TrackSet
   /// Scales all weights so that they sum to one.
   void normalise();
 
+  /// Multiplies the odds of "somewhere else" against the tracks by e^log_odds, and scales all
+  /// weights so that they sum to one. Any finite number will do. Eq. (8.17), (8.19), (9.3)
+  void weighElsewhere(double log_odds);
+
   /// Scales the weights of the tracks alone so that all sum to one. They must not all be zero.
   void normaliseTracks();
 
