@@ -35,8 +35,10 @@ double combinations(std::size_t n, std::size_t k)
 std::uint32_t drawsNeeded(double failure, double success)
 {
   if (success >= 1) return 1;
-  if (!(success > 0)) return std::numeric_limits<std::uint32_t>::max();
-  return static_cast<std::uint32_t>(std::ceil(std::log(failure) / std::log1p(-success)));
+  constexpr std::uint32_t kMost = std::numeric_limits<std::uint32_t>::max();
+  if (!(success > 0)) return kMost;
+  const double draws = std::ceil(std::log(failure) / std::log1p(-success));
+  return draws < kMost ? static_cast<std::uint32_t>(draws) : kMost;
 }
 
 std::vector<std::uint32_t> observedOf(const FeatureHypothesis& hypothesis)

@@ -225,10 +225,11 @@ void PatternGenerator::searchAgain(const PreparedScene& scene, Query& query, Hyp
   std::uint32_t drawn = 0;
   if (!explained.empty())
   {
-    const auto patterns =
-        static_cast<std::uint32_t>(combinations(explained.size(), index_.patternSize()));
-    drawn = draw(scene, explained, std::min(patterns, wanted), query, found, workspace, counters,
-                 [] { return false; });
+    // The smaller of the two is an integer that fits; the number of patterns alone may not.
+    const double patterns = combinations(explained.size(), index_.patternSize());
+    const auto draws = static_cast<std::uint32_t>(std::min<double>(patterns, wanted));
+    drawn =
+        draw(scene, explained, draws, query, found, workspace, counters, [] { return false; });
   }
   if (drawn >= wanted) return;
   const std::uint64_t before = counters.hypotheses;
