@@ -65,10 +65,10 @@ struct MapBuildingOptions
 /// Called while a map is built, now and then, with the share of the work that is done, in [0, 1].
 using MapProgress = std::function<void(double share)>;
 
-/// Returns the map of posed scans: raster from hit counts, dense field, merged features.
+/// Returns the map of posed scans: raster from hit counts, dense field, merged features. Each
+/// scan's memory is freed once it is counted, so whoever moves the scans in needs less of it.
 /// Throws std::invalid_argument when no scan has a valid return.
-FeatureMap buildMapFromScans(const std::vector<PosedScans>& scans,
-                             const MapBuildingOptions& options = {},
+FeatureMap buildMapFromScans(std::vector<PosedScans> scans, const MapBuildingOptions& options = {},
                              const FeatureExtractorOptions& extraction = {},
                              const MapProvenance& provenance = {},
                              const MapProgress& progress = {});

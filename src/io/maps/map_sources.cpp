@@ -173,9 +173,9 @@ FeatureMap build(const std::filesystem::path& path, const MapBuildingOptions& bu
   MapSource source = readMapSource(path, reading);
   try
   {
-    if (const auto* scans = std::get_if<std::vector<PosedScans>>(&source))
+    if (auto* scans = std::get_if<std::vector<PosedScans>>(&source))
     {
-      return buildMapFromScans(*scans, building, extraction, provenance, progress);
+      return buildMapFromScans(std::move(*scans), building, extraction, provenance, progress);
     }
     if (const auto* raster = std::get_if<OccupancyRaster>(&source))
     {

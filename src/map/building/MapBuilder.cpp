@@ -114,8 +114,7 @@ void MapBuilder::restore(FeatureMerger merger, BeamCounts counts)
   counts_ = std::move(counts);
 }
 
-FeatureMap buildMapFromScans(const std::vector<PosedScans>& scans,
-                             const MapBuildingOptions& options,
+FeatureMap buildMapFromScans(std::vector<PosedScans> scans, const MapBuildingOptions& options,
                              const FeatureExtractorOptions& extraction,
                              const MapProvenance& provenance, const MapProgress& progress)
 {
@@ -126,6 +125,7 @@ FeatureMap buildMapFromScans(const std::vector<PosedScans>& scans,
   for (std::size_t i = 0; i < scans.size(); ++i)
   {
     addTo(*merger, counts, scans[i], options, extraction);
+    scans[i] = {};
     if (progress) progress(static_cast<double>(i + 1) / static_cast<double>(scans.size()));
   }
   if (counts.empty())
