@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "map/building/BeamCounts.h"
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 
 #include "geometry/cell_key.h"
@@ -332,6 +335,19 @@ OccupancyRaster BeamCounts::raster(const CellBox& box, std::uint32_t min_scans) 
     }
   }
   return raster;
+}
+
+void BeamCounts::forgetBelow(std::int32_t y)
+{
+  for (auto tile = tiles_.begin(); tile != tiles_.end();)
+  {
+    tile = nameOf(tile->first).y + kTile <= y ? tiles_.erase(tile) : std::next(tile);
+  }
+  const auto gone = [&](std::uint64_t key) { return tiles_.count(key) == 0; };
+  changed_.erase(std::remove_if(changed_.begin(), changed_.end(), gone), changed_.end());
+#ifdef __GLIBC__
+  malloc_trim(0);  // millions of small blocks would stay with the process, free as they are
+#endif
 }
 
 std::vector<CellIndex> BeamCounts::takeChangedTiles()

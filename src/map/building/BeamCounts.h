@@ -127,6 +127,10 @@ class BeamCounts
   /// Returns all cells of a box.
   OccupancyRaster raster(const CellBox& box, std::uint32_t min_scans) const;
 
+  /// Forgets the tiles of which all cells lie below row `y`, and gives their memory back to the
+  /// system. What is forgotten is unknown.
+  void forgetBelow(std::int32_t y);
+
   /// True when cells may have changed since `takeChangedTiles` was called last.
   bool changed() const { return !changed_.empty(); }
   /// Returns the lower left cells of the tiles in which cells may have changed, in order.

@@ -134,6 +134,7 @@ FeatureMap buildMapFromScans(std::vector<PosedScans> scans, const MapBuildingOpt
   }
   std::vector<Feature> features = featuresOf(*merger);
   merger.reset();  // before the field, beside which the counts alone are needed
-  return FeatureMap(std::move(features), denseFieldOf(counts, options.min_hits), {}, provenance);
+  return FeatureMap(std::move(features), denseFieldOf(std::move(counts), options.min_hits), {},
+                    provenance);
 }
 }  // namespace sigloc

@@ -14,9 +14,9 @@ namespace
 {
 constexpr std::int32_t kLeastRows = 128;  // of a strip, or its margins would cost too much
 
-/// Copies rows from the solved window into the field, and counts their cells.
-void takeRows(const DenseField& window, std::size_t first, std::size_t to, std::size_t rows,
-              DenseField& field, std::size_t& free_cells)
+/// Appends rows of the solved window to the field, and counts their cells.
+void takeRows(const DenseField& window, std::size_t first, std::size_t rows, DenseField& field,
+              std::size_t& free_cells)
 {
   const std::size_t width = field.frame.width;
   const auto from = window.cells.begin() + static_cast<std::ptrdiff_t>(first * width);
@@ -26,19 +26,18 @@ void takeRows(const DenseField& window, std::size_t first, std::size_t to, std::
     free_cells += cell->state == CellState::free ? 1U : 0U;
     field.wall_cells += isWall(cell->state) ? 1U : 0U;
   }
-  std::copy(from, end, field.cells.begin() + static_cast<std::ptrdiff_t>(to * width));
+  field.cells.insert(field.cells.end(), from, end);
 }
 
 /// Returns the field with its whole frame, solved strip by strip.
-DenseField solvedInStrips(const BeamCounts& counts, std::uint32_t min_scans,
-                          std::int32_t strip_cells)
+DenseField solvedInStrips(BeamCounts& counts, std::uint32_t min_scans, std::int32_t strip_cells)
 {
   const CellBox box = counts.box();
   const std::int32_t reach = fieldReach(counts.resolution());
   const std::int32_t rows = std::max(kLeastRows, strip_cells / box.width());
   DenseField field;
   field.frame = counts.frameOf(box);
-  field.cells.resize(std::size_t{field.frame.width} * field.frame.height);
+  field.cells.reserve(std::size_t{field.frame.width} * field.frame.height);
   std::size_t free_cells = 0;
   for (std::int32_t low = box.low.y; low < box.high.y; low += rows)
   {
@@ -47,8 +46,8 @@ DenseField solvedInStrips(const BeamCounts& counts, std::uint32_t min_scans,
                          {box.high.x, std::min(high + reach, box.high.y)}};
     const auto below = static_cast<std::size_t>(low - window.low.y);
     takeRows(buildDenseField(counts.raster(window, min_scans)), below,
-             static_cast<std::size_t>(low - box.low.y), static_cast<std::size_t>(high - low), field,
-             free_cells);
+             static_cast<std::size_t>(high - low), field, free_cells);
+    counts.forgetBelow(high - reach - 1);  // a wall may depend on the row below
   }
   field.free_area = static_cast<double>(free_cells) * counts.resolution() * counts.resolution();
   return field;
@@ -58,7 +57,7 @@ DenseField solvedInStrips(const BeamCounts& counts, std::uint32_t min_scans,
 class TileSolver
 {
  public:
-  TileSolver(const BeamCounts& counts, std::uint32_t min_scans)
+  TileSolver(BeamCounts& counts, std::uint32_t min_scans)
       : counts_(counts),
         min_scans_(min_scans),
         box_(counts.box()),
@@ -93,6 +92,7 @@ class TileSolver
         if (end > column) solveTiles({{column, row}, {end, row_end}});
         column = end + 1;
       }
+      counts_.forgetBelow(box_.low.y + row_end * kSide - reach_ - 1);
     }
     field_.cells.shrink_to_fit();
     const double resolution = counts_.resolution();
@@ -177,7 +177,7 @@ class TileSolver
     storeTile(field_, indexOf(column, row), tile);
   }
 
-  const BeamCounts& counts_;
+  BeamCounts& counts_;
   std::uint32_t min_scans_;
   CellBox box_;
   std::int32_t reach_;  // [cells]
@@ -188,7 +188,7 @@ class TileSolver
 };
 }  // namespace
 
-DenseField denseFieldOf(const BeamCounts& counts, std::uint32_t min_scans, std::int32_t strip_cells,
+DenseField denseFieldOf(BeamCounts counts, std::uint32_t min_scans, std::int32_t strip_cells,
                         std::size_t most_whole)
 {
   const RasterFrame frame = counts.frameOf(counts.box());
