@@ -18,7 +18,7 @@ Belief beliefOf(const TrackSet& set, const FeatureMap& map, const TrackerOptions
     belief.hypotheses.push_back(track.hypothesis);
     belief.hypotheses.back().pose = withCommonError(track.hypothesis.pose, map.error());
   }
-  if (set.tracks.empty() || !set.tracks.front().in_field) return belief;
+  if (set.tracks.empty()) return belief;
   const double here = set.probabilityHere();
   double sum = 0;
   for (TrackedHypothesis& hypothesis : belief.hypotheses)

@@ -89,13 +89,20 @@ TEST(TrackInMap, UnknownAreaCountsNeitherWay)
   EXPECT_EQ(track.inMapLogOdds(), tracked().inMapLogOdds());
 }
 
-TEST(TrackInMap, WithoutADenseFieldRelocationsAreAll)
+// Landmarks that fit by chance add up: what was found must be more than sure.
+TEST(TrackInMap, OfLandmarksIsLessSureThanWhatIsPaired)
 {
   Track track = tracked();
   track.in_field = false;
-  EXPECT_EQ(track.inMapLogOdds(), track.confirmed);
-  track.tracked_distance = 30;
-  EXPECT_EQ(track.inMapLogOdds(), track.confirmed);
+  double last = -100;
+  for (const double paired : {-1.0, 0.0, 4.6, 8.0, 12.0})
+  {
+    track.confirmed = paired;
+    EXPECT_GT(track.inMapLogOdds(), last);
+    EXPECT_LT(track.inMapLogOdds(), paired);
+    last = track.inMapLogOdds();
+  }
+  EXPECT_GT(last, 4.6) << "a track can be sure";
 }
 }  // namespace
 }  // namespace sigloc

@@ -17,6 +17,10 @@ constexpr double kSearchedSlope = 1.3;  // for kFullWay driven unlocalized befor
 constexpr double kMostUnexplained = 0.2;  // unexplained share from which the way does not count
 constexpr double kMaxTracked = 16.0;  // bound of gamma
 constexpr double kPriorHere = 1.6;  // log-odds of being in the map, of a robot that is tracked
+
+// The same in a map of landmarks, eq. (8.23), by the same script.
+constexpr double kFeatureOffset = -5.47;  // log-odds without the prior
+constexpr double kPairingSlope = 0.85;  // per unit of kappa
 }  // namespace
 
 void Track::addTrackedLogOdds(double log_odds)
@@ -37,7 +41,7 @@ void Track::inherit(const Track& parent)
 
 double Track::inMapLogOdds() const
 {
-  if (!in_field) return confirmed;
+  if (!in_field) return kPriorHere + kFeatureOffset + kPairingSlope * confirmed;
   const double unexplained = explained.offWallShare();
   const double way = std::min(1.0, tracked_distance / kFullWay);
   const double searched = std::min(1.0, searched_distance / kFullWay);

@@ -73,7 +73,7 @@ struct Track
   /// Takes over the evidence of the track that it branched off.
   void inherit(const Track& parent);
 
-  /// Log-odds that the robot is in the map at all: eq. (8.22) with a field, kappa without one.
+  /// Log-odds that the robot is in the map at all: eq. (8.22) with a field, (8.23) without one.
   double inMapLogOdds() const;
 
   /// What speaks for the track being in this map, in numbers.
