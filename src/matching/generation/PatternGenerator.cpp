@@ -228,8 +228,7 @@ void PatternGenerator::searchAgain(const PreparedScene& scene, Query& query, Hyp
     // The smaller of the two is an integer that fits; the number of patterns alone may not.
     const double patterns = combinations(explained.size(), index_.patternSize());
     const auto draws = static_cast<std::uint32_t>(std::min<double>(patterns, wanted));
-    drawn =
-        draw(scene, explained, draws, query, found, workspace, counters, [] { return false; });
+    drawn = draw(scene, explained, draws, query, found, workspace, counters, [] { return false; });
   }
   if (drawn >= wanted) return;
   const std::uint64_t before = counters.hypotheses;
