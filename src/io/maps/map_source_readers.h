@@ -31,7 +31,7 @@ void requireWallAndFree(const OccupancyRaster& raster, const std::filesystem::pa
 
 /// Free, wall and unknown by nav2's rules for the file's mode and thresholds; its image is a PGM or
 /// PNG. One difference: shade 205, with which map savers write what was never seen, stays unknown
-/// where the thresholds would make it free.
+/// where mode or thresholds would make it free. With `negate` that is shade 50.
 OccupancyRaster readRosMap(const std::filesystem::path& path);
 /// The same for an image alone: trinary, with the thresholds that map_saver writes, and its lower
 /// left corner at the map's origin. Throws where `reading` does not tell its scale.

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "io/archive/gzip_input.h"
 #include "io/maps/gray_image.h"
 #include "io/maps/map_source_readers.h"
 #include "io/maps/occupancy_grid.h"
@@ -17,7 +18,8 @@ namespace sigloc::detail
 {
 namespace
 {
-constexpr double kWhite = 255;
+constexpr int kWhiteShade = 255;
+constexpr double kWhite = kWhiteShade;
 constexpr int kUnknownShade = 205;  // with which map savers write what was never seen
 constexpr double kHundred = 100;
 
@@ -45,17 +47,26 @@ double shadeOf(int shade, int alpha, bool has_alpha, const RosMapHeader& header)
   return has_alpha && header.mode == RosMapMode::trinary ? (3.0 * shade + alpha) / 4 : shade;
 }
 
-/// True where the map server would take the shade of "never seen" for free.
+/// The shade of "never seen". In a map that says `negate` the colours of its image are inverted.
+int unknownShade(const RosMapHeader& header)
+{
+  return header.negate ? kWhiteShade - kUnknownShade : kUnknownShade;
+}
+
+/// True where the map server would take the shade of "never seen" for free. In the mode scale it
+/// may do so above free_thresh, too. No map saver writes this shade for a probability there.
 bool takesUnknownForFree(const RosMapHeader& header, bool has_alpha)
 {
-  const double shade = shadeOf(kUnknownShade, static_cast<int>(kWhite), has_alpha, header);
-  return header.mode != RosMapMode::raw && !header.negate &&
-         1 - shade / kWhite < header.free_threshold;
+  if (header.mode == RosMapMode::raw) return false;
+  const double shade = shadeOf(unknownShade(header), kWhiteShade, has_alpha, header);
+  const auto percent = occupancyOf(shade, kWhite, header);
+  return percent && stateOfOccupancy(*percent / kHundred) == CellState::free;
 }
 
 CellState stateOfPixel(int shade, int alpha, bool has_alpha, const RosMapHeader& header)
 {
-  if (shade == kUnknownShade && alpha == 255 && takesUnknownForFree(header, has_alpha))
+  if (shade == unknownShade(header) && alpha == kWhiteShade &&
+      takesUnknownForFree(header, has_alpha))
   {
     return CellState::unknown;
   }
@@ -63,10 +74,24 @@ CellState stateOfPixel(int shade, int alpha, bool has_alpha, const RosMapHeader&
   return percent ? stateOfOccupancy(*percent / kHundred) : CellState::unknown;
 }
 
-/// Reads the image that a header names; `path` is the file to name where it makes no map.
-OccupancyRaster rasterOfImage(const RosMapHeader& header, const std::filesystem::path& path)
+/// Returns what `read` makes of the image that the yaml at `path` names. An error names both files.
+template <class Read>
+auto ofImage(const RosMapHeader& header, const std::filesystem::path& path, Read&& read)
 {
-  const GrayImage image = readGrayImage(header.image);
+  try
+  {
+    return read(header.image);
+  }
+  catch (const std::runtime_error& error)
+  {
+    throw std::runtime_error(path.string() + ": its image " + error.what());
+  }
+}
+
+/// Returns the raster of an image; `path` is the file to name where it makes no map.
+OccupancyRaster rasterOfImage(const GrayImage& image, const RosMapHeader& header,
+                              const std::filesystem::path& path)
+{
   OccupancyRaster raster;
   raster.frame = {{header.origin.x, header.origin.y}, header.resolution, image.width, image.height};
   raster.cells.reserve(image.shades.size());
@@ -74,7 +99,7 @@ OccupancyRaster rasterOfImage(const RosMapHeader& header, const std::filesystem:
   {
     for (std::size_t i = row * image.width; i < (row + 1) * image.width; ++i)
     {
-      const int alpha = image.alphas.empty() ? 255 : image.alphas[i];
+      const int alpha = image.alphas.empty() ? kWhiteShade : image.alphas[i];
       raster.cells.push_back(stateOfPixel(image.shades[i], alpha, !image.alphas.empty(), header));
     }
   }
@@ -84,10 +109,9 @@ OccupancyRaster rasterOfImage(const RosMapHeader& header, const std::filesystem:
 }
 
 /// The header that a map server would be given for an image of this scale.
-RosMapHeader headerOfImage(const std::filesystem::path& path, const ReadingOptions& reading)
+RosMapHeader headerOfImage(const ReadingOptions& reading)
 {
   RosMapHeader header;
-  header.image = path;
   header.resolution = reading.image_resolution;
   header.free_threshold = 0.196;
   header.occupied_threshold = 0.65;
@@ -120,28 +144,32 @@ void requireResolution(const std::filesystem::path& path, const ReadingOptions& 
 
 std::filesystem::path imageOfRosMap(const std::filesystem::path& path)
 {
-  return readRosMapHeader(path).image;
+  const RosMapHeader header = readRosMapHeader(path);
+  ofImage(header, path, requireFile);
+  return header.image;
 }
 
 std::string warningOfRosMap(const std::filesystem::path& path)
 {
   const RosMapHeader header = readRosMapHeader(path);
-  const GrayImage image = readGrayImage(header.image);
+  const GrayImage image = ofImage(header, path, readGrayImage);
   if (!takesUnknownForFree(header, !image.alphas.empty())) return {};
-  const auto unknown = std::count(image.shades.begin(), image.shades.end(), kUnknownShade);
-  if (unknown == 0) return {};
-  return "its free_thresh would make free what the image shows as never seen (shade 205); it is "
-         "taken as unknown";
+  const int unknown = unknownShade(header);
+  if (std::count(image.shades.begin(), image.shades.end(), unknown) == 0) return {};
+  const std::string cause = header.mode == RosMapMode::scale ? "mode" : "free_thresh";
+  return "its " + cause + " would make free what the image shows as never seen (shade " +
+         std::to_string(unknown) + "); it is taken as unknown";
 }
 
 OccupancyRaster readRosMap(const std::filesystem::path& path)
 {
-  return rasterOfImage(readRosMapHeader(path), path);
+  const RosMapHeader header = readRosMapHeader(path);
+  return rasterOfImage(ofImage(header, path, readGrayImage), header, path);
 }
 
 OccupancyRaster readMapImage(const std::filesystem::path& path, const ReadingOptions& reading)
 {
   requireResolution(path, reading);
-  return rasterOfImage(headerOfImage(path, reading), path);
+  return rasterOfImage(readGrayImage(path), headerOfImage(reading), path);
 }
 }  // namespace sigloc::detail
