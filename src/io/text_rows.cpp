@@ -61,6 +61,18 @@ std::vector<std::string_view> words(std::string_view line)
   return found;
 }
 
+std::vector<std::string_view> columnsIn(std::string_view line, const std::filesystem::path& path,
+                                        std::size_t index)
+{
+  constexpr std::size_t kMost = 100;
+  std::vector<std::string_view> columns = words(line);
+  if (columns.size() > kMost)
+  {
+    failAtLine(path, index, fmt::format("{} columns, more than {}", columns.size(), kMost));
+  }
+  return columns;
+}
+
 std::optional<double> toNumber(std::string_view word)
 {
   if (!word.empty() && word.front() == '+') word.remove_prefix(1);

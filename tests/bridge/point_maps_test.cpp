@@ -216,6 +216,47 @@ TEST(PointMaps, RowsThatAreFarApartStayLandmarks)
   EXPECT_TRUE(std::holds_alternative<FeatureMap>(readMapSource(folder / "m.txt")));
 }
 
+TEST(PointMaps, RowsThatAreCutOffOrNotAlikeAreRefused)
+{
+  const TemporaryFolder folder;
+  const std::string rows = textOf(roomPoints());
+  const auto refusal = [&](const std::string& text)
+  {
+    writeText(folder / "m.txt", text);
+    std::string message = errorOf(folder / "m.txt");
+    EXPECT_EQ(message.rfind((folder / "m.txt").string() + ": ", 0), 0U) << message;
+    EXPECT_EQ(messageOf<std::runtime_error>([&] { warningOfMapSource(folder / "m.txt"); }),
+              message);
+    return message.substr(message.find(": ") + 2);
+  };
+  const std::string cut = "its last row is cut off or damaged";
+  for (const std::string last : {"1.5", "1.5 2", "1.5 2.", "1.5 -", "1.5 2.0 -", "1.5 2.0 1e"})
+  {
+    EXPECT_EQ(refusal(rows + last), cut) << last;
+    EXPECT_EQ(refusal("x y z\n" + rows + last + "\n\n# the end\n"), cut) << last;
+  }
+  EXPECT_EQ(refusal("1.5 2.0\n" + rows), "line 2: no point of 2 numbers as the others");
+  EXPECT_EQ(refusal("x y z\n1 2 3\n1 2\n" + rows), "line 3: no point of 3 numbers as the others");
+  EXPECT_EQ(refusal("1 2 3\n1 nan 3\n" + rows), "line 2: no point of 3 numbers as the others");
+}
+
+TEST(PointMaps, ARowWithoutEndIsNoPoint)
+{
+  const TemporaryFolder folder;
+  std::string row = textOf(roomPoints());
+  std::replace(row.begin(), row.end(), '\n', ' ');
+  for (const char* const name : {"m.txt", "m.csv"})
+  {
+    for (const std::string names : {"", "x y z\n"})
+    {
+      writeText(folder / name, names + row);
+      const std::string message = errorOf(folder / name);
+      EXPECT_NE(message.find(" columns, more than 100"), std::string::npos) << message;
+      EXPECT_NE(message.find(names.empty() ? "line 1: " : "line 2: "), std::string::npos);
+    }
+  }
+}
+
 TEST(PointMaps, RefuseHostileFilesInOneLine)
 {
   const TemporaryFolder folder;

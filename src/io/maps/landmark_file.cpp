@@ -82,7 +82,7 @@ FeatureMap readLandmarks(const std::filesystem::path& path)
     std::string_view line = lines[i];
     const bool comment = !line.empty() && line.front() == '#';
     if (comment) line.remove_prefix(1);
-    const auto row = words(line);
+    const auto row = columnsIn(line, path, i);
     if (row.empty()) continue;
     if (const auto named = landmarks.empty() ? columnsOf(row) : std::nullopt)
     {

@@ -25,6 +25,7 @@ PointList readPcd(const std::filesystem::path& path);
 ///
 /// It does where most rows have another within 0.15 m: landmarks that near to each other could not
 /// be told apart. A first row that names columns must name x, y and z first. Without one there must
-/// be at least 100 rows.
+/// be at least 100 rows. Throws for points among which a row is no number or has fewer or more
+/// columns than the first.
 std::optional<PointList> pointRowsOf(const std::filesystem::path& path);
 }  // namespace sigloc::detail

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -82,12 +84,15 @@ std::optional<PointList> pointRowsOf(const std::filesystem::path& path)
   const std::vector<std::string> lines = readLines(path);
   PointList points;
   bool named = false;
-  for (const std::string& text : lines)
+  std::size_t columns = 0;  // of the first row
+  std::size_t last = 0;  // line with a row
+  std::optional<std::size_t> odd;  // the first line with a row that is not like the first
+  for (std::size_t i = 0; i < lines.size(); ++i)
   {
-    std::string_view line = text;
+    std::string_view line = lines[i];
     const bool comment = !line.empty() && (line.front() == '#' || line.front() == '%');
     if (comment) line.remove_prefix(1);
-    const Row row = words(line);
+    const Row row = columnsIn(line, path, i);
     if (row.empty()) continue;
     if (points.empty() && names(row, "x") && names(row, "y"))
     {
@@ -98,10 +103,15 @@ std::optional<PointList> pointRowsOf(const std::filesystem::path& path)
     }
     if (comment) continue;
     const auto point = pointOf(row);
-    if (!point) return std::nullopt;
-    points.push_back(*point);
+    if (columns == 0) columns = row.size();
+    if (!odd && (!point || row.size() != columns)) odd = i;
+    if (point) points.push_back(*point);
+    last = i;
   }
   if (points.empty() || (!named && points.size() < kFewestPoints)) return std::nullopt;
-  return areDense(points) ? std::optional(std::move(points)) : std::nullopt;
+  if (!areDense(points)) return std::nullopt;
+  if (odd && *odd == last) failIn(path, "its last row is cut off or damaged");
+  if (odd) failAtLine(path, *odd, fmt::format("no point of {} numbers as the others", columns));
+  return points;
 }
 }  // namespace sigloc::detail
