@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "io/archive/gzip_input.h"
 #include "io/text_rows.h"
 
 namespace sigloc::detail
@@ -198,9 +199,7 @@ std::vector<CarmenScan> readCarmenScans(const std::filesystem::path& path)
 
 bool isCarmenLog(const std::filesystem::path& path)
 {
-  std::filesystem::path name = path.filename();
-  if (name.extension() == ".gz") name = name.stem();
-  const std::string ending = name.extension().string();
+  const std::string ending = extensionOf(path);
   return ending == ".log" || ending == ".clf" || ending == ".carmen";
 }
 }  // namespace sigloc::detail

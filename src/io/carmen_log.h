@@ -27,6 +27,6 @@ struct CarmenScan
 /// std::runtime_error "path: reason".
 std::vector<CarmenScan> readCarmenScans(const std::filesystem::path& path);
 
-/// True for the name of a CARMEN log: `.log`, `.clf` or `.carmen`, with or without `.gz`.
+/// True for the name of a CARMEN log: `.log`, `.clf` or `.carmen`, whatever packs it.
 bool isCarmenLog(const std::filesystem::path& path);
 }  // namespace sigloc::detail

@@ -29,6 +29,19 @@ std::string packed(const std::string& bytes)
   return out;
 }
 
+/// A frame that zstd skips, of one of its sixteen kinds.
+std::string skippable(unsigned kind, std::size_t size)
+{
+  std::string frame = {static_cast<char>(0x50U + kind), '\x2A', '\x4D', '\x18'};
+  for (unsigned i = 0; i < 4; ++i) frame += static_cast<char>(size >> (8 * i) & 0xFFU);
+  return frame + std::string(size, 'n');
+}
+
+std::string errorOf(const std::filesystem::path& path)
+{
+  return messageOf<std::runtime_error>([&] { readMapSource(path); });
+}
+
 std::string unpacked(const std::filesystem::path& path)
 {
   detail::GzipInput input(path);
@@ -61,6 +74,77 @@ TEST(ZstdFiles, holdWhatWasPacked)
     writeText(folder / "a", packed(bytes) + packed(bytes));
     EXPECT_EQ(unpacked(folder / "a"), bytes + bytes) << "two frames of " << size;
   }
+}
+
+TEST(ZstdFiles, framesToBeSkippedAreSkipped)
+{
+  const TemporaryFolder folder;
+  const std::string bytes = noise(200000);
+  for (const std::size_t size : {0U, 1U, 3000U, 300000U})
+  {
+    for (const unsigned kind : {0U, 7U, 15U})
+    {
+      const std::string skipped = skippable(kind, size);
+      writeText(folder / "a", skipped + skipped + packed(bytes) + skipped + packed("b") + skipped);
+      EXPECT_EQ(unpacked(folder / "a"), bytes + "b") << size << ' ' << kind;
+      EXPECT_NO_THROW(detail::requireIntact(folder / "a"));
+    }
+  }
+  writeText(folder / "m.simplemap", skippable(3, 50) + packed(unpacked(kMap)) + skippable(3, 50));
+  EXPECT_EQ(std::get<std::vector<PosedScans>>(readMapSource(folder / "m.simplemap")).size(),
+            std::get<std::vector<PosedScans>>(readMapSource(kMap)).size());
+  writeText(folder / "m.simplemap", packed(unpacked(kMap)) + skippable(3, 50).substr(0, 40));
+  EXPECT_NE(errorOf(folder / "m.simplemap").find("truncated"), std::string::npos);
+  writeText(folder / "m.simplemap", skippable(3, 50));
+  EXPECT_NE(errorOf(folder / "m.simplemap").find("not an MRPT file"), std::string::npos);
+}
+
+TEST(ZstdFiles, namesThatEndInZstAreTaken)
+{
+  const TemporaryFolder folder;
+  const std::filesystem::path office =
+      std::filesystem::path(SIGLOC_GOLDEN_FOLDER) / "../../maps/office.gridmap.gz";
+  writeText(folder / "m.simplemap.zst", packed(unpacked(kMap)));
+  writeText(folder / "m.gridmap.zst", packed(unpacked(office)));
+  EXPECT_FALSE(
+      std::get<std::vector<PosedScans>>(readMapSource(folder / "m.simplemap.zst")).empty());
+  EXPECT_EQ(std::get<OccupancyRaster>(readMapSource(folder / "m.gridmap.zst")).cells,
+            std::get<OccupancyRaster>(readMapSource(office)).cells);
+  writeText(folder / "m.log.zst", packed("FLASER 3 1 2 1 0 0 0 0 0 0 1 host 1\n"));
+  EXPECT_TRUE(RawlogReader(folder / "m.log.zst").next());
+}
+
+TEST(ZstdFiles, aReadyMapMayBePackedSoInPlaceOfItsOwnPacking)
+{
+  const TemporaryFolder folder;
+  const FeatureMap map = buildMapFromFile(kMap, {}, {});
+  saveSigmap(map, folder / "m.sigmap");
+  writeText(folder / "packed.sigmap", packed(unpacked(folder / "m.sigmap")));
+  EXPECT_EQ(loadSigmap(folder / "packed.sigmap").features().size(), map.features().size());
+}
+
+TEST(ZstdFiles, whatIsPackedTwiceSaysSo)
+{
+  const TemporaryFolder folder;
+  saveSigmap(buildMapFromFile(kMap, {}, {}), folder / "m.sigmap");
+  const std::string map = readBytes(folder / "m.sigmap");
+  const std::vector<std::pair<const char*, std::string>> cases = {
+      {"a.sigmap", packed(map)},
+      {"a.sigmap.zst", packed(map)},
+      {"a.simplemap.gz.zst", packed(readBytes(kMap))},
+      {"a.simplemap.zst", packed(packed(unpacked(kMap)))},
+      {"a.ply", packed(readBytes(kMap))},
+      {"a.txt", packed(readBytes(kMap))},
+  };
+  for (const auto& [name, bytes] : cases)
+  {
+    writeText(folder / name, bytes);
+    EXPECT_EQ(errorOf(folder / name), (folder / name).string() +
+                                          ": is compressed twice; unpack it once, with gunzip or "
+                                          "zstd -d");
+  }
+  writeText(folder / "l.rawlog", packed(readBytes(kMap)));
+  EXPECT_THROW(RawlogReader(folder / "l.rawlog"), std::runtime_error);
 }
 
 TEST(ZstdFiles, mapsAndLogsAreReadAsPlainOnes)

@@ -72,8 +72,8 @@ struct LeftOutOfLog
 /// Reads a rawlog step by step. Both kinds can be read: action/sensory-frame pairs, and
 /// observations only, as rawlog-grabber writes them. Of the latter, odometry is differenced between
 /// scans. Steps are those that MRPT counts: in a log of pairs, a frame before the first action is
-/// none. A CARMEN log (`.log`, `.clf`, `.carmen`; `.gz` may follow) is read as the observations of
-/// its laser messages.
+/// none. A CARMEN log (`.log`, `.clf`, `.carmen`; `.gz` or `.zst` may follow) is read as the
+/// observations of its laser messages.
 class RawlogReader
 {
  public:

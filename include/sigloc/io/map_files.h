@@ -19,12 +19,12 @@ namespace sigloc
 /// What a map input file holds, in the core's terms.
 using MapSource = std::variant<std::vector<PosedScans>, OccupancyRaster, FeatureMap>;
 
-/// Reads `.simplemap[.gz]`, `.gridmap[.gz]`, a ROS map `.yaml`, a CARMEN log with corrected poses
-/// (`.log`, `.clf`, `.carmen`), or a ready `.sigmap`. Reads an image alone where `reading` tells
-/// its scale, and points (`.ply`, `.pcd`, `.txt`) within its heights. Reads landmarks (`.csv`,
-/// `.txt`): rows `x y [radius] [sigma]`. Throws std::runtime_error naming the path and the reason
-/// for a missing, empty, truncated, foreign or unusable file. Throws the same for a map that
-/// reaches farther than 100 km from its origin.
+/// Reads `.simplemap`, `.gridmap`, `.metricmap`, a ROS map `.yaml`, a CARMEN log with corrected
+/// poses (`.log`, `.clf`, `.carmen`), or a ready `.sigmap`. `.gz` or `.zst` may follow. Reads an
+/// image alone where `reading` tells its scale, and points (`.ply`, `.pcd`, `.txt`) within its
+/// heights. Reads landmarks (`.csv`, `.txt`): rows `x y [radius] [sigma]`. Throws
+/// std::runtime_error naming the path and the reason for a missing, empty, truncated, foreign or
+/// unusable file. Throws the same for a map that reaches farther than 100 km from its origin.
 MapSource readMapSource(const std::filesystem::path& path, const ReadingOptions& reading = {});
 
 /// Returns the kinds of map that readMapSource() reads, for messages: "simplemap (.simplemap),

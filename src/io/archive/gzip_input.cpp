@@ -34,7 +34,8 @@ bool isClassNameCharacter(char c)
 
 std::string extensionOf(const std::filesystem::path& path)
 {
-  const std::filesystem::path name = path.extension() == ".gz" ? path.stem() : path;
+  std::filesystem::path name = path.filename();
+  while (name.extension() == ".gz" || name.extension() == ".zst") name = name.stem();
   std::string extension = name.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -115,6 +116,9 @@ GzipInput::GzipInput(const std::filesystem::path& path) : path_(path)
   file_ = openPacked(path, static_cast<unsigned>(
                                std::clamp<std::uint64_t>(file_size_, kLeastBuffer, kBufferBytes)));
   if (!file_) fail(path, "cannot be opened");
+  constexpr std::size_t kMagic = 4;
+  if (beginsPacked(peek(kMagic)))
+    fail(path, "is compressed twice; unpack it once, with gunzip or zstd -d");
 }
 
 GzipInput::~GzipInput() = default;

@@ -34,7 +34,8 @@ std::optional<ObjectHeader> objectHeaderIn(std::string_view bytes);
 class GzipInput final : public mrpt::io::CStream
 {
  public:
-  /// Throws std::runtime_error "path: reason" for a missing, unreadable or empty file or a folder.
+  /// Throws std::runtime_error "path: reason" for a missing, unreadable or empty file or a folder,
+  /// and for one that is compressed twice.
   explicit GzipInput(const std::filesystem::path& path);
   ~GzipInput() override;
   GzipInput(const GzipInput&) = delete;
@@ -90,7 +91,8 @@ void requireIntact(const std::filesystem::path& path);
 /// that of a file that does not exist, or an empty text.
 std::string didYouMeanFile(const std::filesystem::path& path);
 
-/// Returns a file's extension in lower case, the one before .gz where the file has both.
+/// Returns a file's extension in lower case, the one before .gz or .zst where the file has
+/// both.
 std::string extensionOf(const std::filesystem::path& path);
 
 /// Throws std::runtime_error "path: reason" unless the path names a readable, non-empty regular

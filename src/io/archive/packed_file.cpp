@@ -8,6 +8,7 @@
 #include <array>
 #include <fstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace sigloc::detail
@@ -27,9 +28,20 @@ std::string firstBytes(const std::filesystem::path& path)
   return bytes;
 }
 
-bool isZstd(const std::string& first)
+/// True for a frame that zstd skips: it holds what its maker notes beside the data.
+bool isSkippable(std::string_view first)
 {
-  return first.compare(0, 4, "\x28\xB5\x2F\xFD") == 0;
+  return first.size() >= 4 && (first[0] & '\xF0') == '\x50' && first.substr(1, 3) == "\x2A\x4D\x18";
+}
+
+bool isZstd(std::string_view first)
+{
+  return first.substr(0, 4) == "\x28\xB5\x2F\xFD" || isSkippable(first);
+}
+
+bool isGzip(std::string_view first)
+{
+  return first.substr(0, 2) == "\x1F\x8B";
 }
 
 /// Plain, or compressed by gzip.
@@ -124,6 +136,11 @@ class ZstdFile final : public PackedFile
 };
 }  // namespace
 
+bool beginsPacked(std::string_view bytes)
+{
+  return isZstd(bytes) || isGzip(bytes);
+}
+
 std::unique_ptr<PackedFile> openPacked(const std::filesystem::path& path, unsigned buffer)
 {
   if (isZstd(firstBytes(path))) return std::make_unique<ZstdFile>(path, buffer);
@@ -139,10 +156,10 @@ std::uint64_t unpackedSize(const std::filesystem::path& path, std::uint64_t file
   if (isZstd(first))
   {
     const unsigned long long size = ZSTD_getFrameContentSize(first.data(), first.size());
-    return size >= ZSTD_CONTENTSIZE_ERROR ? kUsualRatio * file_size : size;
+    const bool told = size < ZSTD_CONTENTSIZE_ERROR && !isSkippable(first);
+    return told ? size : kUsualRatio * file_size;
   }
-  const bool packed = first.compare(0, 2, "\x1F\x8B") == 0;
-  if (!packed || file_size < kTrailerBytes) return file_size;
+  if (!isGzip(first) || file_size < kTrailerBytes) return file_size;
   std::ifstream file(path, std::ios::binary);
   file.seekg(-static_cast<std::streamoff>(kTrailerBytes), std::ios::end);
   std::uint64_t size = 0;

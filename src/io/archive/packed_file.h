@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <string_view>
 
 namespace sigloc::detail
 {
@@ -24,6 +25,9 @@ class PackedFile
   /// True for a file that is not compressed, once something was read.
   virtual bool plain() const = 0;
 };
+
+/// True for bytes that begin a file compressed by gzip or zstd: four or more of them.
+bool beginsPacked(std::string_view bytes);
 
 /// Opens a file; null where that fails. `buffer` is in bytes.
 std::unique_ptr<PackedFile> openPacked(const std::filesystem::path& path, unsigned buffer);

@@ -54,7 +54,7 @@ using MapReader = MapSource (*)(const std::filesystem::path& path, const Reading
 struct MapFormat
 {
   const char* name;  // for messages
-  std::vector<std::string> extensions;  // lower case; `.gz` may follow them
+  std::vector<std::string> extensions;  // lower case; `.gz` or `.zst` may follow
   MapReader read;
 };
 
