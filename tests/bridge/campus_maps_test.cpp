@@ -1,9 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The campus as people have it: as nav2 exports it, as an image, as points. A drive ends at the
-// same pose in each.
+// The campus as people have it: as nav2 exports it, as an image, in a multi-map, as points. A drive
+// ends at the same pose in each.
 #include <gtest/gtest.h>
+#include <mrpt/maps/CMultiMetricMap.h>
+#include <mrpt/maps/COccupancyGridMap2D.h>
+#include <mrpt/maps/CSimplePointsMap.h>
 
 #include <cmath>
 #include <memory>
@@ -11,6 +14,7 @@
 #include <variant>
 
 #include "bridge/rawlog_files.h"
+#include "io/archive/gzip_input.h"
 #include "sigloc/io/map_files.h"
 #include "sigloc/matching/SignatureMatcher.h"
 #include "sigloc/tracking/HypothesisTracker.h"
@@ -131,6 +135,24 @@ TEST(CampusMaps, ATurnedOriginGivesTheSamePose)
   writeText(folder / "m.pgm", imageOf(0, 254, 205, 0.1, origin));
   writeText(folder / "m.yaml", yamlOf("trinary", origin));
   expectSamePose(endOfDrive(folder / "m.yaml"), "turned");
+}
+
+TEST(CampusMaps, AMultiMapGivesTheSamePose)
+{
+  const TemporaryFolder folder;
+  detail::GzipInput input(kCampus);
+  auto archive = mrpt::serialization::archiveFrom(input);
+  const auto grid =
+      std::dynamic_pointer_cast<mrpt::maps::COccupancyGridMap2D>(archive.ReadObject());
+  ASSERT_TRUE(grid);
+  auto points = mrpt::maps::CSimplePointsMap::Create();
+  points->insertPoint(1, 2, 0);
+  auto multi = mrpt::maps::CMultiMetricMap::Create();
+  multi->maps.push_back(points);
+  multi->maps.push_back(grid);
+  writeObjects(folder / "m.metricmap", {multi});
+  EXPECT_EQ(std::get<OccupancyRaster>(readMapSource(folder / "m.metricmap")).cells, campus().cells);
+  expectSamePose(endOfDrive(folder / "m.metricmap"), "multi-map");
 }
 
 TEST(CampusMaps, PointsGiveTheSamePoseAndTellThatTheyLackFreeSpace)
