@@ -74,30 +74,44 @@ function(sigloc_add_library name)
     PRIVATE "$<BUILD_INTERFACE:${ARG_PRIVATE_LINK};sigloc_flags>")
 endfunction()
 
-# sigloc_add_app(NAME LINK target...): an executable from apps/<NAME>/*.cpp, with the man page and the
-# completion that it prints. Its target is called NAME-app where a library has the name already.
+# sigloc_add_manual(NAME COMPONENT component COMMAND command [DEPENDS what...]): the man page and the
+# completion that a program prints, by the target NAME-manual.
+function(sigloc_add_manual name)
+  cmake_parse_arguments(ARG "" "COMPONENT;COMMAND" "DEPENDS" ${ARGN})
+  set(man_page "${PROJECT_BINARY_DIR}/manual/${name}.1")
+  set(completion "${PROJECT_BINARY_DIR}/manual/completions/${name}")
+  file(MAKE_DIRECTORY "${PROJECT_BINARY_DIR}/manual/completions")
+  add_custom_command(OUTPUT "${man_page}" "${completion}"
+    COMMAND ${ARG_COMMAND} --print-man-page > "${man_page}"
+    COMMAND ${ARG_COMMAND} --print-completion > "${completion}"
+    DEPENDS ${ARG_DEPENDS} VERBATIM)
+  add_custom_target(${name}-manual ALL DEPENDS "${man_page}" "${completion}")
+  set_property(GLOBAL APPEND PROPERTY SIGLOC_MANUALS ${name}-manual)
+  install(FILES "${man_page}" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT ${ARG_COMPONENT})
+  install(FILES "${completion}" DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions"
+          COMPONENT ${ARG_COMPONENT})
+endfunction()
+
+# sigloc_add_app(NAME [COMPONENT component] [SOURCES file...] LINK target...): an executable from
+# apps/<NAME>/*.cpp or the files, with the man page and the completion that it prints. They are of the
+# component `tools` unless another is named. Its target is called NAME-app where a library has the name
+# already.
 function(sigloc_add_app name)
-  cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
+  cmake_parse_arguments(ARG "" "COMPONENT" "SOURCES;LINK" ${ARGN})
+  set(component tools)
+  if(ARG_COMPONENT)
+    set(component ${ARG_COMPONENT})
+  endif()
   set(target ${name})
   if(TARGET ${name})
     set(target ${name}-app)
   endif()
   file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/apps/${name}/*.cpp")
-  add_executable(${target} ${sources} "${PROJECT_SOURCE_DIR}/apps/common/manual.cpp")
+  add_executable(${target} ${sources} ${ARG_SOURCES} "${PROJECT_SOURCE_DIR}/apps/common/manual.cpp")
   set_target_properties(${target} PROPERTIES OUTPUT_NAME ${name})
   target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/apps/common")
   target_link_libraries(${target} PRIVATE ${ARG_LINK} CLI11::CLI11 fmt::fmt sigloc_flags)
   target_compile_definitions(${target} PRIVATE SIGLOC_VERSION="${PROJECT_VERSION}")
   set_property(GLOBAL APPEND PROPERTY SIGLOC_APPS ${target})
-  set(man_page "${PROJECT_BINARY_DIR}/manual/${name}.1")
-  set(completion "${PROJECT_BINARY_DIR}/manual/completions/${name}")
-  file(MAKE_DIRECTORY "${PROJECT_BINARY_DIR}/manual/completions")
-  add_custom_command(OUTPUT "${man_page}" "${completion}"
-    COMMAND ${target} --print-man-page > "${man_page}"
-    COMMAND ${target} --print-completion > "${completion}"
-    VERBATIM)
-  add_custom_target(${target}-manual ALL DEPENDS "${man_page}" "${completion}")
-  install(FILES "${man_page}" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT tools)
-  install(FILES "${completion}" DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions"
-          COMPONENT tools)
+  sigloc_add_manual(${name} COMPONENT ${component} COMMAND ${target})
 endfunction()

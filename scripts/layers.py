@@ -72,7 +72,7 @@ CORE_TESTS = {"unit", "threads"}
 # Headers that only some folders may include: pattern, folders, reason.
 RESTRICTED = [
     (r"GL/.*|mrpt/opengl/opengl_api\.h", {"render"}, "OSMesa belongs to the render target"),
-    (r"CLI/.*", {"apps"}, "the command line belongs to the apps"),
+    (r"CLI/.*", {"apps", "ros1"}, "the command line belongs to the programs"),
     (r"iostream", {"apps", "tests"}, "the library never prints"),
     (r"wx/.*", set(), "wxWidgets has no place here"),
 ]

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Turns a recording of ROS 1 (.bag) or ROS 2 (.db3, or its folder) into a rawlog. ROS is not needed.
 
-    python3 -m sigloc.bag2rawlog BAG [-o OUT.rawlog]
+    sigloc-bag2rawlog BAG [-o OUT.rawlog]
 
 All laser scans and the odometry go into it: that of nav_msgs/Odometry, else of the transform from the frame odom.
 Where a laser is on the robot is what the transforms say. The messages' own times count.
@@ -19,7 +19,7 @@ import sqlite3
 import struct
 import sys
 from collections.abc import Iterator
-from typing import NamedTuple, NoReturn, Optional, Union
+from typing import NamedTuple, Optional, Union
 
 import numpy
 import numpy.typing
@@ -28,10 +28,12 @@ import sigloc
 
 from . import _messages
 from ._bags import CutOff, Recorded, Ros1Bag, Ros2Bag
+from ._manual import Parser
 
 _Pose = tuple[float, float, float]
 _Pose6 = tuple[float, float, float, float, float, float]
 _Entry = tuple[float, Union[sigloc.Scan, _Pose], str]
+_PROGRAM = "sigloc-bag2rawlog"
 _REORDERED = 1000  # entries: recorders mix up messages of some moments
 
 
@@ -205,23 +207,19 @@ def pose_of(text: str) -> _Pose:
     return x, y, math.radians(degrees)
 
 
-class Parser(argparse.ArgumentParser):
-    """Tells in one line what is wrong, as the other programs do."""
-
-    def error(self, message: str) -> NoReturn:
-        raise ValueError(message)
-
-
-def parse(words: Optional[list[str]]) -> argparse.Namespace:
-    parser = Parser(prog="bag2rawlog", description=(__doc__ or "").splitlines()[0])
-    parser.add_argument("bag", type=pathlib.Path)
-    parser.add_argument("-o", "--output", type=pathlib.Path, help="default: the bag's name with .rawlog")
-    parser.add_argument("--scan", action="append", default=[], metavar="TOPIC", help="default: every LaserScan")
+def make_parser() -> Parser:
+    parser = Parser(prog=_PROGRAM, description=(__doc__ or "").splitlines()[0])
+    parser.add_argument("bag", type=pathlib.Path, metavar="BAG", help="the recording")
+    parser.add_argument("-o", "--output", type=pathlib.Path, metavar="RAWLOG",
+                        help="the rawlog; default: the bag's name with .rawlog")  # fmt: skip
+    parser.add_argument("--scan", action="append", default=[], metavar="TOPIC",
+                        help="a LaserScan to take, may be repeated; default: every one")  # fmt: skip
     parser.add_argument("--odom", metavar="TOPIC", help="nav_msgs/Odometry to use instead of the transform")
-    parser.add_argument("--odom-frame", default="odom", metavar="FRAME")
+    parser.add_argument("--odom-frame", default="odom", metavar="FRAME", help="the odometry's frame; default: odom")
     parser.add_argument("--base", metavar="FRAME", help="the robot's frame; default: the one that odometry moves")
-    parser.add_argument("--mount", type=pose_of, metavar="X,Y,DEG", help="of the laser on the robot")
-    return parser.parse_args(words)
+    parser.add_argument("--mount", type=pose_of, metavar="X,Y,DEG",
+                        help="where the laser is on the robot; default: what the transforms say")  # fmt: skip
+    return parser
 
 
 def convert(arguments: argparse.Namespace) -> int:
@@ -235,17 +233,21 @@ def convert(arguments: argparse.Namespace) -> int:
     source = wanted.odometry or f"transform from {wanted.odom_frame} to {wanted.base}"
     print(f"{output}: {scans} scans, {readings} readings of odometry ({source})")
     if conversion.left_out:
-        print(f"bag2rawlog: {conversion.left_out} messages left out: {conversion.reason}", file=sys.stderr)
+        print(f"{_PROGRAM}: {conversion.left_out} messages left out: {conversion.reason}", file=sys.stderr)
     if survey.cut_off:
-        print(f"bag2rawlog: {arguments.bag}: cut off; all before is converted", file=sys.stderr)
+        print(f"{_PROGRAM}: {arguments.bag}: cut off; all before is converted", file=sys.stderr)
     return 2 if survey.cut_off else 0
 
 
 def main(words: Optional[list[str]] = None) -> int:
     try:
-        return convert(parse(words))
+        parser = make_parser()
+        if printed := parser.printed(words):
+            print(printed, end="")
+            return 0
+        return convert(parser.parse_args(words))
     except (OSError, ValueError) as error:
-        print(f"bag2rawlog: {error}", file=sys.stderr)
+        print(f"{_PROGRAM}: {error}", file=sys.stderr)
         return 1
 
 

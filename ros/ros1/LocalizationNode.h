@@ -42,6 +42,9 @@ struct NodeParameters
 /// Reads all of them. Throws std::invalid_argument naming what is of another type or out of range.
 NodeParameters readParameters(const ros::NodeHandle& parameters);
 
+/// Returns a line for each parameter, as it is typed with its default, and what it is for.
+std::string describeParameters();
+
 /// Finds the robot in the map of a robot with ROS 1, and follows it. What it subscribes to and
 /// publishes is in ros/README.md. Everything runs in the callbacks of one thread.
 class LocalizationNode

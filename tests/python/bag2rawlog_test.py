@@ -33,7 +33,7 @@ def run(*arguments):
 def refused(*arguments):
     done = run(*arguments)
     assert done.returncode == 1 and done.stdout == "", done
-    assert done.stderr.startswith("bag2rawlog: ") and done.stderr.count("\n") == 1, done.stderr
+    assert done.stderr.startswith("sigloc-bag2rawlog: ") and done.stderr.count("\n") == 1, done.stderr
     return done.stderr
 
 
@@ -199,7 +199,7 @@ def test_a_transform_that_is_none_is_left_out(drive, tmp_path):
     ros2_bag.write(bag, [("/tf", TRANSFORMS, time, turn), *ros2_messages(drive[:5])])
     done = run(bag)
     assert done.returncode == 0
-    assert done.stderr == "bag2rawlog: 1 messages left out: a pose is no number, or its quaternion not of length 1\n"
+    assert done.stderr == "sigloc-bag2rawlog: 1 messages left out: a pose is no number, or its quaternion not of length 1\n"
 
 
 def test_without_a_scan_of_use_nothing_is_written(drive, tmp_path):
@@ -229,7 +229,7 @@ def test_messages_that_cannot_be_used_are_left_out(drive, tmp_path):
     ros2_bag.write(bag, messages)
     done = run(bag)
     assert done.returncode == 0
-    assert done.stderr == "bag2rawlog: 2 messages left out: a message is cut off\n"
+    assert done.stderr == "sigloc-bag2rawlog: 2 messages left out: a message is cut off\n"
     assert sum(1 for _ in sigloc.Log(tmp_path / "a.rawlog")) == 18
 
 

@@ -60,7 +60,7 @@ def test_a_bag_that_is_cut_off(bag, tmp_path):
     cut.write_bytes(cut.read_bytes()[: cut.stat().st_size * 4 // 5])
     done = run(cut)
     assert done.returncode == 2
-    assert done.stderr == f"bag2rawlog: {cut}: cut off; all before is converted\n"
+    assert done.stderr == f"sigloc-bag2rawlog: {cut}: cut off; all before is converted\n"
     steps = sum(1 for _ in sigloc.Log(tmp_path / "cut.rawlog"))
     assert 10 < steps < STEPS
     assert_is_the_office(tmp_path / "cut.rawlog", steps)
