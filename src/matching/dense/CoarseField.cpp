@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 
 #include "matching/dense/likelihood_table.h"
 
@@ -47,12 +48,41 @@ void forEachBlock(std::uint32_t first, std::uint32_t width, std::uint32_t ratio,
     visit(column, begin, std::min(end, width));
 }
 
-/// Returns the blocks of the field with free space, and those around them: a map may end a little
-/// before the free space does.
-ByteRaster standingBlocks(const DenseField& field, const RasterFrame& blocks)
+/// True where the distance bytes of all cells are 255.
+bool areFar(const DenseCell* cells, std::uint32_t count)
 {
-  const std::uint32_t ratio = ratioOf(blocks, field.frame);
-  ByteRaster free(blocks.width, blocks.height, field.isTiled());
+  // By words, of which the compiler takes several at a time.
+  std::uint32_t common = UINT32_MAX;
+  for (std::uint32_t x = 0; x < count; ++x)
+  {
+    std::uint32_t word = 0;
+    std::memcpy(&word, &cells[x], sizeof(word));
+    common &= word;
+  }
+  DenseCell all;
+  static_assert(sizeof(all) == sizeof(common));
+  std::memcpy(static_cast<void*>(&all), &common, sizeof(common));
+  return all.distance == 255;
+}
+}  // namespace
+
+RasterFrame coarserFrame(const RasterFrame& fine, double cell)
+{
+  const auto ratio = static_cast<std::uint32_t>(std::max(1.0, std::round(cell / fine.resolution)));
+  RasterFrame frame;
+  frame.origin = fine.origin;
+  frame.resolution = fine.resolution * ratio;
+  frame.width = (fine.width + ratio - 1) / ratio;
+  frame.height = (fine.height + ratio - 1) / ratio;
+  return frame;
+}
+
+CoarseField::Standing::Standing(const DenseField& field)
+    : frame_(coarserFrame(field.frame, kStandingCell)),
+      blocks_(frame_.width, frame_.height, field.isTiled())
+{
+  const std::uint32_t ratio = ratioOf(frame_, field.frame);
+  ByteRaster free(frame_.width, frame_.height, field.isTiled());
   for (const StoredCells& stored : storedCells(field))
   {
     for (std::uint32_t y = 0; y < stored.height; ++y)
@@ -69,46 +99,35 @@ ByteRaster standingBlocks(const DenseField& field, const RasterFrame& blocks)
                    });
     }
   }
-  ByteRaster standing(blocks.width, blocks.height, field.isTiled());
   free.forEachSet(
       [&](std::uint32_t x, std::uint32_t y)
       {
-        for (std::uint32_t j = y == 0 ? 0 : y - 1; j < std::min(y + 2, blocks.height); ++j)
+        for (std::uint32_t j = y == 0 ? 0 : y - 1; j < std::min(y + 2, frame_.height); ++j)
         {
-          for (std::uint32_t i = x == 0 ? 0 : x - 1; i < std::min(x + 2, blocks.width); ++i)
+          for (std::uint32_t i = x == 0 ? 0 : x - 1; i < std::min(x + 2, frame_.width); ++i)
           {
-            standing.at(i, j) = kStanding;
+            blocks_.at(i, j) = kStanding;
           }
         }
       });
-  return standing;
-}
-}  // namespace
-
-RasterFrame coarserFrame(const RasterFrame& fine, double cell)
-{
-  const auto ratio = static_cast<std::uint32_t>(std::max(1.0, std::round(cell / fine.resolution)));
-  RasterFrame frame;
-  frame.origin = fine.origin;
-  frame.resolution = fine.resolution * ratio;
-  frame.width = (fine.width + ratio - 1) / ratio;
-  frame.height = (fine.height + ratio - 1) / ratio;
-  return frame;
 }
 
-CoarseField::CoarseField(const DenseField& field) : CoarseField(field, likelihoodFrame(field.frame))
+CoarseField::CoarseField(const DenseField& field, const Standing& standing)
+    : CoarseField(field, standing, likelihoodFrame(field.frame))
 {
 }
 
-CoarseField::CoarseField(const DenseField& field, double cell)
-    : CoarseField(field, coarserFrame(field.frame, cell))
+CoarseField::CoarseField(const DenseField& field, const Standing& standing, double cell)
+    : CoarseField(field, standing, coarserFrame(field.frame, cell))
 {
 }
 
-CoarseField::CoarseField(const DenseField& field, const RasterFrame& frame) : frame_(frame)
+CoarseField::CoarseField(const DenseField& field, const Standing& standing,
+                         const RasterFrame& frame)
+    : frame_(frame)
 {
   fillLikelihoods(field);
-  markStanding(field);
+  mark(standing, field.frame);
 }
 
 void CoarseField::fillLikelihoods(const DenseField& field)
@@ -128,47 +147,53 @@ void CoarseField::fillLikelihoods(const DenseField& field)
     const auto byte = static_cast<std::uint8_t>(std::lround(255.0F * coarseTable()[d]));
     bytes[d] = byte & static_cast<std::uint8_t>(~kStanding);
   }
+  // Most of a map is far from walls.
+  constexpr std::uint32_t kPiece = 64;
+  const bool far_is_nothing = bytes[255] == 0;
   for (const StoredCells& stored : storedCells(field))
   {
     for (std::uint32_t y = 0; y < stored.height; ++y)
     {
-      const DenseCell* row = stored.row(y);
       const std::uint32_t coarse_row = (stored.y + y) / ratio + border_;
-      forEachBlock(stored.x, stored.width, ratio,
-                   [&](std::uint32_t column, std::uint32_t begin, std::uint32_t end)
-                   {
-                     std::uint8_t byte = 0;
-                     for (std::uint32_t x = begin; x < end; ++x)
-                       byte = std::max(byte, bytes[row[x].distance]);
-                     if (byte == 0) return;
-                     std::uint8_t& best = likelihoods_.at(column + border_, coarse_row);
-                     best = std::max(best, byte);
-                   });
+      for (std::uint32_t from = 0; from < stored.width; from += kPiece)
+      {
+        const DenseCell* cells = stored.row(y) + from;
+        const std::uint32_t count = std::min(kPiece, stored.width - from);
+        if (far_is_nothing && areFar(cells, count)) continue;
+        forEachBlock(stored.x + from, count, ratio,
+                     [&](std::uint32_t column, std::uint32_t begin, std::uint32_t end)
+                     {
+                       std::uint8_t byte = 0;
+                       for (std::uint32_t x = begin; x < end; ++x)
+                         byte = std::max(byte, bytes[cells[x].distance]);
+                       if (byte == 0) return;
+                       std::uint8_t& best = likelihoods_.at(column + border_, coarse_row);
+                       best = std::max(best, byte);
+                     });
+      }
     }
   }
 }
 
-void CoarseField::markStanding(const DenseField& field)
+void CoarseField::mark(const Standing& standing, const RasterFrame& fine)
 {
-  const RasterFrame blocks = coarserFrame(field.frame, kStandingCell);
-  const std::uint32_t ratio = ratioOf(frame_, field.frame);
-  const std::uint32_t block_ratio = ratioOf(blocks, field.frame);
+  const std::uint32_t ratio = ratioOf(frame_, fine);
+  const std::uint32_t block_ratio = ratioOf(standing.frame_, fine);
   const std::uint32_t width = frame_.width - 2 * border_;
   const std::uint32_t height = frame_.height - 2 * border_;
   const auto first_in = [&](std::uint32_t block)
   { return (block * block_ratio + ratio - 1) / ratio; };
-  standingBlocks(field, blocks)
-      .forEachSet(
-          [&](std::uint32_t x, std::uint32_t y)
+  standing.blocks_.forEachSet(
+      [&](std::uint32_t x, std::uint32_t y)
+      {
+        for (std::uint32_t j = first_in(y); j < std::min(first_in(y + 1), height); ++j)
+        {
+          for (std::uint32_t i = first_in(x); i < std::min(first_in(x + 1), width); ++i)
           {
-            for (std::uint32_t j = first_in(y); j < std::min(first_in(y + 1), height); ++j)
-            {
-              for (std::uint32_t i = first_in(x); i < std::min(first_in(x + 1), width); ++i)
-              {
-                likelihoods_.at(i + border_, j + border_) |= kStanding;
-              }
-            }
-          });
+            likelihoods_.at(i + border_, j + border_) |= kStanding;
+          }
+        }
+      });
   likelihoods_.finish();
 }
 }  // namespace sigloc

@@ -38,10 +38,13 @@ class CoarseField
   /// of bytes this bit is too little to matter.
   static constexpr std::uint8_t kStanding = 1;
 
+  /// Where a robot could be, for several coarse fields of one field.
+  class Standing;
+
   /// A field with cells of 0.1 m, or 0.2 m where that would be too large for the cache.
-  explicit CoarseField(const DenseField& field);
+  CoarseField(const DenseField& field, const Standing& standing);
   /// A field with cells of about `cell` [m].
-  CoarseField(const DenseField& field, double cell);
+  CoarseField(const DenseField& field, const Standing& standing, double cell);
 
   /// Returns the scores of the proposals at which a robot could be, in their order. Of very many
   /// only those are returned that are best by their first returns.
@@ -58,13 +61,26 @@ class CoarseField
                           const std::vector<mrpt::math::TPose2D>& poses) const;
 
  private:
-  CoarseField(const DenseField& field, const RasterFrame& frame);
+  CoarseField(const DenseField& field, const Standing& standing, const RasterFrame& frame);
   class TurnedReturns;
   void fillLikelihoods(const DenseField& field);
-  void markStanding(const DenseField& field);
+  void mark(const Standing& standing, const RasterFrame& fine);
 
   RasterFrame frame_;  ///< with a border around the map, in which no robot is
   std::uint32_t border_ = 0;  ///< [cells] width of the border
   ByteRaster likelihoods_;
+};
+
+/// The blocks of a field with free space, and those around them: a map may end a little before the
+/// free space does.
+class CoarseField::Standing
+{
+ public:
+  explicit Standing(const DenseField& field);
+
+ private:
+  friend class CoarseField;
+  RasterFrame frame_;
+  ByteRaster blocks_;
 };
 }  // namespace sigloc

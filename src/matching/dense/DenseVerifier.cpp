@@ -101,8 +101,9 @@ DenseVerifier::DenseVerifier(const DenseField& field, double wall_blur)
     : field_(field), sharp_(wall_blur)
 {
   if (field.cells.empty()) throw std::invalid_argument("DenseVerifier: the field has no cells");
-  coarse_field_ = std::make_unique<CoarseField>(field);
-  rough_field_ = std::make_unique<CoarseField>(field, kRoughCell);
+  const CoarseField::Standing standing(field);
+  coarse_field_ = std::make_unique<CoarseField>(field, standing);
+  rough_field_ = std::make_unique<CoarseField>(field, standing, kRoughCell);
   wall_crossings_ = std::make_unique<WallCrossings>(field);
 }
 

@@ -155,6 +155,7 @@ KeyPairIndex::KeyPairIndex(const std::vector<KeyPoint>& points, const MapErrorMo
   entries_.resize(pairs);
   // One table after the other, so that what waits to be sorted takes little memory.
   std::vector<Placed> placed;
+  placed.reserve(pairs);  // what is not written to takes no memory
   std::uint32_t done = 0;
   for (std::size_t a = 0; a < kKeyPointKinds; ++a)
   {
