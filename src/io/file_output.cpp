@@ -8,10 +8,11 @@
 #include <mrpt/serialization/CArchive.h>
 #include <unistd.h>
 #include <zlib.h>
+#include <zstd.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <ostream>
+#include <memory>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -101,34 +102,23 @@ int writeBytes(int file, std::string_view bytes)
   return 0;
 }
 
-/// A gz-compressed file. An error is kept until close(). If it were thrown into MRPT's
-/// serialization, a call stack would be added to its message. MRPT's own stream loses the errors of
-/// closing.
-class GzipOutput final : public mrpt::io::CStream
+/// Opens a new file for writing. Returns a negative number where that fails.
+int openNew(const fs::path& path)
+{
+  constexpr mode_t kPermissions = 0666;  // less the user's mask
+  errno = 0;
+  return ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, kPermissions);
+}
+
+/// A compressed file. An error is kept until close(). If it were thrown into MRPT's serialization,
+/// a call stack would be added to its message. MRPT's own stream loses the errors of closing.
+class PackedOutput : public mrpt::io::CStream
 {
  public:
-  GzipOutput(const fs::path& path, int compression)
-  {
-    errno = 0;
-    file_ = gzopen(path.c_str(), fmt::format("wb{}", compression).c_str());
-    if (file_ == nullptr) error_ = lastError();
-    if (file_ != nullptr) gzbuffer(file_, kBufferBytes);
-  }
-  ~GzipOutput() override { close(); }
-  GzipOutput(const GzipOutput&) = delete;
-  GzipOutput& operator=(const GzipOutput&) = delete;
-
   std::size_t Write(const void* buffer, std::size_t count) override
   {
     errno = 0;
-    const auto* bytes = static_cast<const char*>(buffer);
-    for (std::size_t done = 0; done < count && error_ == 0;)
-    {
-      // gzwrite takes at most INT_MAX bytes a call.
-      const auto chunk = static_cast<unsigned>(std::min<std::size_t>(count - done, 1U << 30U));
-      if (gzwrite(file_, bytes + done, chunk) != static_cast<int>(chunk)) error_ = lastError();
-      done += chunk;
-    }
+    if (error_ == 0) error_ = pack({static_cast<const char*>(buffer), count});
     position_ += count;
     return count;
   }
@@ -137,38 +127,138 @@ class GzipOutput final : public mrpt::io::CStream
   int close()
   {
     errno = 0;
-    const bool closed = file_ == nullptr || gzclose(std::exchange(file_, nullptr)) == Z_OK;
-    if (!closed && error_ == 0) error_ = lastError();
+    const int code = finish();
+    if (error_ == 0) error_ = code;
     return error_;
   }
 
   std::size_t Read(void*, std::size_t) override
   {
-    throw std::logic_error("GzipOutput is for writing only");
+    throw std::logic_error("PackedOutput is for writing only");
   }
   std::uint64_t Seek(std::int64_t, TSeekOrigin) override
   {
-    throw std::logic_error("GzipOutput writes front to back only");
+    throw std::logic_error("PackedOutput writes front to back only");
   }
   std::uint64_t getTotalBytesCount() const override { return position_; }
   std::uint64_t getPosition() const override { return position_; }
 
+ protected:
+  /// Both return the code of an error, 0 for none.
+  virtual int pack(std::string_view bytes) = 0;
+  virtual int finish() = 0;
+
+  int error_ = 0;
+
+ private:
+  std::uint64_t position_ = 0;
+};
+
+class GzipOutput final : public PackedOutput
+{
+ public:
+  GzipOutput(const fs::path& path, int level)
+  {
+    errno = 0;
+    file_ = gzopen(path.c_str(), fmt::format("wb{}", level).c_str());
+    if (file_ == nullptr) error_ = lastError();
+    if (file_ != nullptr) gzbuffer(file_, kBufferBytes);
+  }
+  ~GzipOutput() override { GzipOutput::finish(); }
+  GzipOutput(const GzipOutput&) = delete;
+  GzipOutput& operator=(const GzipOutput&) = delete;
+
  private:
   static constexpr unsigned kBufferBytes = 256U * 1024U;
 
+  int pack(std::string_view bytes) override
+  {
+    while (!bytes.empty())
+    {
+      // gzwrite takes at most INT_MAX bytes a call.
+      const std::string_view chunk = bytes.substr(0, 1U << 30U);
+      const auto size = static_cast<unsigned>(chunk.size());
+      if (gzwrite(file_, chunk.data(), size) != static_cast<int>(size)) return lastError();
+      bytes.remove_prefix(chunk.size());
+    }
+    return 0;
+  }
+
+  int finish() override
+  {
+    const bool closed = file_ == nullptr || gzclose(std::exchange(file_, nullptr)) == Z_OK;
+    return closed ? 0 : lastError();
+  }
+
   gzFile file_ = nullptr;
-  std::uint64_t position_ = 0;
-  int error_ = 0;
 };
+
+class ZstdOutput final : public PackedOutput
+{
+ public:
+  explicit ZstdOutput(const fs::path& path)
+      : file_(openNew(path)), packed_(ZSTD_CStreamOutSize(), '\0'), stream_(ZSTD_createCStream())
+  {
+    if (file_ < 0) error_ = lastError();
+    ZSTD_CCtx_setParameter(stream_.get(), ZSTD_c_compressionLevel, 1);
+    ZSTD_CCtx_setParameter(stream_.get(), ZSTD_c_checksumFlag, 1);
+  }
+  ~ZstdOutput() override
+  {
+    if (file_ >= 0) ::close(file_);
+  }
+  ZstdOutput(const ZstdOutput&) = delete;
+  ZstdOutput& operator=(const ZstdOutput&) = delete;
+
+ private:
+  struct Free
+  {
+    void operator()(ZSTD_CStream* stream) const { ZSTD_freeCStream(stream); }
+  };
+
+  int pack(std::string_view bytes) override { return write(bytes, ZSTD_e_continue); }
+
+  int finish() override
+  {
+    const int code = error_ == 0 ? write({}, ZSTD_e_end) : 0;
+    const bool closed = file_ < 0 || ::close(std::exchange(file_, -1)) == 0;
+    return code == 0 && !closed ? lastError() : code;
+  }
+
+  int write(std::string_view bytes, ZSTD_EndDirective directive)
+  {
+    ZSTD_inBuffer in{bytes.data(), bytes.size(), 0};
+    for (std::size_t left = 1; left > 0;)
+    {
+      ZSTD_outBuffer out{packed_.data(), packed_.size(), 0};
+      left = ZSTD_compressStream2(stream_.get(), &out, &in, directive);
+      if (ZSTD_isError(left) != 0) return ENOMEM;
+      const int code = writeBytes(file_, std::string_view(packed_).substr(0, out.pos));
+      if (code != 0) return code;
+      // What it holds back comes out at the end.
+      if (directive == ZSTD_e_continue) left = in.size - in.pos;
+    }
+    return 0;
+  }
+
+  int file_;
+  std::string packed_;
+  std::unique_ptr<ZSTD_CStream, Free> stream_;
+};
+
+std::unique_ptr<PackedOutput> packedOutput(const fs::path& path, Packing packing)
+{
+  if (packing == Packing::zstd) return std::make_unique<ZstdOutput>(path);
+  constexpr int kQuickest = 1;
+  constexpr int kSmallest = 9;
+  return std::make_unique<GzipOutput>(path, packing == Packing::small_gzip ? kSmallest : kQuickest);
+}
 }  // namespace
 
 void writeFile(const fs::path& path, std::string_view bytes, Durability durability)
 {
   TemporaryFile temporary(path);
-  constexpr mode_t kPermissions = 0666;  // less the user's mask
-  errno = 0;
-  const int file =
-      ::open(temporary.path().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, kPermissions);
+  const int file = openNew(temporary.path());
   if (file < 0) fail(path.string(), lastError());
   const int error = writeBytes(file, bytes);
   const bool closed = ::close(file) == 0;
@@ -176,14 +266,14 @@ void writeFile(const fs::path& path, std::string_view bytes, Durability durabili
 }
 
 void writeObjects(const fs::path& path,
-                  const std::function<void(mrpt::serialization::CArchive&)>& write, int compression,
+                  const std::function<void(mrpt::serialization::CArchive&)>& write, Packing packing,
                   Durability durability)
 {
   TemporaryFile temporary(path);
-  GzipOutput output(temporary.path(), compression);
-  auto archive = mrpt::serialization::archiveFrom(output);
+  const std::unique_ptr<PackedOutput> output = packedOutput(temporary.path(), packing);
+  auto archive = mrpt::serialization::archiveFrom(*output);
   write(archive);
-  temporary.keepUnless(output.close(), durability);
+  temporary.keepUnless(output->close(), durability);
 }
 
 void syncFolder(const fs::path& folder)
@@ -201,25 +291,5 @@ std::string withoutTemporaryEnding(const std::string& name)
   const bool numbered =
       digits < name.size() && name.find_first_not_of("0123456789", digits) == std::string::npos;
   return numbered ? name.substr(0, ending) : name;
-}
-
-void finishOutput(std::ostream& out)
-{
-  // Where writing has failed already, the code of that error is still there, and flush() sets none.
-  if (out) errno = 0;
-  if (!out.flush()) fail("standard output", lastError());
-}
-
-std::string firstLine(const std::string& message)
-{
-  // MRPT's exceptions wrap the reason in a header, the source position and a call stack.
-  std::size_t begin = 0;
-  for (const std::string marker : {"==== MRPT exception ====", "Message:"})
-  {
-    const std::size_t found = message.find(marker, begin);
-    if (found != std::string::npos) begin = found + marker.size();
-    begin = std::min(message.find_first_not_of(" \n", begin), message.size());
-  }
-  return message.substr(begin, message.find('\n', begin) - begin);
 }
 }  // namespace sigloc

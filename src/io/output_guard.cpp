@@ -1,8 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
+//
+// Programs call some of this before they load the library. So nothing is called here that needs
+// MRPT's libraries.
 #include "sigloc/io/file_output.h"
 
 #include <algorithm>
+#include <cerrno>
+#include <ostream>
 #include <stdexcept>
 #include <system_error>
 
@@ -52,5 +57,26 @@ void checkOutputFolder(const fs::path& folder, const OutputFolderRule& rule,
                              ", but is no folder of an earlier run of " + rule.owner +
                              "; not overwritten");
   }
+}
+void finishOutput(std::ostream& out)
+{
+  // Where writing has failed already, the code of that error is still there, and flush() sets none.
+  if (out) errno = 0;
+  if (out.flush()) return;
+  const std::string reason = std::generic_category().message(errno != 0 ? errno : EIO);
+  throw std::runtime_error("standard output: cannot be written: " + reason);
+}
+
+std::string firstLine(const std::string& message)
+{
+  // MRPT's exceptions wrap the reason in a header, the source position and a call stack.
+  std::size_t begin = 0;
+  for (const std::string marker : {"==== MRPT exception ====", "Message:"})
+  {
+    const std::size_t found = message.find(marker, begin);
+    if (found != std::string::npos) begin = found + marker.size();
+    begin = std::min(message.find_first_not_of(" \n", begin), message.size());
+  }
+  return message.substr(begin, message.find('\n', begin) - begin);
 }
 }  // namespace sigloc

@@ -289,7 +289,7 @@ void RunWriter::writeScene(const FeatureMap& map, const StepRecord& step,
   if (!hypotheses.empty()) lookAt(hypotheses.front().pose.mean, scene);
   writeObjects(
       work_ / "3D" / (stepName(step) + ".3Dscene"),
-      [&](mrpt::serialization::CArchive& archive) { archive << scene; }, kQuickCompression,
+      [&](mrpt::serialization::CArchive& archive) { archive << scene; }, Packing::quick_gzip,
       Durability::with_folder);
 }
 

@@ -8,6 +8,7 @@
 
 #include <csignal>
 #include <random>
+#include <utility>
 
 #include "rawlog_files.h"
 
@@ -62,18 +63,21 @@ TEST(FileOutput, givesAFileItsNameOnceItIsWhole)
 
 TEST(FileOutput, tellsWhyObjectsCannotBeWritten)
 {
-  // Little enough to be kept in zlib's buffer until the file is closed, and more than that.
-  for (const std::size_t bytes : {20000U, 2000000U})
+  // Little enough to be kept in a buffer until the file is closed, and more than that.
+  for (const auto& [bytes, packing] :
+       {std::pair(20000U, Packing::quick_gzip), std::pair(2000000U, Packing::quick_gzip),
+        std::pair(20000U, Packing::zstd), std::pair(2000000U, Packing::zstd)})
   {
     const TemporaryFolder folder;
     const fs::path path = folder / "objects";
     const SmallFiles limit(1000);
-    const auto write = [&](mrpt::serialization::CArchive& archive)
+    const auto write = [size = bytes](mrpt::serialization::CArchive& archive)
     {
       std::mt19937 generator(1);
-      for (std::size_t i = 0; i < bytes; i += 4) archive << std::uint32_t(generator());
+      for (std::size_t i = 0; i < size; i += 4) archive << std::uint32_t(generator());
     };
-    EXPECT_EQ(messageOf<std::runtime_error>([&] { writeObjects(path, write); }),
+    EXPECT_EQ(messageOf<std::runtime_error>([&, packing = packing]
+                                            { writeObjects(path, write, packing); }),
               path.string() + ": cannot be written: File too large");
     EXPECT_EQ(entriesOf(folder), 0);
   }
@@ -85,7 +89,16 @@ TEST(FileOutput, tellsThatAFolderIsMissing)
   const fs::path path = folder / "none/file";
   const std::string expected = path.string() + ": cannot be written: No such file or directory";
   EXPECT_EQ(messageOf<std::runtime_error>([&] { writeFile(path, ""); }), expected);
-  EXPECT_EQ(messageOf<std::runtime_error>([&] { writeObjects(path, [](auto&) {}); }), expected);
+  for (const Packing packing : {Packing::quick_gzip, Packing::zstd})
+  {
+    EXPECT_EQ(messageOf<std::runtime_error>(
+                  [&]
+                  {
+                    writeObjects(
+                        path, [](auto&) {}, packing);
+                  }),
+              expected);
+  }
 }
 
 TEST(FileOutput, writesWhereALinkPoints)

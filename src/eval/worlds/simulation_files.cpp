@@ -157,7 +157,7 @@ void writeSimpleMap(const std::vector<PosedScans>& scans, const fs::path& path)
     time += 1.0;
   }
   writeObjects(
-      path, [&](CArchive& archive) { archive << map; }, kBestCompression);
+      path, [&](CArchive& archive) { archive << map; }, Packing::small_gzip);
 }
 
 void writeGridMap(const World& world, double resolution, const fs::path& path)
@@ -183,7 +183,7 @@ void writeGridMap(const std::vector<PlacedWorld>& worlds, double resolution, con
     drawSurfaces(placed, grid);
   }
   writeObjects(
-      path, [&](CArchive& archive) { archive << grid; }, kBestCompression);
+      path, [&](CArchive& archive) { archive << grid; }, Packing::small_gzip);
 }
 
 void writeRawlog(const std::vector<DriveStep>& steps, const OdometryOptions& odometry,
@@ -211,7 +211,7 @@ void writeRawlog(const std::vector<DriveStep>& steps, const OdometryOptions& odo
       for (const auto& observation : frameOf(step)) archive << *observation;
     }
   };
-  writeObjects(path, write, kBestCompression);
+  writeObjects(path, write, Packing::small_gzip);
 }
 
 void checkSimulationFolder(const fs::path& folder)

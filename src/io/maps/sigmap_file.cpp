@@ -25,7 +25,8 @@ using mrpt::serialization::CArchive;
 
 namespace
 {
-// The whole file is one gzip member, whose own checksum covers every byte of it.
+// The whole file is one zstd frame, or of older versions one gzip member, whose own checksum covers
+// every byte of it.
 constexpr char kMagic[] = "sigloc-map\n";
 constexpr std::size_t kMagicSize = sizeof(kMagic) - 1;
 constexpr std::uint8_t kBodyVersion = 4;  // the field is in tiles
@@ -70,21 +71,42 @@ struct CellCounts
 /// Adds the counts of a plane of states.
 void countStates(const std::uint8_t* states, std::size_t n, CellCounts& counts)
 {
-  std::uint32_t free = 0;
-  std::uint32_t walls = 0;
+  // Counts of few enough to fit a byte: sixteen of those are added at a time.
+  constexpr std::size_t kFew = 255;
   std::uint8_t largest = 0;
-  for (std::size_t i = 0; i < n; ++i)
+  for (std::size_t begin = 0; begin < n; begin += kFew)
   {
-    free += states[i] == static_cast<std::uint8_t>(CellState::free) ? 1 : 0;
-    walls += states[i] >= static_cast<std::uint8_t>(CellState::wall) ? 1 : 0;
-    largest = std::max(largest, states[i]);
+    std::uint8_t free = 0;
+    std::uint8_t walls = 0;
+    for (std::size_t i = begin; i < std::min(n, begin + kFew); ++i)
+    {
+      free = static_cast<std::uint8_t>(
+          free + (states[i] == static_cast<std::uint8_t>(CellState::free) ? 1 : 0));
+      walls = static_cast<std::uint8_t>(
+          walls + (states[i] >= static_cast<std::uint8_t>(CellState::wall) ? 1 : 0));
+      largest = std::max(largest, states[i]);
+    }
+    counts.free += free;
+    counts.walls += walls;
   }
   if (largest > static_cast<std::uint8_t>(CellState::solid_wall))
   {
     throw detail::BadContent("a cell of no known state");
   }
-  counts.free += free;
-  counts.walls += walls;
+}
+
+/// Puts cells together from their four planes, as words whose bytes lie in memory like theirs: the
+/// compiler makes several at a time of it.
+void joinPlanes(const std::uint8_t* planes, std::size_t n, std::uint32_t* words)
+{
+  constexpr bool kLowFirst = __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__;
+  const auto placed = [](std::uint8_t byte, unsigned place)
+  { return std::uint32_t{byte} << 8U * (kLowFirst ? place : 3 - place); };
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    words[i] = placed(planes[i], 0) | placed(planes[n + i], 1) | placed(planes[2 * n + i], 2) |
+               placed(planes[3 * n + i], 3);
+  }
 }
 
 /// Appends cells until there are `count`, and returns the counts of those.
@@ -92,6 +114,7 @@ CellCounts readCells(CArchive& in, std::size_t count, std::vector<DenseCell>& ce
 {
   CellCounts counts;
   std::vector<std::uint8_t> planes(4 * kBlockCells);
+  std::vector<std::uint32_t> words(kBlockCells);
   std::vector<DenseCell> block(kBlockCells);
   while (cells.size() < count)
   {
@@ -102,12 +125,9 @@ CellCounts readCells(CArchive& in, std::size_t count, std::vector<DenseCell>& ce
     // is stored whole is then moved once at most, early on.
     if (first + n > cells.capacity()) cells.reserve(std::min(count, 16 * (first + n)));
     countStates(&planes[3 * n], n, counts);
-    for (std::size_t i = 0; i < n; ++i)
-    {
-      block[i] = {planes[i], static_cast<std::int8_t>(planes[n + i]),
-                  static_cast<std::int8_t>(planes[2 * n + i]),
-                  static_cast<CellState>(planes[3 * n + i])};
-    }
+    joinPlanes(planes.data(), n, words.data());
+    static_assert(sizeof(DenseCell) == sizeof(std::uint32_t));
+    std::memcpy(static_cast<void*>(block.data()), words.data(), n * sizeof(DenseCell));
     cells.insert(cells.end(), block.begin(), block.begin() + static_cast<std::ptrdiff_t>(n));
   }
   return counts;
@@ -261,7 +281,7 @@ FeatureMap readSigmap(const std::filesystem::path& path)
 
 void saveSigmap(const FeatureMap& map, const std::filesystem::path& path)
 {
-  // The lowest level of compression: maps are written often and read more often.
+  // Maps are written often and read more often.
   writeObjects(
       path,
       [&](CArchive& archive)
@@ -269,7 +289,7 @@ void saveSigmap(const FeatureMap& map, const std::filesystem::path& path)
         archive.WriteBuffer(kMagic, kMagicSize);
         writeFeatureMap(map, archive);
       },
-      kQuickCompression);
+      Packing::zstd);
 }
 
 FeatureMap loadSigmap(const std::filesystem::path& path)
