@@ -19,7 +19,8 @@ namespace sigloc
 /// Prints one line about a file on stderr, unless the line is empty.
 inline void warn(const char* program, const std::filesystem::path& file, const std::string& message)
 {
-  if (!message.empty()) std::cerr << program << ": " << file.string() << ": " << message << '\n';
+  if (message.empty()) return;
+  std::cerr << program << ": " << oneLine(file.string() + ": " + message) << '\n';
 }
 
 /// The commands of a program, or the options of the command that was given and of the program.
@@ -98,7 +99,7 @@ inline int runApp(CLI::App& app, int argc, char** argv, const std::function<int(
   }
   catch (const std::exception& error)
   {
-    std::cerr << app.get_name() << ": " << firstLine(error.what()) << '\n';
+    std::cerr << app.get_name() << ": " << oneLine(error.what()) << '\n';
     return 1;
   }
 }

@@ -13,6 +13,7 @@
 #include <stdexcept>
 
 #include "eval/data/method_names.h"
+#include "run_app.h"
 #include "sigloc/io/map_files.h"
 
 namespace sigloc
@@ -126,8 +127,7 @@ std::vector<std::filesystem::path> inputFiles(const std::filesystem::path& map,
 int exitCode(bool complete, const std::filesystem::path& rawlog)
 {
   if (complete) return 0;
-  std::cerr << "sigloc-eval: " << rawlog.string()
-            << ": truncated, only what comes before the damage was used\n";
+  warn("sigloc-eval", rawlog, "truncated, only what comes before the damage was used");
   return 2;
 }
 

@@ -74,7 +74,7 @@ SimulatedLaserOptions readLaser(const std::filesystem::path& ini,
   }
   catch (const std::exception& error)
   {
-    throw std::runtime_error(ini.string() + ": " + firstLine(error.what()));
+    throw std::runtime_error(ini.string() + ": " + oneLine(error.what()));
   }
 }
 }  // namespace sigloc

@@ -75,7 +75,7 @@ void withFile(const std::function<void()>& work)
   }
   catch (const std::runtime_error& error)
   {
-    const std::string reason = firstLine(error.what());
+    const std::string reason = oneLine(error.what());
     const bool missing = reason.find("no such file") != std::string::npos;
     PyErr_SetString(missing ? PyExc_FileNotFoundError : PyExc_OSError, reason.c_str());
     throw py::error_already_set();

@@ -75,7 +75,7 @@ std::pair<std::size_t, std::size_t> writeLog(const std::filesystem::path& path,
   catch (const std::runtime_error& error)
   {
     if (raised) std::rethrow_exception(raised);
-    PyErr_SetString(PyExc_OSError, firstLine(error.what()).c_str());
+    PyErr_SetString(PyExc_OSError, oneLine(error.what()).c_str());
     throw py::error_already_set();
   }
   return {scans, readings};

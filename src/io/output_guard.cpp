@@ -67,16 +67,24 @@ void finishOutput(std::ostream& out)
   throw std::runtime_error("standard output: cannot be written: " + reason);
 }
 
-std::string firstLine(const std::string& message)
+std::string oneLine(const std::string& message)
 {
   // MRPT's exceptions wrap the reason in a header, the source position and a call stack.
-  std::size_t begin = 0;
-  for (const std::string marker : {"==== MRPT exception ====", "Message:"})
+  std::string line = message;
+  const std::string header = "==== MRPT exception ====";
+  const std::size_t wrapped = message.find(header);
+  if (wrapped != std::string::npos)
   {
+    std::size_t begin = wrapped + header.size();
+    const std::string marker = "Message:";
     const std::size_t found = message.find(marker, begin);
     if (found != std::string::npos) begin = found + marker.size();
     begin = std::min(message.find_first_not_of(" \n", begin), message.size());
+    line = message.substr(begin, message.find('\n', begin) - begin);
   }
-  return message.substr(begin, message.find('\n', begin) - begin);
+  line.erase(line.find_last_not_of('\n') + 1);
+  const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7F; };
+  std::replace_if(line.begin(), line.end(), is_control, '?');
+  return line;
 }
 }  // namespace sigloc

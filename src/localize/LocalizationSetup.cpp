@@ -271,7 +271,7 @@ LocalizationSetup parse(const fs::path& path, Read&& read)
   }
   catch (const std::exception& error)
   {
-    throw std::runtime_error(path.string() + ": " + firstLine(error.what()));
+    throw std::runtime_error(path.string() + ": " + oneLine(error.what()));
   }
 }
 }  // namespace

@@ -206,13 +206,15 @@ TEST(LocalizationSetup, warnsOfKeysThatAreThereTwice)
   EXPECT_NE(setup.warnings[1].find("[sigloc.matcher]: 'seed'"), std::string::npos);
 }
 
-TEST(LocalizationSetup, messagesLoseMrptsTrimmings)
+TEST(LocalizationSetup, messagesAreOneLineWithoutMrptsTrimmings)
 {
-  EXPECT_EQ(firstLine("==== MRPT exception ====\nMessage:  It broke\nLocation: x.cpp:1\n"),
+  EXPECT_EQ(oneLine("==== MRPT exception ====\nMessage:  It broke\nLocation: x.cpp:1\n"),
             "It broke");
-  EXPECT_EQ(firstLine("==== MRPT exception ====\nIt broke\nCall stack:\n"), "It broke");
-  EXPECT_EQ(firstLine("plain"), "plain");
-  EXPECT_EQ(firstLine(""), "");
+  EXPECT_EQ(oneLine("==== MRPT exception ====\nIt broke\nCall stack:\n"), "It broke");
+  EXPECT_EQ(oneLine("plain"), "plain");
+  EXPECT_EQ(oneLine("two\nlines\n"), "two?lines");
+  EXPECT_EQ(oneLine("\x1B[2J\x7F\tgr\xC3\xBC\xC3\x9F"), "?[2J??gr\xC3\xBC\xC3\x9F");
+  EXPECT_EQ(oneLine(""), "");
 }
 }  // namespace
 }  // namespace sigloc

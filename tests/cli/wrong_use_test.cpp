@@ -83,6 +83,38 @@ TEST(CommandLine, misspeltOptionsAndCommandsAreTold)
                 "no such option: --jsno; did you mean '--json'?");
 }
 
+TEST(CommandLine, aLineBreakInANameHidesNoReason)
+{
+  const TemporaryFolder folder;
+  const std::string shown = ": a?b";
+  const std::string lab = kLabMap.string();
+  expectOneLine(folder, "sigloc-map", {"build", "-i", "a\nb.simplemap", "-o", "m.sigmap"},
+                shown + ".simplemap: no such file");
+  for (const std::string name : {"a\nb.simplemap", "a\nb.sigmap", "a\nb.yaml", "a\nb.rawlog",
+                                 "a\nb.csv", "a\nb.ini", "a\x1B[2Jb"})
+  {
+    writeText(folder / name, "spoilt\n");
+    for (const auto& [program, arguments] : std::vector<std::pair<std::string, Arguments>>{
+             {"sigloc-map", {"build", "-i", name, "-o", "m.sigmap"}},
+             {"sigloc-map", {"info", name}},
+             {"sigloc-map", {"build", "-i", lab, "-o", "none\n/m.sigmap"}},
+             {"sigloc-align", {lab, name}},
+             {"sigloc-localize", {name}},
+             {"sigloc-localize", {"--map", lab, "--log", name}},
+             {"sigloc-localize", {"--map", name, "--log", kLabLog.string()}},
+             {"sigloc-localize", {"--map", lab, "--log", kLabLog.string(), "--out", name}}})
+    {
+      SCOPED_TRACE(program + " " + arguments.front());
+      const CommandResult result = run(folder, program, arguments);
+      EXPECT_EQ(result.exit_code, 1);
+      EXPECT_EQ(countLines(result.errors), 1) << result.errors;
+      const std::size_t at = result.errors.find(": ", result.errors.find('?'));
+      ASSERT_NE(at, std::string::npos) << result.errors;
+      EXPECT_GT(result.errors.size(), at + 8) << result.errors << "names no reason";
+    }
+  }
+}
+
 TEST(CommandLine, misspeltFilesAndKeysAreTold)
 {
   const TemporaryFolder folder;

@@ -79,6 +79,7 @@ struct OutputFolderRule
 void checkOutputFolder(const std::filesystem::path& folder, const OutputFolderRule& rule,
                        const std::vector<std::filesystem::path>& inputs);
 
-/// Returns a message without the source positions and stack traces that MRPT's exceptions add.
-std::string firstLine(const std::string& message);
+/// Returns a message in one line: without the source positions and stack traces that MRPT's
+/// exceptions add, and with '?' for control characters, which a file's name may hold.
+std::string oneLine(const std::string& message);
 }  // namespace sigloc

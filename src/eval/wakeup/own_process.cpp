@@ -75,7 +75,7 @@ void sendFailure(int out, const std::string& reason)
   }
   catch (const std::exception& error)
   {
-    sendFailure(out, firstLine(error.what()));
+    sendFailure(out, oneLine(error.what()));
   }
   catch (...)
   {
