@@ -30,6 +30,8 @@ constexpr std::array<std::size_t, 3> kPairProposals = {1024, 4096, 16000};  // a
 constexpr std::size_t kLeastSupporters = 3;  // of a pose that ends the search
 constexpr std::size_t kMinLandmarks = 2;  // features needed without a laser
 constexpr std::size_t kMaxBeams = 400;  // of a scene that are used; more are thinned evenly
+// The probability that the right pose was not proposed where nothing significant was found.
+constexpr double kMissed = 0.2;
 
 /// Returns the probability that the right pose was not proposed, or not refined. With hypotheses
 /// that features support it is near 0 where the best pose explains significantly many of them. In
@@ -37,7 +39,6 @@ constexpr std::size_t kMaxBeams = 400;  // of a scene that are used; more are th
 double missedProbability(const std::vector<FeatureHypothesis>& hypotheses, const TPose2D& best,
                          bool was_cut_short)
 {
-  constexpr double kMissed = 0.2;  // the probability where nothing significant was found
   if (hypotheses.empty()) return was_cut_short ? kMissed : 0;
   double chance = 1;
   for (const FeatureHypothesis& hypothesis : hypotheses)
@@ -161,7 +162,7 @@ RelocationResult SignatureMatcher::localize(const ObservedScene& scene,
     candidate.pairings = std::move(hypothesis.pairings);
     result.candidates.push_back(std::move(candidate));
   }
-  weighByLogOdds(result, place_background);
+  weighByLogOdds(result, place_background, result.counters.cut_short > 0 ? kMissed : 0);
   return result;
 }
 

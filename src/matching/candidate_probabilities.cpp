@@ -148,8 +148,9 @@ void weighCandidates(RelocationResult& result, const std::vector<Candidate>& out
   decide(result);
 }
 
-void weighByLogOdds(RelocationResult& result, std::optional<double> place_background)
+void weighByLogOdds(RelocationResult& result, std::optional<double> place_background, double missed)
 {
+  const double elsewhere = std::max(kPriorElsewhere, missed);
   const double tempering = place_background ? kPlaceTempering : kWallTempering;
   std::vector<Candidate>& candidates = result.candidates;
   double largest = 0;  // the clutter hypothesis itself has log-odds 0
@@ -165,9 +166,9 @@ void weighByLogOdds(RelocationResult& result, std::optional<double> place_backgr
   const double all = std::exp(-tempering * largest) + background + sum;
   for (Candidate& candidate : candidates)
   {
-    candidate.probability *= (1.0 - kPriorElsewhere) / all;
+    candidate.probability *= (1.0 - elsewhere) / all;
   }
-  result.elsewhere = 1.0 - (1.0 - kPriorElsewhere) * sum / all;
+  result.elsewhere = 1.0 - (1.0 - elsewhere) * sum / all;
   decide(result);
 }
 }  // namespace sigloc

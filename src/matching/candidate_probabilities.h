@@ -60,6 +60,8 @@ void weighCandidates(RelocationResult& result, const std::vector<Candidate>& out
 /// The same for maps without a dense field, where scores are log-odds against "all clutter". There
 /// the candidates compete with the clutter hypothesis itself. `place_background` is for scenes
 /// without walls: the expected number of hypotheses as good as the first by chance, eq. (5.12).
+/// `missed` is the prior probability that a search that was cut short has missed the right pose.
 /// \cite algorithm eq. (7.4)
-void weighByLogOdds(RelocationResult& result, std::optional<double> place_background = {});
+void weighByLogOdds(RelocationResult& result, std::optional<double> place_background = {},
+                    double missed = 0);
 }  // namespace sigloc

@@ -7,6 +7,8 @@
 #include "matching/generation/PatternGenerator.h"
 #include "matching/generation/PlainGenerator.h"
 
+#include <fmt/core.h>
+
 #include <stdexcept>
 
 namespace sigloc
@@ -27,6 +29,11 @@ std::unique_ptr<FeatureHypothesisGenerator> makeGenerator(
     throw std::invalid_argument("makeGenerator: minimal sets need a dense field");
   }
   const PreparedMap& prepared = verifier->map();
+  if (mode == GenerationMode::plain && prepared.size() > PlainGenerator::kMostFeatures)
+  {
+    throw std::invalid_argument(fmt::format("mode {} (plain) is for maps of {} features at most",
+                                            static_cast<int>(mode), PlainGenerator::kMostFeatures));
+  }
   const double cut_off = mode == GenerationMode::plain
                              ? PairLists::kUncut
                              : PairLists::cutOffFor(prepared, verifier->options());

@@ -371,5 +371,28 @@ TEST(PlainGenerator, TakesTimeInProportionToTheMap)
   EXPECT_LT(counters[1].checks, 8 * counters[0].checks);
   EXPECT_LT(counters[1].visits, 8 * counters[0].visits);
 }
+
+TEST(PlainGenerator, EndsAtItsBudgetAndProvesNothingThen)
+{
+  const FeatureMap map(latticeOf(14));
+  GeneratorOptions options;
+  const std::vector<Feature> scene = latticeOf(3);
+  MatchingCounters whole;
+  makeGenerator(GenerationMode::plain, map, options)->generate(scene, whole);
+  EXPECT_EQ(whole.cut_short, 0U);
+  options.plain_operations = (whole.checks + whole.visits) / 10;
+  MatchingCounters cut;
+  const auto found = makeGenerator(GenerationMode::plain, map, options)->generate(scene, cut);
+  EXPECT_EQ(cut.cut_short, 1U);
+  EXPECT_LT(cut.checks + cut.visits, 2 * options.plain_operations);
+  EXPECT_FALSE(found.empty());
+  for (const FeatureHypothesis& hypothesis : found) EXPECT_GE(hypothesis.chance, 1.0);
+}
+
+TEST(PlainGenerator, RefusesMapsWhosePairsDoNotFitInMemory)
+{
+  const FeatureMap map(latticeOf(101));
+  EXPECT_THROW(makeGenerator(GenerationMode::plain, map), std::invalid_argument);
+}
 }  // namespace
 }  // namespace sigloc

@@ -158,6 +158,17 @@ TEST(Weighing, ChanceRivalsPlacesThatAreFew)
   EXPECT_GT(first_of(30, 0, std::nullopt), 0.99);
 }
 
+TEST(Weighing, WhatASearchThatWasCutShortFoundIsNeverLocalized)
+{
+  RelocationResult result = resultOf({0.5});
+  result.candidates[0].score = 100;
+  weighByLogOdds(result);
+  EXPECT_EQ(result.verdict, Verdict::localized);
+  weighByLogOdds(result, std::nullopt, 0.2);
+  EXPECT_NE(result.verdict, Verdict::localized);
+  EXPECT_NEAR(sumOf(result), 1.0, 1e-12);
+}
+
 TEST(Weighing, AnOpenLineIsNeverLocalized)
 {
   RelocationResult result = resultOf({0.97, 0.2});

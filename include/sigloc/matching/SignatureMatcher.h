@@ -72,8 +72,8 @@ struct RankedPose;
 class SignatureMatcher
 {
  public:
-  /// Throws std::invalid_argument for a null map, for options outside their ranges, and for mode
-  /// `minimal_sets` without a dense field.
+  /// Throws std::invalid_argument for a null map, for options outside their ranges, for mode
+  /// `minimal_sets` without a dense field, and for mode `plain` above 10 000 features.
   explicit SignatureMatcher(std::shared_ptr<const FeatureMap> map,
                             const MatcherOptions& options = {});
   ~SignatureMatcher();

@@ -35,15 +35,31 @@ void gatherCandidates(const PreparedScene& scene, const PreparedMap& map, const 
 std::vector<FeatureHypothesis> PlainGenerator::generate(const std::vector<Feature>& observed,
                                                         MatchingCounters& counters) const
 {
+  const PreparedScene scene(observed, verifier_->map(), verifier_->options(), verifier_->gates());
+  HypothesisSet found(scene.size());
+  const std::uint64_t before = counters.hypotheses;
+  const bool complete = search(scene, found, counters);
+  std::vector<FeatureHypothesis> ranked =
+      rankedHypotheses(scene, *verifier_, found, 2, counters.hypotheses - before);
+  if (complete) return ranked;
+  ++counters.cut_short;
+  // An equal of the best may be where nothing was compared.
+  for (FeatureHypothesis& hypothesis : ranked) hypothesis.chance = std::max(1.0, hypothesis.chance);
+  return ranked;
+}
+
+/// Returns whether it ended within the budget.
+bool PlainGenerator::search(const PreparedScene& scene, HypothesisSet& found,
+                            MatchingCounters& counters) const
+{
   const PreparedMap& map = verifier_->map();
-  const PreparedScene scene(observed, map, verifier_->options(), verifier_->gates());
   const auto n = static_cast<std::uint32_t>(scene.size());
   const auto m = static_cast<std::uint32_t>(map.size());
   const std::uint32_t needed = std::min(verifier_->options().min_support, n);
-  HypothesisSet found(n);
   FeatureVerifier::Workspace workspace;
   CandidateLists candidates(n);
-  const std::uint64_t hypotheses_before = counters.hypotheses;
+  const std::uint64_t end =
+      counters.checks + counters.visits + verifier_->options().plain_operations;
 
   for (std::uint32_t i = 0; i < n; ++i)
   {
@@ -63,6 +79,7 @@ std::vector<FeatureHypothesis> PlainGenerator::generate(const std::vector<Featur
                          counters);
         if (!candidates[j].empty()) ++possible;
       }
+      if (counters.checks + counters.visits > end) return false;
       if (possible < needed) continue;
 
       // Every second pairing gives a pose, which the other lists must support.
@@ -72,10 +89,11 @@ std::vector<FeatureHypothesis> PlainGenerator::generate(const std::vector<Featur
         {
           if (!verifier_->makeBase(scene, {i, k}, {j, l}, workspace.base, counters)) continue;
           verifier_->verify(scene, &candidates, found, workspace, counters);
+          if (counters.checks + counters.visits > end) return false;
         }
       }
     }
   }
-  return rankedHypotheses(scene, *verifier_, found, 2, counters.hypotheses - hypotheses_before);
+  return true;
 }
 }  // namespace sigloc

@@ -8,10 +8,14 @@
 namespace sigloc
 {
 /// Mode (a): compares every observed signature with every mapped one. It is complete and the
-/// reference for all others; it takes O(n^3 m c^2) checks. \cite algorithm section 4 (a)
+/// reference for all others; it takes O(n^3 m c^2) checks. Where that is more than its budget, it
+/// is cut short, and nothing that it found is significant. \cite algorithm section 4 (a)
 class PlainGenerator : public FeatureHypothesisGenerator
 {
  public:
+  /// Uncut lists hold every pair: those of larger maps would take 0.8 GB and more.
+  static constexpr std::size_t kMostFeatures = 10'000;
+
   /// The lists should be uncut: with a cut-off, pairs farther apart are never a base.
   PlainGenerator(std::shared_ptr<const FeatureVerifier> verifier,
                  std::shared_ptr<const PairLists> lists)
@@ -23,6 +27,8 @@ class PlainGenerator : public FeatureHypothesisGenerator
                                           MatchingCounters& counters) const override;
 
  private:
+  bool search(const PreparedScene& scene, HypothesisSet& found, MatchingCounters& counters) const;
+
   std::shared_ptr<const FeatureVerifier> verifier_;
   std::shared_ptr<const PairLists> lists_;
 };
