@@ -12,6 +12,7 @@
 #include "picture_file.h"
 #include "pictures.h"
 #include "sigloc/features/observe_scans.h"
+#include "sigloc/io/file_output.h"
 #include "sigloc/plugin/pose_pdf.h"
 
 namespace sigloc
@@ -107,5 +108,6 @@ void drawFailures(const FailuresByFolder& failures, const std::filesystem::path&
   const std::filesystem::path folder = out / "failures";
   removePictures(folder);
   for (const auto& [name, of_folder] : failures) drawInto(folder / name, of_folder);
+  syncFolder(out);
 }
 }  // namespace sigloc

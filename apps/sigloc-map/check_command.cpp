@@ -15,6 +15,7 @@
 #include "picture_file.h"
 #include "progress_line.h"
 #include "run_app.h"
+#include "sigloc/io/file_output.h"
 
 namespace sigloc
 {
@@ -77,6 +78,7 @@ void runCheck(const CheckArguments& arguments, const char* program)
                   check.recall(), check.localizedShare());
   savePicture(checkPicture(check, *map->field(), title), arguments.out / CheckFiles::kPicture);
   writeCheckFiles(check, name, arguments.out);
+  syncFolder(arguments.out);
   std::cout << fmt::format("{:<24}{}\n", "written to", arguments.out.string());
 }
 }  // namespace sigloc

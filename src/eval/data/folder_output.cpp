@@ -13,6 +13,8 @@
 #include <system_error>
 #include <vector>
 
+#include "sigloc/io/file_output.h"
+
 namespace sigloc
 {
 namespace
@@ -106,7 +108,7 @@ class FolderInProgress
   /// Where the files belong until keep(), locked.
   const fs::path& part() const { return part_; }
 
-  /// Moves the complete files to their place.
+  /// Moves the complete files to their place, and waits until the disk has it so.
   void keep() const
   {
     std::error_code error;
@@ -116,6 +118,7 @@ class FolderInProgress
       if (!error) fs::rename(entry.path(), folder_ / entry.path().filename(), error);
     }
     if (error) fail(folder_, error.message());
+    syncFolder(folder_);
   }
 
  private:
