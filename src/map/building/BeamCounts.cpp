@@ -267,15 +267,13 @@ BeamCounts::TileCells BeamCounts::cellsOf(const CellIndex& name, std::uint32_t m
     const bool solid = count.scans >= kSolidScans && count.hits >= count.passes;
     return solid ? CellState::solid_wall : CellState::wall;
   };
-  std::size_t i = 0;
-  for (std::int32_t y = 0; y < kTile; ++y)
+  for (std::size_t i = 0; i < kCellsOfTile; ++i)
   {
-    for (std::int32_t x = 0; x < kTile; ++x, ++i)
-    {
-      const Count count = tile->second.count(i);
-      cells.states[i] = state_of({name.x + x, name.y + y}, count);
-      if (isWall(cells.states[i])) cells.hits[i] = hitsOf(count);
-    }
+    const CellIndex cell{name.x + static_cast<std::int32_t>(i) % kTile,
+                         name.y + static_cast<std::int32_t>(i) / kTile};
+    const Count count = tile->second.count(i);
+    cells.states[i] = state_of(cell, count);
+    if (isWall(cells.states[i])) cells.hits[i] = hitsOf(count);
   }
   return cells;
 }
@@ -323,9 +321,8 @@ void BeamCounts::fillTile(const CellIndex& name, std::uint32_t min_scans, const 
 
 OccupancyRaster BeamCounts::raster(const CellBox& box, std::uint32_t min_scans) const
 {
-  const RasterFrame frame = frameOf(box);
-  OccupancyRaster raster{frame, {}, {}};
-  raster.cells.resize(static_cast<std::size_t>(frame.width) * frame.height);
+  OccupancyRaster raster{frameOf(box), {}, {}};
+  raster.cells.resize(std::size_t{raster.frame.width} * raster.frame.height);
   raster.hits.resize(raster.cells.size());
   for (std::int32_t y = firstOfTile(box.low.y); y < box.high.y; y += kTile)
   {
@@ -339,12 +336,10 @@ OccupancyRaster BeamCounts::raster(const CellBox& box, std::uint32_t min_scans) 
 
 void BeamCounts::forgetBelow(std::int32_t y)
 {
+  const auto is_gone = [&](std::uint64_t key) { return nameOf(key).y + kTile <= y; };
   for (auto tile = tiles_.begin(); tile != tiles_.end();)
-  {
-    tile = nameOf(tile->first).y + kTile <= y ? tiles_.erase(tile) : std::next(tile);
-  }
-  const auto gone = [&](std::uint64_t key) { return tiles_.count(key) == 0; };
-  changed_.erase(std::remove_if(changed_.begin(), changed_.end(), gone), changed_.end());
+    tile = is_gone(tile->first) ? tiles_.erase(tile) : std::next(tile);
+  changed_.erase(std::remove_if(changed_.begin(), changed_.end(), is_gone), changed_.end());
 #ifdef __GLIBC__
   malloc_trim(0);  // millions of small blocks would stay with the process, free as they are
 #endif
@@ -390,10 +385,8 @@ void BeamCounts::restore(const Extent& extent, const CellIndex& name, const Tile
   }
   for (std::size_t i = 0; i < kCellsOfTile; ++i)
   {
-    if (!isPossible(tile.count(i)))
-    {
-      throw std::invalid_argument("BeamCounts: a cell's counts contradict each other");
-    }
+    if (isPossible(tile.count(i))) continue;
+    throw std::invalid_argument("BeamCounts: a cell's counts contradict each other");
   }
   extent_ = extent;
   const std::uint64_t key = keyOf(name);
@@ -402,14 +395,5 @@ void BeamCounts::restore(const Extent& extent, const CellIndex& name, const Tile
   restored = tile;
   restored.changed = was_changed;
   markChanged(key, restored);
-}
-
-OccupancyRaster rasterFromScans(const std::vector<PosedScans>& scans,
-                                const MapBuildingOptions& options)
-{
-  BeamCounts counts(options.raster_resolution);
-  for (const PosedScans& posed : scans) counts.add(posed, options.raster_range);
-  if (counts.empty()) throw std::invalid_argument("rasterFromScans: no scan has a valid return");
-  return counts.raster(counts.box(), options.min_hits);
 }
 }  // namespace sigloc

@@ -3,6 +3,7 @@
 #include "map/building/counted_field.h"
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -198,5 +199,14 @@ DenseField denseFieldOf(BeamCounts counts, std::uint32_t min_scans, std::int32_t
     if (solver.isWorthIt()) return solver.solve();
   }
   return inTilesWhereSparse(solvedInStrips(counts, min_scans, strip_cells), most_whole);
+}
+
+OccupancyRaster rasterFromScans(const std::vector<PosedScans>& scans,
+                                const MapBuildingOptions& options)
+{
+  BeamCounts counts(options.raster_resolution);
+  for (const PosedScans& posed : scans) counts.add(posed, options.raster_range);
+  if (counts.empty()) throw std::invalid_argument("rasterFromScans: no scan has a valid return");
+  return counts.raster(counts.box(), options.min_hits);
 }
 }  // namespace sigloc

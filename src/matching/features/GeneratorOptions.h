@@ -30,7 +30,7 @@ struct GeneratorOptions
   /// Budget of pairs and of anchors each, when patterns find nothing.
   std::uint32_t fall_back_hypotheses = 400000;
   /// Budget of mode (a): checks, and cells and list entries read.
-  std::uint64_t plain_operations = 200'000'000;
+  std::uint64_t plain_operations = 1'000'000'000;
   std::uint32_t seed = 1;  ///< of the sampling
 };
 }  // namespace sigloc
