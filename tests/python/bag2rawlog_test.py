@@ -214,7 +214,7 @@ def test_without_a_scan_of_use_nothing_is_written(drive, tmp_path):
 
 
 def test_wrong_use_is_told_in_one_line(tmp_path):
-    assert "required: bag" in refused()
+    assert "required: BAG" in refused()
     assert "--mount" in refused("a.bag", "--mount", "a,b")
     assert "--nonsense" in refused("a.bag", "--nonsense")
 
