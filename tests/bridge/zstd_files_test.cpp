@@ -208,5 +208,17 @@ TEST(ZstdFiles, damagedOnesAreRefused)
     EXPECT_THROW(readMapSource(folder / "m.simplemap"), std::runtime_error) << k;
   }
 }
+
+// A few kilobytes of it would fill all memory.
+TEST(ZstdFiles, aTextThatUnpacksToFarMoreIsRefused)
+{
+  const TemporaryFolder folder;
+  std::string rows;
+  while (rows.size() <= (std::size_t{1} << 26U)) rows += "0 0 0\n";
+  writeText(folder / "points.txt", packed(rows));
+  EXPECT_NE(errorOf(folder / "points.txt").find("unpacks to more than 50 times its size"),
+            std::string::npos)
+      << errorOf(folder / "points.txt");
+}
 }  // namespace
 }  // namespace sigloc
