@@ -138,7 +138,7 @@ int main(int argc, char** argv)
                kProgram);
   app.footer("Exit codes: 0 done, 1 bad input, 3 no pose is possible (nothing written).");
   Arguments arguments;
-  app.add_option("A", arguments.a, "map: " + sigloc::mapFormatNames() + ". .gz may follow")
+  app.add_option("A", arguments.a, "map: " + sigloc::mapFormatNames() + ". .gz or .zst may follow")
       ->required();
   app.add_option("B", arguments.b, "map whose pose in A is asked")->required();
   arguments.reading.declare(app);

@@ -188,9 +188,10 @@ int main(int argc, char** argv)
   auto* const rawlog =
       app.add_option("DATASET.rawlog", arguments.rawlog,
                      "log to use instead of rawlog_file; a CARMEN log (.log, .clf), too");
-  auto* const map = app.add_option(
-      "--map", arguments.map,
-      "map to localize in, instead of map_file: " + sigloc::mapFormatNames() + ". .gz may follow");
+  auto* const map =
+      app.add_option("--map", arguments.map,
+                     "map to localize in, instead of map_file: " + sigloc::mapFormatNames() +
+                         ". .gz or .zst may follow");
   auto* const log = app.add_option("--log", arguments.rawlog, "the same as DATASET.rawlog");
   log->excludes(rawlog);
   arguments.reading.declare(app);

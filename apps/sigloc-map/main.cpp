@@ -183,8 +183,9 @@ int main(int argc, char** argv)
   sigloc::ReadingArguments reading;
   bool as_json = false;
 
-  CLI::App* build_command = app.add_subcommand(
-      "build", "Builds a .sigmap from one of: " + sigloc::mapFormatNames() + ". .gz may follow.");
+  CLI::App* build_command =
+      app.add_subcommand("build", "Builds a .sigmap from one of: " + sigloc::mapFormatNames() +
+                                      ". .gz or .zst may follow.");
   build_command->add_option("-i,--input", input, "map source")->required();
   build_command->add_option("-o,--output", output, ".sigmap to write")->required();
   build_command->add_option("--config", config,
