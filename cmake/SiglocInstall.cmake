@@ -58,8 +58,9 @@ endfunction()
 function(sigloc_install)
   get_property(libraries GLOBAL PROPERTY SIGLOC_LIBRARIES)
   get_property(apps GLOBAL PROPERTY SIGLOC_APPS)
+  get_property(work GLOBAL PROPERTY SIGLOC_WORK)
   # Installed binaries find their libraries wherever the prefix is moved to.
-  set_target_properties(${libraries} ${apps} PROPERTIES
+  set_target_properties(${libraries} ${apps} ${work} PROPERTIES
     INSTALL_RPATH "$ORIGIN:$ORIGIN/..:$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
   # All that is installed and nothing else, for those who make packages.
   add_custom_target(sigloc-installed)
@@ -83,6 +84,9 @@ function(sigloc_install)
       set(component ros1)
     endif()
     install(TARGETS ${app} COMPONENT ${component})
+  endforeach()
+  foreach(target IN LISTS work)
+    install(TARGETS ${target} LIBRARY DESTINATION "${SIGLOC_WORK_FOLDER}" COMPONENT tools)
   endforeach()
 
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/sigloc" TYPE INCLUDE COMPONENT dev

@@ -92,12 +92,13 @@ function(sigloc_add_manual name)
           COMPONENT ${ARG_COMPONENT})
 endfunction()
 
-# sigloc_add_app(NAME [COMPONENT component] [SOURCES file...] LINK target...): an executable from
+# sigloc_add_app(NAME [LOADED] [COMPONENT component] [SOURCES file...] LINK target...): an executable from
 # apps/<NAME>/*.cpp or the files, with the man page and the completion that it prints. They are of the
 # component `tools` unless another is named. Its target is called NAME-app where a library has the name
-# already.
+# already. LOADED: main.cpp alone is the executable, and parses the arguments. The rest is a library,
+# target NAME-work, that is loaded once they are right: MRPT takes most of a program's start.
 function(sigloc_add_app name)
-  cmake_parse_arguments(ARG "" "COMPONENT" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "LOADED" "COMPONENT" "SOURCES;LINK" ${ARGN})
   set(component tools)
   if(ARG_COMPONENT)
     set(component ${ARG_COMPONENT})
@@ -107,11 +108,38 @@ function(sigloc_add_app name)
     set(target ${name}-app)
   endif()
   file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/apps/${name}/*.cpp")
+  if(ARG_LOADED)
+    set(main "${PROJECT_SOURCE_DIR}/apps/${name}/main.cpp")
+    list(REMOVE_ITEM sources "${main}")
+    sigloc_add_work(${name} SOURCES ${sources} LINK ${ARG_LINK})
+    set(sources "${main}")
+    set(ARG_LINK sigloc_launcher)
+  endif()
   add_executable(${target} ${sources} ${ARG_SOURCES} "${PROJECT_SOURCE_DIR}/apps/common/manual.cpp")
   set_target_properties(${target} PROPERTIES OUTPUT_NAME ${name})
   target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/apps/common")
   target_link_libraries(${target} PRIVATE ${ARG_LINK} CLI11::CLI11 fmt::fmt sigloc_flags)
   target_compile_definitions(${target} PRIVATE SIGLOC_VERSION="${PROJECT_VERSION}")
+  if(ARG_LOADED)
+    add_dependencies(${target} ${name}-work)
+    target_sources(${target} PRIVATE "${PROJECT_SOURCE_DIR}/apps/common/load_work.cpp")
+    target_compile_definitions(${target} PRIVATE SIGLOC_WORK="${SIGLOC_WORK_FROM_BIN}/${name}.so"
+      SIGLOC_OSMESA="${SIGLOC_OSMESA}" SIGLOC_LOADED_FIRST="${SIGLOC_LOADED_FIRST}")
+  endif()
   set_property(GLOBAL APPEND PROPERTY SIGLOC_APPS ${target})
   sigloc_add_manual(${name} COMPONENT ${component} COMMAND ${target})
+endfunction()
+
+# sigloc_add_work(NAME SOURCES file... LINK target...): the library of a program's work, at the same
+# place from its executable when built as when installed.
+set(SIGLOC_WORK_FOLDER "${CMAKE_INSTALL_LIBDIR}/sigloc")
+file(RELATIVE_PATH SIGLOC_WORK_FROM_BIN "/${CMAKE_INSTALL_BINDIR}" "/${SIGLOC_WORK_FOLDER}")
+function(sigloc_add_work name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  add_library(${name}-work MODULE ${ARG_SOURCES})
+  set_target_properties(${name}-work PROPERTIES PREFIX "" OUTPUT_NAME ${name}
+    LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${SIGLOC_WORK_FOLDER}")
+  target_include_directories(${name}-work PRIVATE "${PROJECT_SOURCE_DIR}/apps/common")
+  target_link_libraries(${name}-work PRIVATE ${ARG_LINK} CLI11::CLI11 fmt::fmt sigloc_flags)
+  set_property(GLOBAL APPEND PROPERTY SIGLOC_WORK ${name}-work)
 endfunction()

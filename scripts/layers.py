@@ -267,12 +267,12 @@ def crowded_folders(paths):
 
 def binary_violations(folder):
     """Checks the libraries that each binary asks for by itself (its NEEDED entries)."""
-    for path in sorted(p for p in folder.glob("*/*") if p.is_file() and not p.is_symlink()):
-        if path.parent.name not in ("bin", "lib"):
-            continue
+    binaries = [*folder.glob("bin/*"), *folder.glob("lib/**/*")]
+    for path in sorted(p for p in binaries if p.is_file() and not p.is_symlink()):
         dump = subprocess.run(["readelf", "-d", str(path)], capture_output=True, text=True)
         needed = re.findall(r"\(NEEDED\).*\[(.+?)\]", dump.stdout)
-        is_library = path.name.startswith("lib")
+        is_library = ".so" in path.name
+        is_launcher = path.name in PRODUCT_APPS
         for library in needed:
             if re.match(r"libmrpt-(apps|gui)\.|libwx_", library):
                 yield f"{path.name} links {library}"
@@ -282,6 +282,8 @@ def binary_violations(folder):
                 r"libsigloc-mrpt|libsigloc-hw|sigloc-(map|localize|align|ros1)", path.name
             ):
                 yield f"{path.name} links {library}, which takes long to load"
+            if is_launcher and re.match(r"libsigloc|libmrpt-(img|opengl|obs|maps)\.", library):
+                yield f"{path.name} links {library}: it loads that once its arguments are right"
             if library.startswith("libmrpt-hwdrivers") and "hwdrivers" not in path.name:
                 yield f"{path.name} links {library}"
 

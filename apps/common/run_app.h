@@ -3,7 +3,6 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <filesystem>
 #include <functional>
 #include <iostream>
 #include <stdexcept>
@@ -16,13 +15,6 @@
 
 namespace sigloc
 {
-/// Prints one line about a file on stderr, unless the line is empty.
-inline void warn(const char* program, const std::filesystem::path& file, const std::string& message)
-{
-  if (message.empty()) return;
-  std::cerr << program << ": " << oneLine(file.string() + ": " + message) << '\n';
-}
-
 /// The commands of a program, or the options of the command that was given and of the program.
 inline std::vector<std::string> knownWords(const CLI::App& app)
 {

@@ -12,6 +12,11 @@
 #include <utility>
 #include <vector>
 
+// Missing where the program did not expect pictures: OSMesa takes long to load.
+#pragma weak OSMesaCreateContextAttribs
+#pragma weak OSMesaMakeCurrent
+#pragma weak OSMesaDestroyContext
+
 namespace sigloc
 {
 namespace
@@ -21,6 +26,7 @@ constexpr int kDummySide = 16;
 
 OSMesaContext makeContext()
 {
+  if (&OSMesaCreateContextAttribs == nullptr) return nullptr;
   const std::array<int, 13> attributes = {OSMESA_FORMAT,
                                           OSMESA_RGBA,
                                           OSMESA_DEPTH_BITS,

@@ -24,8 +24,8 @@ struct PictureSize
   unsigned height = 0;
 };
 
-/// Renders scenes from straight above without a display, through OSMesa. Linked by executables
-/// only: a plug-in must not bring a second GL into a viewer.
+/// Renders scenes from straight above without a display, through OSMesa. Linked or loaded by
+/// executables only: a plug-in must not bring a second GL into a viewer.
 ///
 /// Use one object in a process, from one thread. It must outlive every scene it has rendered,
 /// because scenes keep GL buffers of its context.

@@ -13,8 +13,8 @@
 #include <stdexcept>
 
 #include "eval/data/method_names.h"
-#include "run_app.h"
 #include "sigloc/io/map_files.h"
+#include "warn.h"
 
 namespace sigloc
 {

@@ -2,174 +2,47 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // sigloc-localize: finds and tracks a lost robot in a known map, from a recorded log.
+#include <mrpt/config/CConfigFileMemory.h>
 
-#include <fmt/core.h>
 #include <CLI/CLI.hpp>
-#include <iostream>
-#include <optional>
-#include <vector>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
 
-#include "console.h"
-#include "reading_arguments.h"
+#include "arguments.h"
+#include "load_work.h"
 #include "run_app.h"
-#include "sigloc/io/file_output.h"
 #include "sigloc/io/map_files.h"
-#include "sigloc/localize/RunWriter.h"
-#include "StepPictures.h"
 
 namespace
 {
-namespace fs = std::filesystem;
-
-constexpr const char* kProgram = "sigloc-localize";
-constexpr int kTruncatedInput = 2;
-
-constexpr const char* kDefaultsHeader =
-    "# SPDX-FileCopyrightText: 2026 the sigloc authors\n"
-    "# SPDX-License-Identifier: BSD-3-Clause\n"
-    "#\n"
-    "# Every option of sigloc with its default, made with: sigloc-localize --print-defaults\n";
-
-struct Arguments
+/// Whether an ini leaves pictures out. Where that cannot be told, the run says what is wrong.
+bool wantsStatisticsOnly(const std::filesystem::path& path)
 {
-  fs::path config;
-  fs::path rawlog;
-  fs::path map;
-  sigloc::ReadingArguments reading;
-  std::optional<fs::path> output;
-  std::optional<std::uint32_t> seed;
-  bool quiet = false;
-};
-
-/// Runs once, adding to `outcomes`; returns the exit code.
-int localize(const sigloc::LocalizationSetup& setup, bool quiet,
-             std::vector<sigloc::ExperimentOutcome>& outcomes)
-{
-  std::optional<sigloc::RunWriter> writer;
-  if (!setup.output_folder.empty()) writer.emplace(setup.output_folder, setup.inputFiles());
-  sigloc::Progress progress(quiet);
-  sigloc::LocalizationRun run(setup, sigloc::mapCacheFile(setup.map_file),
-                              [&](double share) { progress.showMap(share); });
-  progress.finish();
-  if (!run.summary().map_reused)
-    sigloc::warn(kProgram, setup.map_file, sigloc::warningOfMapSource(setup.map_file));
-  sigloc::warn(kProgram, setup.map_file, sigloc::warningOfMap(run.map()));
-  std::optional<sigloc::StepPictures> pictures;
-  const bool every_step = writer && !setup.stats_only;
-  if (every_step) pictures.emplace(run);
-  while (const sigloc::StepRecord* step = run.next())
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return false;  // a pipe is read once only
+  std::stringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  try
   {
-    progress.show(run);
-    if (!every_step) continue;
-    writer->writeBelief(*step, run.anywhere());
-    pictures->take(run, *writer);
+    mrpt::config::CConfigFileMemory ini;
+    ini.setContent(text.str());
+    const std::string value =
+        ini.read_string_first_word("LocalizationExperiment", "SAVE_STATS_ONLY", "false");
+    return sigloc::detail::parseValue<bool>(value).value_or(false);
   }
-  progress.finish();
-  if (writer) writer->finish(run);
-  outcomes.push_back(sigloc::outcomeOf(run));
-  std::cout << sigloc::summaryTable(run);
-  std::cout << "written to              "
-            << (writer ? setup.output_folder.string() : "nothing: no --out, no logOutput_dir")
-            << '\n';
-  sigloc::warn(kProgram, setup.rawlog_file, sigloc::leftOutLine(run.summary().left_out));
-  if (!run.summary().truncated) return 0;
-  sigloc::warn(kProgram, setup.rawlog_file,
-               fmt::format("truncated or damaged after {} steps; the results cover those",
-                           run.steps().size()));
-  return kTruncatedInput;
-}
-
-/// The folder of one run: pf-localization's name for it where there are several.
-fs::path runFolder(const sigloc::LocalizationSetup& setup, bool several, std::uint32_t repetition)
-{
-  if (setup.output_folder.empty() || !several) return setup.output_folder;
-  std::string name = fmt::format("{}_{:03}", setup.output_folder.string(), repetition);
-  if (setup.use_particles) name += fmt::format("_{:07}", setup.particles.particles);
-  return name;
-}
-
-using Experiment = std::vector<sigloc::LocalizationSetup>;  // its repetitions
-
-/// Every number of particles is an experiment; its repetitions share nothing but the map's cache.
-std::vector<Experiment> experimentsOf(const sigloc::LocalizationSetup& setup)
-{
-  std::vector<std::uint32_t> counts = setup.particle_counts;
-  if (counts.empty()) counts.push_back(setup.particles.particles);
-  const bool several = setup.repetitions > 1 || counts.size() > 1;
-  std::vector<Experiment> experiments;
-  for (const std::uint32_t count : counts)
+  catch (const std::exception&)
   {
-    experiments.emplace_back(setup.repetitions, setup);
-    for (std::uint32_t i = 0; i < setup.repetitions; ++i)
-    {
-      sigloc::LocalizationSetup& run = experiments.back()[i];
-      run.particles.particles = count;
-      run.matcher.seed = setup.matcher.seed + i;
-      run.output_folder = runFolder(run, several, i);
-    }
-  }
-  return experiments;
-}
-
-bool areSeveral(const std::vector<Experiment>& experiments)
-{
-  return experiments.size() > 1 || experiments.front().size() > 1;
-}
-
-/// Throws where a run would replace an input or a file of another origin. Called before any run
-/// begins.
-void checkOutputs(const sigloc::LocalizationSetup& setup,
-                  const std::vector<Experiment>& experiments)
-{
-  if (setup.output_folder.empty()) return;
-  const auto inputs = setup.inputFiles();
-  sigloc::refuseToReplaceInputs(
-      sigloc::experimentSummaryFile(setup.output_folder, areSeveral(experiments)), inputs);
-  for (const Experiment& experiment : experiments)
-  {
-    for (const auto& run : experiment) sigloc::checkRunFolder(run.output_folder, inputs);
+    return false;
   }
 }
 
-sigloc::LocalizationSetup setupOf(const Arguments& arguments)
+sigloc::Pictures picturesOf(const sigloc::LocalizeArguments& arguments)
 {
-  if (!arguments.config.empty())
-  {
-    return sigloc::readLocalizationSetup(arguments.config, arguments.rawlog, arguments.map);
-  }
-  sigloc::LocalizationSetup setup;
-  setup.map_file = arguments.map;
-  setup.rawlog_file = arguments.rawlog;
-  return setup;
-}
-
-int runAll(const Arguments& arguments)
-{
-  sigloc::LocalizationSetup setup = setupOf(arguments);
-  for (const std::string& warning : setup.warnings)
-    sigloc::warn(kProgram, arguments.config, warning);
-  if (arguments.output) setup.output_folder = *arguments.output;
-  setup.reading = arguments.reading.in(setup.reading);
-  if (arguments.seed) setup.matcher.seed = *arguments.seed;
-  const std::vector<Experiment> experiments = experimentsOf(setup);
-  checkOutputs(setup, experiments);
-  int exit_code = 0;
-  std::string summary;
-  for (const Experiment& experiment : experiments)
-  {
-    std::vector<sigloc::ExperimentOutcome> outcomes;
-    for (const auto& run : experiment)
-    {
-      exit_code = std::max(exit_code, localize(run, arguments.quiet, outcomes));
-    }
-    summary += sigloc::experimentSummary(outcomes, setup.confidence_share);
-  }
-  if (!setup.output_folder.empty())
-  {
-    sigloc::writeFile(sigloc::experimentSummaryFile(setup.output_folder, areSeveral(experiments)),
-                      summary);
-  }
-  return exit_code;
+  const bool none =
+      arguments.print_defaults ||
+      (arguments.config.empty() ? !arguments.output : wantsStatisticsOnly(arguments.config));
+  return none ? sigloc::Pictures::none : sigloc::Pictures::perhaps;
 }
 }  // namespace
 
@@ -177,8 +50,7 @@ int main(int argc, char** argv)
 {
   CLI::App app("Finds and follows a lost robot in a known map by matching signatures.",
                "sigloc-localize");
-  Arguments arguments;
-  bool print_defaults = false;
+  sigloc::LocalizeArguments arguments;
   app.footer(
       "Exit codes: 0 done, 1 bad input or no room for the output (nothing written but the map's "
       "cache, $XDG_CACHE_HOME/sigloc or ~/.cache/sigloc), 2 truncated log (results cover what was "
@@ -198,20 +70,18 @@ int main(int argc, char** argv)
   app.add_option("--out", arguments.output, "output folder instead of logOutput_dir");
   app.add_option("--seed", arguments.seed, "seed instead of the one in [sigloc.matcher]");
   app.add_flag("--quiet", arguments.quiet, "no progress");
-  app.add_flag("--print-defaults", print_defaults, "print all [sigloc.*] sections and exit");
+  app.add_flag("--print-defaults", arguments.print_defaults,
+               "print all [sigloc.*] sections and exit");
   const auto work = [&]
   {
-    if (print_defaults)
-    {
-      std::cout << kDefaultsHeader << sigloc::defaultOptionSections();
-      return 0;
-    }
-    if (config->count() == 0 && (map->count() == 0 || log->count() == 0))
+    const bool complete = config->count() > 0 || (map->count() > 0 && log->count() > 0);
+    if (!complete && !arguments.print_defaults)
     {
       throw std::runtime_error("needs --map MAP --log LOG.rawlog, or CONFIG.ini; see --help");
     }
     if (arguments.output && arguments.output->empty()) throw std::runtime_error("--out is empty");
-    return runAll(arguments);
+    return sigloc::loadWork<decltype(siglocLocalize)>("siglocLocalize",
+                                                      picturesOf(arguments))(arguments);
   };
   return sigloc::runApp(app, argc, argv, work);
 }

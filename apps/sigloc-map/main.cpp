@@ -2,173 +2,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // sigloc-map: builds, describes, draws and checks the maps that sigloc localizes in.
-#include <fmt/core.h>
-#include <array>
 #include <CLI/CLI.hpp>
-#include <filesystem>
-#include <iostream>
-#include <nlohmann/json.hpp>
 
-#include "check_command.h"
-#include "picture_file.h"
-#include "pictures.h"
-#include "progress_line.h"
-#include "reading_arguments.h"
+#include "arguments.h"
+#include "load_work.h"
+#include "number_option.h"
 #include "run_app.h"
-#include "sigloc/config/plural.h"
-#include "sigloc/io/file_output.h"
 #include "sigloc/io/map_files.h"
-#include "sigloc/localize/LocalizationSetup.h"
 
 namespace
 {
-using nlohmann::ordered_json;
-
-constexpr const char* kProgram = "sigloc-map";
-
-ordered_json describe(const sigloc::FeatureMap& map, const std::filesystem::path& path)
+void declareCheck(CLI::App& command, sigloc::MapArguments& arguments)
 {
-  std::array<std::size_t, sigloc::kFeatureTypes> counts{};
-  for (const sigloc::Feature& feature : map.features())
-  {
-    ++counts.at(sigloc::typeIndex(feature.type));
-  }
-  ordered_json info;
-  info["file"] = path.string();
-  info["bytes"] = std::filesystem::file_size(path);
-  info["features"] = map.features().size();
-  for (std::size_t i = 0; i < counts.size(); ++i)
-  {
-    info[sigloc::kFeatureTraits[i].plural] = counts[i];
-  }
-  info["lines"] = map.lines().size();
-  const sigloc::PlanarBox box = sigloc::boundsOf(map);
-  info["bounds_m"] = {box.x_min, box.x_max, box.y_min, box.y_max};
-  info["area_m2"] = map.area();
-  info["dense_field"] = nullptr;
-  if (map.field())
-  {
-    info["dense_field"] = {{"width", map.field()->frame.width},
-                           {"height", map.field()->frame.height},
-                           {"resolution_m", map.field()->frame.resolution}};
-  }
-  info["source"] = map.provenance().source_path;
-  info["source_checksum"] = map.provenance().source_checksum;
-  return info;
-}
-
-/// A map of any kind, with the warnings about it.
-sigloc::FeatureMap anyMap(const std::filesystem::path& path, const sigloc::LocalizationSetup& setup)
-{
-  sigloc::ProgressLine progress;
-  sigloc::FeatureMap map = sigloc::buildMapFromFile(
-      path, setup.map, setup.features,
-      [&](double share) { progress.showBar("building the map", share); }, setup.reading);
-  progress.finish();
-  sigloc::warn(kProgram, path, sigloc::warningOfMapSource(path));
-  sigloc::warn(kProgram, path, sigloc::warningOfMap(map));
-  return map;
-}
-
-sigloc::LocalizationSetup setupWith(const sigloc::ReadingArguments& reading)
-{
-  sigloc::LocalizationSetup setup;
-  setup.reading = reading.in();
-  return setup;
-}
-
-/// Throws std::runtime_error where the map would replace its own source, or a file whose name is
-/// not that of a map.
-void checkBuildOutput(const std::filesystem::path& input, const std::filesystem::path& output,
-                      const std::filesystem::path& config)
-{
-  std::vector<std::filesystem::path> inputs = sigloc::filesOfMapSource(input);
-  inputs.push_back(config);
-  sigloc::refuseToReplaceInputs(output, inputs);
-  if (std::filesystem::exists(output) && output.extension() != ".sigmap")
-  {
-    throw std::runtime_error(output.string() +
-                             ": exists, and is no .sigmap by its name; not overwritten");
-  }
-}
-
-void build(const std::filesystem::path& input, const std::filesystem::path& output,
-           const std::filesystem::path& config, const sigloc::ReadingArguments& reading)
-{
-  checkBuildOutput(input, output, config);
-  sigloc::LocalizationSetup setup;
-  if (!config.empty()) setup = sigloc::readOptionSections(config);
-  setup.reading = reading.in(setup.reading);
-  for (const std::string& warning : setup.warnings) sigloc::warn(kProgram, config, warning);
-  const sigloc::FeatureMap map = anyMap(input, setup);
-  sigloc::saveSigmap(map, output);
-  std::cout << output.string() << ": " << map.features().size() << " features\n";
-}
-
-/// A value of a description, for people.
-std::string textOf(const ordered_json& value)
-{
-  if (value.is_string()) return value.get<std::string>();
-  if (value.is_number_float()) return fmt::format("{:.2f}", value.get<double>());
-  if (value.is_null()) return "none";
-  if (!value.is_structured()) return value.dump();
-  std::string text;
-  for (const auto& [key, part] : value.items())
-  {
-    text += (text.empty() ? "" : ", ") + (value.is_object() ? key + " " : "") + textOf(part);
-  }
-  return text;
-}
-
-void info(const std::filesystem::path& path, const sigloc::ReadingArguments& reading, bool as_json)
-{
-  const ordered_json description = describe(anyMap(path, setupWith(reading)), path);
-  if (as_json)
-  {
-    std::cout << description.dump(2) << '\n';
-    return;
-  }
-  for (const auto& [key, value] : description.items())
-  {
-    std::cout << key << ": " << textOf(value) << '\n';
-  }
-}
-
-/// The map, and its source where that is beside it or in the current folder.
-std::vector<std::filesystem::path> filesBehind(const std::filesystem::path& path,
-                                               const sigloc::FeatureMap& map)
-{
-  const std::filesystem::path source = map.provenance().source_path;
-  std::vector<std::filesystem::path> files = {path};
-  for (const auto& candidate : {path, path.parent_path() / source.filename(), source})
-  {
-    try
-    {
-      const auto behind = sigloc::filesOfMapSource(candidate);
-      files.insert(files.end(), behind.begin(), behind.end());
-    }
-    catch (const std::runtime_error&)
-    {
-      // The source is gone or has changed, so only the map can be used.
-    }
-  }
-  return files;
-}
-
-void draw(const std::filesystem::path& path, const std::filesystem::path& output,
-          const sigloc::ReadingArguments& reading)
-{
-  if (output.extension() != ".png")
-  {
-    throw std::runtime_error(output.string() + ": the name of a picture ends in .png");
-  }
-  const sigloc::FeatureMap map = anyMap(path, setupWith(reading));
-  sigloc::refuseToReplaceInputs(output, filesBehind(path, map));
-  sigloc::PictureMaker pictures(map);
-  const std::string title =
-      fmt::format("{}: {}, {} m2", path.filename().string(),
-                  sigloc::counted(map.features().size(), "feature"), std::lround(map.area()));
-  sigloc::savePicture(pictures.mapPicture({title}), output);
+  constexpr double kMost = 1e6;
+  sigloc::CheckOptions& options = arguments.options;
+  command.add_option("file", arguments.input, "map to check")->required();
+  arguments.reading.declare(command);
+  command.add_option("--laser", arguments.laser,
+                     "ini with [laser]; default: that of the map's own scans, else 270 degrees");
+  command.add_option("--out", arguments.output, "folder for picture, lists and summary");
+  command.add_option("--at", arguments.at,
+                     "ask at these poses, rows `x y deg`, not over the free space");
+  sigloc::addNumber(command, "--places", options.places, "spread over the free space", 1, kMost);
+  sigloc::addNumber(command, "--scans", options.scans, "at each place", 1, kMost);
+  sigloc::addNumber(command, "--drives", options.drives, "where one scan is not enough", 0, kMost);
+  sigloc::addNumber(command, "--seed", options.seed, "of the simulation", 0, 4294967295.0);
 }
 }  // namespace
 
@@ -177,43 +35,40 @@ int main(int argc, char** argv)
   CLI::App app("Builds, describes, draws and checks maps for localization by signatures.",
                "sigloc-map");
   app.require_subcommand(1);
-  std::filesystem::path input;
-  std::filesystem::path output;
-  std::filesystem::path config;
-  sigloc::ReadingArguments reading;
-  bool as_json = false;
+  sigloc::MapArguments arguments;
 
   CLI::App* build_command =
       app.add_subcommand("build", "Builds a .sigmap from one of: " + sigloc::mapFormatNames() +
                                       ". .gz or .zst may follow.");
-  build_command->add_option("-i,--input", input, "map source")->required();
-  build_command->add_option("-o,--output", output, ".sigmap to write")->required();
-  build_command->add_option("--config", config,
+  build_command->add_option("-i,--input", arguments.input, "map source")->required();
+  build_command->add_option("-o,--output", arguments.output, ".sigmap to write")->required();
+  build_command->add_option("--config", arguments.config,
                             "ini with [sigloc.map], [sigloc.features] and [sigloc.reading]");
-  reading.declare(*build_command);
+  arguments.reading.declare(*build_command);
 
   CLI::App* info_command = app.add_subcommand("info", "Describes a map of any kind");
-  info_command->add_option("file", input, "map to read")->required();
-  info_command->add_flag("--json", as_json, "as JSON");
-  reading.declare(*info_command);
+  info_command->add_option("file", arguments.input, "map to read")->required();
+  info_command->add_flag("--json", arguments.as_json, "as JSON");
+  arguments.reading.declare(*info_command);
 
   CLI::App* draw_command = app.add_subcommand("draw", "Draws a map of any kind");
-  draw_command->add_option("file", input, "map to read")->required();
-  draw_command->add_option("-o,--output", output, "PNG to write")->required();
-  reading.declare(*draw_command);
+  draw_command->add_option("file", arguments.input, "map to read")->required();
+  draw_command->add_option("-o,--output", arguments.output, "PNG to write")->required();
+  arguments.reading.declare(*draw_command);
 
-  sigloc::CheckArguments check;
   CLI::App* check_command =
       app.add_subcommand("check", "Tells where in a map a robot is found, from simulated scans");
-  check.declare(*check_command);
+  declareCheck(*check_command, arguments);
 
   const auto work = [&]
   {
-    if (build_command->parsed()) build(input, output, config, reading);
-    if (info_command->parsed()) info(input, reading, as_json);
-    if (draw_command->parsed()) draw(input, output, reading);
-    if (check_command->parsed()) sigloc::runCheck(check, kProgram);
-    return 0;
+    using sigloc::MapCommand;
+    if (info_command->parsed()) arguments.command = MapCommand::info;
+    if (draw_command->parsed()) arguments.command = MapCommand::draw;
+    if (check_command->parsed()) arguments.command = MapCommand::check;
+    const bool draws = arguments.command == MapCommand::draw;
+    return sigloc::loadWork<decltype(siglocMap)>(
+        "siglocMap", draws ? sigloc::Pictures::perhaps : sigloc::Pictures::none)(arguments);
   };
   return sigloc::runApp(app, argc, argv, work);
 }

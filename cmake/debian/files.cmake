@@ -24,6 +24,7 @@ foreach(folder IN LISTS component_folders)
   # The libraries are where the system looks.
   file(GLOB binaries "${folder}/usr/bin/*" "${folder}/usr/lib/*/*.so.*.*"
        "${folder}/usr/lib/*/sigloc/*.so.*.*"
+       "${folder}/usr/lib/*/sigloc/sigloc-*.so"
        "${folder}/usr/lib/python*/dist-packages/sigloc/*.so")
   foreach(binary IN LISTS binaries)
     file(RPATH_REMOVE FILE "${binary}")

@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <memory>
-#include <ostream>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -292,33 +291,5 @@ std::string withoutTemporaryEnding(const std::string& name)
   const bool numbered =
       digits < name.size() && name.find_first_not_of("0123456789", digits) == std::string::npos;
   return numbered ? name.substr(0, ending) : name;
-}
-
-void finishOutput(std::ostream& out)
-{
-  // Where writing has failed already, the code of that error is still there, and flush() sets none.
-  if (out) errno = 0;
-  if (!out.flush()) fail("standard output", lastError());
-}
-
-std::string oneLine(const std::string& message)
-{
-  // MRPT's exceptions wrap the reason in a header, the source position and a call stack.
-  std::string line = message;
-  const std::string header = "==== MRPT exception ====";
-  const std::size_t wrapped = message.find(header);
-  if (wrapped != std::string::npos)
-  {
-    std::size_t begin = wrapped + header.size();
-    const std::string marker = "Message:";
-    const std::size_t found = message.find(marker, begin);
-    if (found != std::string::npos) begin = found + marker.size();
-    begin = std::min(message.find_first_not_of(" \n", begin), message.size());
-    line = message.substr(begin, message.find('\n', begin) - begin);
-  }
-  line.erase(line.find_last_not_of('\n') + 1);
-  const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7F; };
-  std::replace_if(line.begin(), line.end(), is_control, '?');
-  return line;
 }
 }  // namespace sigloc

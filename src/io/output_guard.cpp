@@ -1,8 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
+//
+// Programs call some of this before they load the library. So nothing is called here that needs
+// MRPT's libraries.
 #include "sigloc/io/file_output.h"
 
 #include <algorithm>
+#include <cerrno>
+#include <ostream>
 #include <stdexcept>
 #include <system_error>
 
@@ -52,5 +57,35 @@ void checkOutputFolder(const fs::path& folder, const OutputFolderRule& rule,
                              ", but is no folder of an earlier run of " + rule.owner +
                              "; not overwritten");
   }
+}
+
+void finishOutput(std::ostream& out)
+{
+  // Where writing has failed already, the code of that error is still there, and flush() sets none.
+  if (out) errno = 0;
+  if (out.flush()) return;
+  const std::string reason = std::generic_category().message(errno != 0 ? errno : EIO);
+  throw std::runtime_error("standard output: cannot be written: " + reason);
+}
+
+std::string oneLine(const std::string& message)
+{
+  // MRPT's exceptions wrap the reason in a header, the source position and a call stack.
+  std::string line = message;
+  const std::string header = "==== MRPT exception ====";
+  const std::size_t wrapped = message.find(header);
+  if (wrapped != std::string::npos)
+  {
+    std::size_t begin = wrapped + header.size();
+    const std::string marker = "Message:";
+    const std::size_t found = message.find(marker, begin);
+    if (found != std::string::npos) begin = found + marker.size();
+    begin = std::min(message.find_first_not_of(" \n", begin), message.size());
+    line = message.substr(begin, message.find('\n', begin) - begin);
+  }
+  line.erase(line.find_last_not_of('\n') + 1);
+  const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7F; };
+  std::replace_if(line.begin(), line.end(), is_control, '?');
+  return line;
 }
 }  // namespace sigloc

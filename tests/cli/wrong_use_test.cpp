@@ -49,6 +49,34 @@ TEST(CommandLine, aMapAndALogTakeThePlaceOfThoseOfTheIni)
                 "'rawlog_file' names none.rawlog, which does not exist");
 }
 
+TEST(CommandLine, aLinkToAProgramWorks)
+{
+  const TemporaryFolder folder;
+  std::filesystem::create_symlink(std::string(SIGLOC_BIN_FOLDER) + "/sigloc-localize",
+                                  folder / "link");
+  EXPECT_EQ(runShell(folder, "./link --print-defaults").exit_code, 0);
+}
+
+TEST(CommandLine, aProgramWithoutItsLibrariesSaysSo)
+{
+  const TemporaryFolder folder;
+  for (const std::string program : {"sigloc-localize", "sigloc-map", "sigloc-align"})
+  {
+    const std::filesystem::path alone = folder / program;
+    std::filesystem::copy_file(std::string(SIGLOC_BIN_FOLDER) + "/" + program, alone);
+    const Arguments map = {program == "sigloc-map" ? "info" : kLabMap.string(), kLabMap.string()};
+    std::string command = quoted(alone.string());
+    for (const std::string& argument : map) command += " " + quoted(argument);
+    const CommandResult result = runShell(folder, command);
+    EXPECT_EQ(result.exit_code, 1) << program;
+    EXPECT_EQ(countLines(result.errors), 1) << result.errors;
+    EXPECT_NE(result.errors.find("sigloc/" + program + ".so: cannot open shared object"),
+              std::string::npos)
+        << result.errors;
+    EXPECT_EQ(runShell(folder, quoted(alone.string()) + " --help").exit_code, 0);
+  }
+}
+
 TEST(CommandLine, everyProgramTellsItsVersion)
 {
   const TemporaryFolder folder;

@@ -13,14 +13,13 @@
 #include <iterator>
 #include <stdexcept>
 #include <string>
-#include <tuple>
-#include <type_traits>
 #include <utility>
 
 #include "io/archive/checked_archive.h"
 #include "io/archive/gzip_input.h"
 #include "io/archive/UnreadObservation.h"
 #include "io/key_frames.h"
+#include "io/maps/map_formats.h"
 #include "io/maps/map_reach.h"
 #include "io/maps/map_source_readers.h"
 #include "io/points/points_raster.h"
@@ -36,65 +35,50 @@ namespace
 /// Raised whenever the same source and options give another map than before.
 constexpr int kBuildVersion = 8;
 
-template <auto reader>
-MapSource sourceBy(const std::filesystem::path& path, const ReadingOptions& reading)
-{
-  if constexpr (std::is_invocable_v<decltype(reader), const std::filesystem::path&>)
-  {
-    return reader(path);
-  }
-  else
-  {
-    return reader(path, reading);
-  }
-}
-using MapReader = MapSource (*)(const std::filesystem::path& path, const ReadingOptions& reading);
+using detail::MapKind;
 
-/// A kind of file that maps come in.
-struct MapFormat
+MapSource readAs(MapKind kind, const std::filesystem::path& path, const ReadingOptions& reading)
 {
-  const char* name;  // for messages
-  std::vector<std::string> extensions;  // lower case; `.gz` or `.zst` may follow
-  MapReader read;
-};
-
-/// Every kind of map: a new one is a row here and its reader.
-const std::vector<MapFormat>& mapFormats()
-{
-  static const std::vector<MapFormat> kFormats = {
-      {"simplemap", {".simplemap"}, sourceBy<detail::readSimplemap>},
-      {"grid map", {".gridmap"}, sourceBy<detail::readGridmap>},
-      {"metric map", {".metricmap"}, sourceBy<detail::readMetricMap>},
-      {"ROS map", {".yaml", ".yml"}, sourceBy<detail::readRosMap>},
-      {"image with its resolution", {".pgm", ".png"}, sourceBy<detail::readMapImage>},
-      {"CARMEN log", {".log", ".clf", ".carmen"}, sourceBy<detail::readCarmenLog>},
-      {"landmark file", {".csv"}, sourceBy<detail::readLandmarks>},
-      {"landmarks or points", {".txt"}, sourceBy<detail::readRows>},
-      {"points", {".ply", ".pcd"}, sourceBy<detail::readPointMap>},
-      {"sigmap", {".sigmap"}, sourceBy<loadSigmap>},
-  };
-  return kFormats;
+  switch (kind)
+  {
+    case MapKind::simplemap:
+      return detail::readSimplemap(path, reading);
+    case MapKind::gridmap:
+      return detail::readGridmap(path, reading);
+    case MapKind::metric_map:
+      return detail::readMetricMap(path, reading);
+    case MapKind::ros_map:
+      return detail::readRosMap(path);
+    case MapKind::image:
+      return detail::readMapImage(path, reading);
+    case MapKind::carmen_log:
+      return detail::readCarmenLog(path);
+    case MapKind::landmarks:
+      return detail::readLandmarks(path);
+    case MapKind::rows:
+      return detail::readRows(path, reading);
+    case MapKind::points:
+      return detail::readPointMap(path, reading);
+    case MapKind::sigmap:
+      return loadSigmap(path);
+  }
+  throw std::logic_error("a kind of map without a reader");
 }
 
-const MapFormat& formatOf(const std::filesystem::path& path)
+MapKind kindOf(const std::filesystem::path& path)
 {
   const std::string extension = detail::extensionOf(path);
   std::string known;
-  for (const MapFormat& format : mapFormats())
+  for (const detail::MapFormat& format : detail::mapFormats())
   {
     for (const std::string& own : format.extensions)
     {
-      if (own == extension) return format;
+      if (own == extension) return format.kind;
       known += (known.empty() ? "" : ", ") + own;
     }
   }
   throw std::runtime_error(
       fmt::format("{}: unknown kind of map (known: {})", path.string(), known));
-}
-
-bool isReadBy(MapReader reader, const std::filesystem::path& path)
-{
-  return formatOf(path).read == reader;
 }
 
 void appendBytes(const std::filesystem::path& path, std::string& bytes)
@@ -211,13 +195,13 @@ std::vector<PosedScans> posedScansOf(const mrpt::maps::CSimpleMap& simplemap)
 std::string warningOfMapSource(const std::filesystem::path& path)
 {
   constexpr double kOneFloor = 0.5;  // [m]
-  if (isReadBy(sourceBy<detail::readRosMap>, path)) return detail::warningOfRosMap(path);
-  if (isReadBy(sourceBy<detail::readMetricMap>, path)) return detail::warningOfMetricMap(path);
-  if (isReadBy(sourceBy<detail::readGridmap>, path))
+  if (kindOf(path) == MapKind::ros_map) return detail::warningOfRosMap(path);
+  if (kindOf(path) == MapKind::metric_map) return detail::warningOfMetricMap(path);
+  if (kindOf(path) == MapKind::gridmap)
     return detail::isMultiMap(path) ? detail::warningOfMetricMap(path) : "";
-  if (isReadBy(sourceBy<detail::readRows>, path)) return detail::warningOfRows(path);
-  if (isReadBy(sourceBy<detail::readPointMap>, path)) return detail::kNoFreeSpace;
-  if (!isReadBy(sourceBy<detail::readSimplemap>, path)) return {};
+  if (kindOf(path) == MapKind::rows) return detail::warningOfRows(path);
+  if (kindOf(path) == MapKind::points) return detail::kNoFreeSpace;
+  if (kindOf(path) != MapKind::simplemap) return {};
   mrpt::maps::CSimpleMap simplemap;
   detail::readObjectFile(path, simplemap);
   std::size_t nowhere = 0;
@@ -270,26 +254,15 @@ MapSource readMapSource(const std::filesystem::path& path, const ReadingOptions&
 {
   detail::requireFile(path);
   detail::checkReading(reading);
-  MapSource source = formatOf(path).read(path, reading);
+  MapSource source = readAs(kindOf(path), path, reading);
   detail::requireWithinReach(source, path);
   return source;
-}
-
-std::string mapFormatNames()
-{
-  std::string names;
-  for (const MapFormat& format : mapFormats())
-  {
-    names += fmt::format("{}{} ({})", names.empty() ? "" : ", ", format.name,
-                         fmt::join(format.extensions, " "));
-  }
-  return names;
 }
 
 std::vector<std::filesystem::path> filesOfMapSource(const std::filesystem::path& path)
 {
   std::vector<std::filesystem::path> files = {path};
-  if (isReadBy(sourceBy<detail::readRosMap>, path)) files.push_back(detail::imageOfRosMap(path));
+  if (kindOf(path) == MapKind::ros_map) files.push_back(detail::imageOfRosMap(path));
   return files;
 }
 
@@ -298,7 +271,7 @@ FeatureMap buildMapFromFile(const std::filesystem::path& path, const MapBuilding
                             const ReadingOptions& reading)
 {
   detail::requireFile(path);
-  FeatureMap map = isReadBy(sourceBy<loadSigmap>, path)
+  FeatureMap map = kindOf(path) == MapKind::sigmap
                        ? loadSigmap(path)
                        : build(path, building, extraction, reading,
                                provenanceOf(path, building, extraction, reading), progress);
@@ -329,7 +302,7 @@ CachedMap mapWithCache(const std::filesystem::path& source, const std::filesyste
 {
   const auto start = std::chrono::steady_clock::now();
   detail::requireFile(source);
-  if (isReadBy(sourceBy<loadSigmap>, source))
+  if (kindOf(source) == MapKind::sigmap)
   {
     return {buildMapFromFile(source, building, extraction), true, 0.0};
   }

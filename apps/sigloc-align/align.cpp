@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/core.h>
+#include <mrpt/core/bits_math.h>
+#include <mrpt/poses/CPosePDFSOG.h>
+#include <mrpt/serialization/CArchive.h>
+
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <stdexcept>
+
+#include "alignment_picture.h"
+#include "arguments.h"
+#include "picture_file.h"
+#include "progress_line.h"
+#include "sigloc/io/file_output.h"
+#include "sigloc/io/map_files.h"
+#include "sigloc/plugin/pose_pdf.h"
+#include "warn.h"
+
+namespace
+{
+namespace fs = std::filesystem;
+
+constexpr const char* kProgram = "sigloc-align";
+constexpr int kNoPose = 3;
+
+std::shared_ptr<const sigloc::FeatureMap> readMap(const fs::path& path,
+                                                  const sigloc::ReadingOptions& reading)
+{
+  sigloc::ProgressLine progress;
+  auto map = std::make_shared<const sigloc::FeatureMap>(sigloc::buildMapFromFile(
+      path, {}, {}, [&](double share) { progress.showBar("building the map", share); }, reading));
+  progress.finish();
+  sigloc::warn(kProgram, path, sigloc::warningOfMapSource(path));
+  sigloc::warn(kProgram, path, sigloc::warningOfMap(*map));
+  return map;
+}
+
+/// Throws std::runtime_error where an output would replace an input, or has a wrong name.
+void checkOutputs(const sigloc::AlignArguments& arguments)
+{
+  std::vector<fs::path> inputs = sigloc::filesOfMapSource(arguments.a);
+  const std::vector<fs::path> more = sigloc::filesOfMapSource(arguments.b);
+  inputs.insert(inputs.end(), more.begin(), more.end());
+  const auto check = [&](const fs::path& output, const char* ending, const fs::path& other)
+  {
+    if (output.empty()) return;
+    if (output.extension() != ending)
+      throw std::runtime_error(output.string() + ": the name must end in " + ending);
+    sigloc::refuseToReplaceInputs(output, inputs);
+    if (output == other) throw std::runtime_error(output.string() + ": named twice");
+  };
+  check(arguments.poses, ".CPosePDFSOG", arguments.picture);
+  check(arguments.picture, ".png", arguments.poses);
+}
+
+void writePoses(const std::vector<sigloc::MapPose>& poses, const fs::path& path)
+{
+  sigloc::Belief belief;
+  for (const sigloc::MapPose& pose : poses)
+  {
+    sigloc::TrackedHypothesis hypothesis;
+    hypothesis.pose = pose.a_from_b;
+    hypothesis.weight = pose.weight;
+    belief.hypotheses.push_back(hypothesis);
+  }
+  const mrpt::poses::CPosePDFSOG sum = sigloc::toSumOfGaussians(belief);
+  sigloc::writeObjects(path, [&](mrpt::serialization::CArchive& archive) { archive << sum; });
+}
+
+void print(const std::vector<sigloc::MapPose>& poses)
+{
+  if (poses.empty()) std::cout << "no pose of the second map in the first is possible\n";
+  for (const sigloc::MapPose& pose : poses)
+  {
+    const mrpt::math::TPose2D& mean = pose.a_from_b.mean;
+    const auto sd = [&](int i) { return std::sqrt(pose.a_from_b.covariance(i, i)); };
+    std::cout << fmt::format(
+        "x {:.3f} m, y {:.3f} m, {:.2f} deg (sd {:.3f} m, {:.3f} m, {:.2f} deg): seen so from "
+        "{:.0f} "
+        "% of its places; {:.0f} % of its walls over mapped space fit\n",
+        mean.x, mean.y, mrpt::RAD2DEG(mean.phi), sd(0), sd(1), mrpt::RAD2DEG(sd(2)),
+        100 * pose.weight, 100 * pose.explained);
+  }
+}
+}  // namespace
+
+int siglocAlign(const sigloc::AlignArguments& arguments)
+{
+  checkOutputs(arguments);
+  const auto a = readMap(arguments.a, arguments.reading.in());
+  const auto b = readMap(arguments.b, arguments.reading.in());
+  std::vector<sigloc::MapPose> poses;
+  try
+  {
+    sigloc::ProgressLine progress;
+    poses = sigloc::alignMaps(a, *b, arguments.options,
+                              [&](double share) { progress.showBar("looking for it", share); });
+  }
+  catch (const std::invalid_argument& error)
+  {
+    const fs::path& named = a->field() ? arguments.b : arguments.a;
+    throw std::runtime_error(named.string() + ": " + error.what());
+  }
+  print(poses);
+  if (poses.empty()) return kNoPose;
+  if (!arguments.poses.empty()) writePoses(poses, arguments.poses);
+  if (!arguments.picture.empty())
+  {
+    const std::string title = fmt::format("{} (red) in {}", arguments.b.filename().string(),
+                                          arguments.a.filename().string());
+    sigloc::savePicture(sigloc::alignmentPicture(*a->field(), *b->field(), poses, title),
+                        arguments.picture);
+  }
+  return 0;
+}
