@@ -34,6 +34,10 @@ target_compile_options(sigloc_flags INTERFACE -Wall -Wextra -Wpedantic -Wconvers
 if(SIGLOC_WERROR)
   target_compile_options(sigloc_flags INTERFACE -Werror)
 endif()
+# g++ takes the files of a unity build for headers, where the warning would be right.
+if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  target_compile_options(sigloc_flags INTERFACE -Wno-subobject-linkage)
+endif()
 if(SIGLOC_SANITIZE)
   target_compile_options(sigloc_flags INTERFACE -fsanitize=${SIGLOC_SANITIZE}
                          -fno-omit-frame-pointer -fno-sanitize-recover=all)
@@ -67,6 +71,15 @@ function(sigloc_add_library name)
     set_property(GLOBAL APPEND PROPERTY SIGLOC_LIBRARIES ${name})
     set_target_properties(${name} PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION 0)
   endif()
+  # Most of the time goes into the headers of MRPT. Where CMAKE_UNITY_BUILD is on, a folder is compiled
+  # as one file: no two of its files use a name of theirs alone for different things.
+  set_target_properties(${name} PROPERTIES UNITY_BUILD_MODE GROUP)
+  foreach(source IN LISTS sources)
+    cmake_path(RELATIVE_PATH source BASE_DIRECTORY "${PROJECT_SOURCE_DIR}/src" OUTPUT_VARIABLE folder)
+    cmake_path(GET folder PARENT_PATH folder)
+    string(REPLACE "/" "_" folder "${folder}")
+    set_source_files_properties("${source}" PROPERTIES UNITY_GROUP "${folder}")
+  endforeach()
   target_include_directories(${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_include_directories(${name} PRIVATE "${SIGLOC_PRIVATE_HEADERS}")

@@ -9,6 +9,8 @@
 #include <numeric>
 #include <optional>
 
+#include "geometry/plane_products.h"
+
 namespace sigloc
 {
 using mrpt::math::TPoint2D;
@@ -36,16 +38,6 @@ struct Circle
   TPoint2D centre;
   double radius;  // [m], positive where the centre is before the wall, as in a round room
 };
-
-double dot(const TPoint2D& a, const TPoint2D& b)
-{
-  return a.x * b.x + a.y * b.y;
-}
-
-double cross(const TPoint2D& a, const TPoint2D& b)
-{
-  return a.x * b.y - a.y * b.x;
-}
 
 /// Returns the circle of which two pieces are chords: its centre is where their bisectors meet.
 std::optional<Circle> circleOf(const Piece& a, const Piece& b)

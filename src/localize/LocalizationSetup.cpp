@@ -252,7 +252,7 @@ void readExperiment(const CConfigFileMemory& ini, const fs::path& path, const fs
 
 /// Runs `read` on the parsed ini and puts the path before whatever it throws.
 template <class Read>
-LocalizationSetup parse(const fs::path& path, Read&& read)
+LocalizationSetup parsed(const fs::path& path, Read&& read)
 {
   detail::requireFile(path);
   try
@@ -299,13 +299,13 @@ std::optional<mrpt::math::TPose2D> LocalizationSetup::finalTruth() const
 LocalizationSetup readLocalizationSetup(const fs::path& ini_path, const fs::path& rawlog,
                                         const fs::path& map)
 {
-  return parse(ini_path, [&](const CConfigFileMemory& ini, LocalizationSetup& setup)
+  return parsed(ini_path, [&](const CConfigFileMemory& ini, LocalizationSetup& setup)
                { readExperiment(ini, ini_path, rawlog, map, setup); });
 }
 
 LocalizationSetup readOptionSections(const fs::path& ini_path)
 {
-  return parse(ini_path, [](const CConfigFileMemory&, LocalizationSetup&) {});
+  return parsed(ini_path, [](const CConfigFileMemory&, LocalizationSetup&) {});
 }
 
 std::string defaultOptionSections()

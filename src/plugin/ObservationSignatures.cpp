@@ -32,7 +32,7 @@ namespace
 {
 // Made when the library is linked, preloaded or opened as a plug-in. It comes after the class's
 // identity, which clang, unlike g++, sets up no earlier; so MRPT_INITIALIZER would not do.
-[[maybe_unused]] const bool kRegistered =
+[[maybe_unused]] const bool kSignaturesRegistered =
     (mrpt::rtti::registerClass(CLASS_ID(ObservationSignatures)), true);
 
 std::string textOf(const Feature& feature)

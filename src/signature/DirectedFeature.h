@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "sigloc/features/Feature.h"
-
 #include <cmath>
+
+#include "geometry/plane_products.h"
+#include "sigloc/features/Feature.h"
 
 namespace sigloc
 {
@@ -41,14 +42,10 @@ inline DirectedFeature directed(const Feature& feature)
           feature.type};
 }
 
-inline double dot(const mrpt::math::TPoint2D& a, const mrpt::math::TPoint2D& b)
-{
-  return a.x * b.x + a.y * b.y;
-}
-inline double cross(const mrpt::math::TPoint2D& a, const mrpt::math::TPoint2D& b)
-{
-  return a.x * b.y - a.y * b.x;
-}
+// Added to every variance, so that features without any error (simulated ones) do not turn a gate
+// into an equality test on floating point numbers.
+constexpr double kRoundingVariance = 1e-12;  // [m^2], [rad^2]
+
 /// Returns the variance [m^2] of the feature's position along a unit vector.
 inline double varianceAlong(const Feature& feature, const mrpt::math::TPoint2D& unit)
 {

@@ -13,8 +13,6 @@ using mrpt::math::TPoint2D;
 
 namespace
 {
-constexpr double kRoundingVariance = 1e-12;  // [m^2], [rad^2]
-
 double square(double value)
 {
   return value * value;

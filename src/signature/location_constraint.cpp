@@ -12,10 +12,6 @@ using mrpt::math::TPoint2D;
 
 namespace
 {
-// Added to every variance, so that features without any error (simulated ones) do not turn a gate
-// into an equality test on floating point numbers.
-constexpr double kRoundingVariance = 1e-12;  // [m^2], [rad^2]
-
 Symmetric2 pointMapNoise(const DirectedFeature& mapped, double relative_sigma)
 {
   const auto& q = mapped.feature->position_covariance;

@@ -24,7 +24,6 @@ using namespace sigloc::test;
 
 namespace
 {
-const std::filesystem::path kDatasets = "/usr/share/mrpt/datasets";
 const auto kCampus = kDatasets / "2006-MalagaCampus.gridmap.gz";
 const auto kDrive = kDatasets / "2006-01ENE-21-SENA_Telecom Faculty_one_loop_only.rawlog";
 

@@ -17,7 +17,7 @@ using mrpt::math::TPose2D;
 
 namespace
 {
-std::string errorOf(const std::filesystem::path& path)
+std::string truthErrorOf(const std::filesystem::path& path)
 {
   return messageOf<std::runtime_error>([&] { GroundTruth::read(path); });
 }
@@ -114,8 +114,8 @@ TEST(GroundTruth, NamesFileAndReasonForUnusableFiles)
   for (const char* name : {"empty.txt", "comment.txt", "words.txt", "columns.txt", "five.txt",
                            "m.simplemap", "no.txt"})
   {
-    const std::string message = errorOf(folder / name);
+    const std::string message = truthErrorOf(folder / name);
     EXPECT_EQ(message.rfind((folder / name).string() + ": ", 0), 0U) << name << ": " << message;
   }
-  EXPECT_NE(errorOf(folder / "words.txt").find("line 1"), std::string::npos);
+  EXPECT_NE(truthErrorOf(folder / "words.txt").find("line 1"), std::string::npos);
 }

@@ -9,6 +9,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "bridge/map_error.h"
 #include "bridge/rawlog_files.h"
 
 using namespace sigloc;
@@ -16,12 +17,6 @@ using namespace sigloc::test;
 
 namespace
 {
-const std::filesystem::path kDatasets = "/usr/share/mrpt/datasets";
-
-std::string errorOf(const std::filesystem::path& path)
-{
-  return messageOf<std::runtime_error>([&] { readMapSource(path); });
-}
 
 /// 4 x 3 pixels, first row on top: wall, free, unknown, free / walls and unknowns / ...
 void writeRosMap(const TemporaryFolder& folder, const std::string& yaw = "0.0")
@@ -132,8 +127,9 @@ TEST(MapSources, ReadsARosMapOfRawOccupancies)
   EXPECT_EQ(raster.cells[3], CellState::solid_wall) << "the image's last row is the map's lowest";
 
   writeText(folder / "m.pgm", "no image");
-  EXPECT_NE(errorOf(folder / "m.yaml").find("m.pgm: is no PGM or PNG picture"), std::string::npos);
-  EXPECT_NE(errorOf(folder / "m.pgm")
+  EXPECT_NE(mapErrorOf(folder / "m.yaml").find("m.pgm: is no PGM or PNG picture"),
+            std::string::npos);
+  EXPECT_NE(mapErrorOf(folder / "m.pgm")
                 .find("image_resolution), or its .yaml file; did you mean 'm.yaml'?"),
             std::string::npos);
 }
@@ -162,7 +158,7 @@ TEST(MapSources, RefusesRosMapsThatMakeNoSense)
     std::string yaml = sound;
     yaml.replace(yaml.find(text), text.size(), instead);
     writeText(folder / "m.yaml", yaml);
-    return errorOf(folder / "m.yaml");
+    return mapErrorOf(folder / "m.yaml");
   };
   const std::string thresholds = "free_thresh <= occupied_thresh";
   EXPECT_NE(errorWith("0.65", "0.1").find(thresholds), std::string::npos);
@@ -185,7 +181,8 @@ TEST(MapSources, RefusesGridmapsOfAbsurdCells)
     grid.fill(0.9F);
     grid.setCell(3, 3, 0.01F);
     writeObject(folder / "m.gridmap", grid);
-    EXPECT_NE(errorOf(folder / "m.gridmap").find("not of 0.005 to 1 m"), std::string::npos) << cell;
+    EXPECT_NE(mapErrorOf(folder / "m.gridmap").find("not of 0.005 to 1 m"), std::string::npos)
+        << cell;
   }
 }
 
@@ -212,7 +209,7 @@ std::vector<std::string> errorsOfMapsAt(const TemporaryFolder& folder, double x,
   std::vector<std::string> errors;
   for (const char* const name : {"m.log", "m.txt", "m.simplemap", "m.gridmap", "m.yaml"})
   {
-    errors.push_back(errorOf(folder / name));
+    errors.push_back(mapErrorOf(folder / name));
   }
   return errors;
 }
@@ -238,11 +235,11 @@ TEST(MapSources, RefusesRosMapsItCannotHonour)
   testing::internal::CaptureStderr();
   writeRosMap(folder);
   writeText(folder / "m.pgm", "P5\n4 3\n255\n\x01");
-  EXPECT_FALSE(errorOf(folder / "m.yaml").empty());
+  EXPECT_FALSE(mapErrorOf(folder / "m.yaml").empty());
   std::filesystem::remove(folder / "m.pgm");
-  EXPECT_NE(errorOf(folder / "m.yaml").find("m.pgm: no such file"), std::string::npos);
+  EXPECT_NE(mapErrorOf(folder / "m.yaml").find("m.pgm: no such file"), std::string::npos);
   writeText(folder / "m.yaml", "hello: [1, 2\n");
-  EXPECT_NE(errorOf(folder / "m.yaml").find("not a ROS map"), std::string::npos);
+  EXPECT_NE(mapErrorOf(folder / "m.yaml").find("not a ROS map"), std::string::npos);
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << "the library never prints";
 }
 
@@ -298,11 +295,11 @@ TEST(MapSources, NamesTheBadLineOfACarmenLog)
 {
   const TemporaryFolder folder;
   writeText(folder / "cut.log", flaser(180, 3) + flaser(180, 3).substr(0, 400));
-  EXPECT_NE(errorOf(folder / "cut.log").find("line 2: cut off"), std::string::npos);
+  EXPECT_NE(mapErrorOf(folder / "cut.log").find("line 2: cut off"), std::string::npos);
   writeText(folder / "none.log", "ODOM 1 2 3 0 0 0 1 host 1\n");
-  EXPECT_NE(errorOf(folder / "none.log").find("no FLASER"), std::string::npos);
+  EXPECT_NE(mapErrorOf(folder / "none.log").find("no FLASER"), std::string::npos);
   writeText(folder / "count.log", "FLASER -3 1 2\n");
-  EXPECT_NE(errorOf(folder / "count.log").find("line 1"), std::string::npos);
+  EXPECT_NE(mapErrorOf(folder / "count.log").find("line 1"), std::string::npos);
 }
 
 TEST(MapSources, ReadsLandmarkRowsAndNamedColumns)
@@ -325,9 +322,9 @@ TEST(MapSources, ReadsLandmarkRowsAndNamedColumns)
   EXPECT_DOUBLE_EQ(named[0].size, 0.4);
 
   writeText(folder / "bad.csv", "1,2\n1,two\n");
-  EXPECT_NE(errorOf(folder / "bad.csv").find("line 2: bad y"), std::string::npos);
+  EXPECT_NE(mapErrorOf(folder / "bad.csv").find("line 2: bad y"), std::string::npos);
   writeText(folder / "only.csv", "# x,y\n");
-  EXPECT_NE(errorOf(folder / "only.csv").find("no landmark"), std::string::npos);
+  EXPECT_NE(mapErrorOf(folder / "only.csv").find("no landmark"), std::string::npos);
 }
 
 TEST(MapSources, NamesFileAndReasonForUnusableFilesOfEveryKind)
@@ -346,7 +343,7 @@ TEST(MapSources, NamesFileAndReasonForUnusableFilesOfEveryKind)
     const auto path = folder / (std::string("m.") + extension);
     const auto expect_refused = [&](const char* what)
     {
-      const std::string message = errorOf(path);
+      const std::string message = mapErrorOf(path);
       EXPECT_EQ(message.rfind(path.string() + ": ", 0), 0U) << what << ": " << message;
       EXPECT_EQ(message.find('\n'), std::string::npos) << message;
     };

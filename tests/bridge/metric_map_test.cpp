@@ -11,9 +11,9 @@
 
 #include <variant>
 
+#include "bridge/map_error.h"
 #include "bridge/rawlog_files.h"
 #include "io/archive/gzip_input.h"
-#include "sigloc/io/map_files.h"
 
 using namespace sigloc;
 using namespace sigloc::test;
@@ -63,10 +63,6 @@ std::string headOf(const std::string& name, char version, char count)
   return length + name + version + count + std::string(3, '\0');
 }
 
-std::string errorOf(const std::filesystem::path& path)
-{
-  return messageOf<std::runtime_error>([&] { readMapSource(path); });
-}
 }  // namespace
 
 TEST(MetricMaps, OfSeveralTheGridIsTaken)
@@ -114,12 +110,12 @@ TEST(MetricMaps, LandmarksAreToldAndNotRead)
   const auto path = folder / "m.metricmap";
   const std::string landmarks = headOf("mrpt::maps::CLandmarksMap", 0, 2) + std::string(90, 'x');
   writeText(path, landmarks);
-  EXPECT_EQ(errorOf(path),
+  EXPECT_EQ(mapErrorOf(path),
             path.string() +
                 ": holds a 'mrpt::maps::CLandmarksMap', not a map of a grid or of points; "
                 "landmarks are read from a .csv file with a row x,y for each");
   writeText(path, headOf("mrpt::maps::CMultiMetricMap", 12, 1) + landmarks + '\x88');
-  EXPECT_EQ(errorOf(path),
+  EXPECT_EQ(mapErrorOf(path),
             path.string() +
                 ": holds neither a grid map with walls and free cells nor a map of points; "
                 "landmarks are read from a .csv file with a row x,y for each");
@@ -141,7 +137,7 @@ TEST(MetricMaps, OfNoUseAreRefusedInOneLine)
   const auto path = folder / "m.metricmap";
   const auto expectRefused = [&](const char* reason)
   {
-    const std::string message = errorOf(path);
+    const std::string message = mapErrorOf(path);
     EXPECT_EQ(message.rfind(path.string() + ": ", 0), 0U) << message;
     EXPECT_NE(message.find(reason), std::string::npos) << message;
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
@@ -162,7 +158,7 @@ TEST(MetricMaps, OfNoUseAreRefusedInOneLine)
   std::string bytes = unpacked(path);
   const std::string whole = readBytes(path);
   writeText(path, whole.substr(0, whole.size() / 2));
-  EXPECT_FALSE(errorOf(path).empty());
+  EXPECT_FALSE(mapErrorOf(path).empty());
   // With one byte less it ends as the last map in it does, and nothing that is used is missing.
   for (const std::size_t cut : {std::size_t{2}, std::size_t{100}, bytes.size() / 2})
   {

@@ -10,9 +10,9 @@
 #include <sstream>
 #include <variant>
 
+#include "bridge/map_error.h"
 #include "bridge/rawlog_files.h"
 #include "io/points/point_files.h"
-#include "sigloc/io/map_files.h"
 
 using namespace sigloc;
 using namespace sigloc::test;
@@ -126,11 +126,6 @@ std::string pcdOf(const Points& points, const std::string& data)
          bytesOf(static_cast<std::uint32_t>(all.size()), false) + lzf;
 }
 
-std::string errorOf(const std::filesystem::path& path, const ReadingOptions& reading = {})
-{
-  return messageOf<std::runtime_error>([&] { readMapSource(path, reading); });
-}
-
 OccupancyRaster rasterIn(const std::filesystem::path& path)
 {
   return std::get<OccupancyRaster>(readMapSource(path));
@@ -180,7 +175,7 @@ TEST(PointMaps, TakeTheHeightsThatAreAskedFor)
   EXPECT_EQ(stateAt(ceiling, 0.72, 1), CellState::solid_wall);
   reading.min_height = 5;
   reading.max_height = 6;
-  EXPECT_NE(errorOf(folder / "m.ply", reading).find("they are at 0.00 to 2.50 m, see --heights"),
+  EXPECT_NE(mapErrorOf(folder / "m.ply", reading).find("they are at 0.00 to 2.50 m, see --heights"),
             std::string::npos);
   // All at one height, as those of a planar laser: whatever it is.
   Points flat = roomPoints();
@@ -223,7 +218,7 @@ TEST(PointMaps, RowsThatAreCutOffOrNotAlikeAreRefused)
   const auto refusal = [&](const std::string& text)
   {
     writeText(folder / "m.txt", text);
-    std::string message = errorOf(folder / "m.txt");
+    std::string message = mapErrorOf(folder / "m.txt");
     EXPECT_EQ(message.rfind((folder / "m.txt").string() + ": ", 0), 0U) << message;
     EXPECT_EQ(messageOf<std::runtime_error>([&] { warningOfMapSource(folder / "m.txt"); }),
               message);
@@ -250,7 +245,7 @@ TEST(PointMaps, ARowWithoutEndIsNoPoint)
     for (const std::string names : {"", "x y z\n"})
     {
       writeText(folder / name, names + row);
-      const std::string message = errorOf(folder / name);
+      const std::string message = mapErrorOf(folder / name);
       EXPECT_NE(message.find(" columns, more than 100"), std::string::npos) << message;
       EXPECT_NE(message.find(names.empty() ? "line 1: " : "line 2: "), std::string::npos);
     }
@@ -309,7 +304,7 @@ TEST(PointMaps, RefuseHostileFilesInOneLine)
   for (const Case& hostile : cases)
   {
     writeText(folder / hostile.name, hostile.bytes);
-    const std::string message = errorOf(folder / hostile.name);
+    const std::string message = mapErrorOf(folder / hostile.name);
     EXPECT_EQ(message.rfind((folder / hostile.name).string() + ": ", 0), 0U) << message;
     EXPECT_NE(message.find(hostile.reason), std::string::npos) << hostile.reason << ": " << message;
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;

@@ -18,6 +18,8 @@
 
 namespace sigloc::test
 {
+inline const std::filesystem::path kDatasets = "/usr/share/mrpt/datasets";
+
 /// A fresh folder of its own for the running test, removed with the object.
 class TemporaryFolder
 {

@@ -40,7 +40,7 @@ std::vector<RawlogStep> readAll(const std::filesystem::path& path)
   return readAll(reader);
 }
 
-std::string errorOf(const std::filesystem::path& path)
+std::string logErrorOf(const std::filesystem::path& path)
 {
   return messageOf<std::runtime_error>([&] { RawlogReader reader(path); });
 }
@@ -355,9 +355,9 @@ TEST(RawlogReader, NamesFileAndReasonForUnusableFiles)
   for (const char* name : {"random", "empty", "text", "stub", "foreign", "missing"})
   {
     const auto path = folder / (std::string(name) + ".rawlog");
-    const std::string message = errorOf(path);
+    const std::string message = logErrorOf(path);
     EXPECT_EQ(message.rfind(path.string() + ": ", 0), 0U) << name << " -> " << message;
     EXPECT_EQ(message.find('\n'), std::string::npos);
   }
-  EXPECT_FALSE(errorOf(folder.path()).empty()) << "a folder is no rawlog";
+  EXPECT_FALSE(logErrorOf(folder.path()).empty()) << "a folder is no rawlog";
 }

@@ -12,9 +12,9 @@
 #include <thread>
 #include <vector>
 
+#include "bridge/map_error.h"
 #include "bridge/rawlog_files.h"
 #include "io/maps/ros_map_yaml.h"
-#include "sigloc/io/map_files.h"
 
 using namespace sigloc;
 using namespace sigloc::test;
@@ -42,11 +42,6 @@ std::vector<CellState> rowOf(const TemporaryFolder& folder, const std::vector<in
   writeText(folder / "m.pgm", pgm(std::to_string(pixels.size()) + " 1", pixels));
   writeText(folder / "m.yaml", yaml);
   return std::get<OccupancyRaster>(readMapSource(folder / "m.yaml")).cells;
-}
-
-std::string errorOf(const std::filesystem::path& path)
-{
-  return messageOf<std::runtime_error>([&] { readMapSource(path); });
 }
 
 constexpr CellState kFree = CellState::free;
@@ -231,7 +226,7 @@ TEST(RosMap, RefusesHostileFilesInOneLine)
   for (const std::string& yaml : hostile)
   {
     writeText(folder / "m.yaml", yaml);
-    const std::string message = errorOf(folder / "m.yaml");
+    const std::string message = mapErrorOf(folder / "m.yaml");
     EXPECT_EQ(message.rfind((folder / "m.yaml").string() + ": ", 0), 0U)
         << yaml.substr(0, 60) << ": " << message;
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
@@ -251,7 +246,7 @@ TEST(RosMap, RefusesHostilePictures)
         std::string("P6\n1 1\n255\nabc"), std::string("\x89PNG"), png_head, std::string("BM")})
   {
     writeText(folder / "m.pgm", picture);
-    const std::string message = errorOf(folder / "m.yaml");
+    const std::string message = mapErrorOf(folder / "m.yaml");
     const std::string image = (folder / "m.pgm").string();
     EXPECT_EQ(message.rfind((folder / "m.yaml").string() + ": its image " + image + ": ", 0), 0U)
         << message;
@@ -268,7 +263,7 @@ TEST(RosMap, AMissingImageIsToldWithTheMapThatNamesIt)
   const std::string expected = (folder / "m.yaml").string() + ": its image " +
                                (folder / "m.pgm").string() + ": no such file";
   const auto path = folder / "m.yaml";
-  EXPECT_EQ(errorOf(path), expected);
+  EXPECT_EQ(mapErrorOf(path), expected);
   EXPECT_EQ(messageOf<std::runtime_error>([&] { buildMapFromFile(path, {}, {}); }), expected);
   EXPECT_EQ(messageOf<std::runtime_error>([&] { filesOfMapSource(path); }), expected);
   writeText(folder / "m.pgn", pgm("3 1", {0, 205, 254}));
@@ -297,7 +292,7 @@ TEST(RosMap, LoadingLeavesTheHostsOutputAlone)
         {
           for (int k = 0; k < 50; ++k)
           {
-            errorOf(folder / (k % 2 == 0 ? "m.yaml" : "bad.yaml"));
+            mapErrorOf(folder / (k % 2 == 0 ? "m.yaml" : "bad.yaml"));
             struct stat now = {};
             fstat(STDOUT_FILENO, &now);
             if (now.st_ino != captured.st_ino) ++swapped[t];

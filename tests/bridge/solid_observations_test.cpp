@@ -27,7 +27,6 @@ using mrpt::obs::CObservation;
 
 namespace
 {
-const std::filesystem::path kDatasets = "/usr/share/mrpt/datasets";
 const TPose2D kRobot(0.5, -0.3, 0.4);  // in the room
 const mrpt::poses::CPose3D kMount(0.2, 0.1, 0.6, 0.3, 0, 0);  // robot_from_sensor
 constexpr double kTime = 1e9;  // [s]

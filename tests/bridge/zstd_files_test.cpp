@@ -7,9 +7,9 @@
 
 #include <random>
 
+#include "bridge/map_error.h"
 #include "bridge/rawlog_files.h"
 #include "io/archive/gzip_input.h"
-#include "sigloc/io/map_files.h"
 #include "sigloc/io/RawlogReader.h"
 
 namespace sigloc
@@ -35,11 +35,6 @@ std::string skippable(unsigned kind, std::size_t size)
   std::string frame = {static_cast<char>(0x50U + kind), '\x2A', '\x4D', '\x18'};
   for (unsigned i = 0; i < 4; ++i) frame += static_cast<char>(size >> (8 * i) & 0xFFU);
   return frame + std::string(size, 'n');
-}
-
-std::string errorOf(const std::filesystem::path& path)
-{
-  return messageOf<std::runtime_error>([&] { readMapSource(path); });
 }
 
 std::string unpacked(const std::filesystem::path& path)
@@ -94,9 +89,9 @@ TEST(ZstdFiles, framesToBeSkippedAreSkipped)
   EXPECT_EQ(std::get<std::vector<PosedScans>>(readMapSource(folder / "m.simplemap")).size(),
             std::get<std::vector<PosedScans>>(readMapSource(kMap)).size());
   writeText(folder / "m.simplemap", packed(unpacked(kMap)) + skippable(3, 50).substr(0, 40));
-  EXPECT_NE(errorOf(folder / "m.simplemap").find("truncated"), std::string::npos);
+  EXPECT_NE(mapErrorOf(folder / "m.simplemap").find("truncated"), std::string::npos);
   writeText(folder / "m.simplemap", skippable(3, 50));
-  EXPECT_NE(errorOf(folder / "m.simplemap").find("not an MRPT file"), std::string::npos);
+  EXPECT_NE(mapErrorOf(folder / "m.simplemap").find("not an MRPT file"), std::string::npos);
 }
 
 TEST(ZstdFiles, namesThatEndInZstAreTaken)
@@ -139,9 +134,10 @@ TEST(ZstdFiles, whatIsPackedTwiceSaysSo)
   for (const auto& [name, bytes] : cases)
   {
     writeText(folder / name, bytes);
-    EXPECT_EQ(errorOf(folder / name), (folder / name).string() +
-                                          ": is compressed twice; unpack it once, with gunzip or "
-                                          "zstd -d");
+    EXPECT_EQ(mapErrorOf(folder / name),
+              (folder / name).string() +
+                  ": is compressed twice; unpack it once, with gunzip or "
+                  "zstd -d");
   }
   writeText(folder / "l.rawlog", packed(readBytes(kMap)));
   EXPECT_THROW(RawlogReader(folder / "l.rawlog"), std::runtime_error);
@@ -215,9 +211,9 @@ TEST(ZstdFiles, aTextThatUnpacksToFarMoreIsRefused)
   const TemporaryFolder folder;
   const std::string rows((std::size_t{1} << 26U) + 1, '0');
   writeText(folder / "points.txt", packed(rows));
-  EXPECT_NE(errorOf(folder / "points.txt").find("unpacks to more than 50 times its size"),
+  EXPECT_NE(mapErrorOf(folder / "points.txt").find("unpacks to more than 50 times its size"),
             std::string::npos)
-      << errorOf(folder / "points.txt");
+      << mapErrorOf(folder / "points.txt");
 }
 }  // namespace
 }  // namespace sigloc

@@ -21,7 +21,6 @@ using mrpt::math::TPose2D;
 using nlohmann::json;
 
 const std::filesystem::path kDrive = kSources / "rawlogs/office.rawlog";
-const std::filesystem::path kOffice = kSources / "maps/office.simplemap";
 
 /// A step as a ROBOTLASER1 message; its robot is at `odometry`.
 std::string robotLaser(const RawlogStep& step, const TPose2D& odometry)

@@ -20,7 +20,7 @@ using Arguments = std::vector<std::string>;
 
 inline const std::filesystem::path kSources =
     std::filesystem::path(SIGLOC_SHARE_FOLDER) / ".." / "..";
-inline const std::filesystem::path kDatasets = "/usr/share/mrpt/datasets";
+inline const std::filesystem::path kOffice = kSources / "maps/office.simplemap";
 inline const std::filesystem::path kLabMap = kDatasets / "localization_demo.simplemap.gz";
 inline const std::filesystem::path kLabLog = kDatasets / "localization_demo.rawlog";
 

@@ -15,8 +15,6 @@ namespace
 using namespace sigloc::test;
 using nlohmann::json;
 
-const std::string kOffice = (kSources / "maps" / "office.simplemap").string();
-
 /// A small run of a sub-command; "LANDMARKS" stands for the folder of a small landmark log.
 struct SmallRun
 {
@@ -80,7 +78,7 @@ TEST(EvalSummaryOfTrack, HoldsWhatDrivesAreJudgedBy)
 {
   const TemporaryFolder folder;
   const json summary =
-      summaryOf(folder, {"track", "--map", kOffice, "--rawlog",
+      summaryOf(folder, {"track", "--map", kOffice.string(), "--rawlog",
                          (kSources / "rawlogs" / "office.rawlog").string(), "--ground-truth",
                          (kSources / "rawlogs" / "office-truth.txt").string(), "--starts", "2",
                          "--travel", "4", "--kidnap", "--method", "signature"});
@@ -129,7 +127,7 @@ INSTANTIATE_TEST_SUITE_P(
     Of, EvalSummary,
     testing::Values(
         SmallRun{"Relocate",
-                 {"relocate", "--map", kOffice, "--interleave", "4", "--max-queries", "4",
+                 {"relocate", "--map", kOffice.string(), "--interleave", "4", "--max-queries", "4",
                   "--method", "signature,exhaustive,jcbb,mcl"}},
         SmallRun{"Track",
                  {"track", "--simulate", "2", "--worlds", "office", "--travel", "2", "--method",
@@ -173,8 +171,8 @@ TEST(EvalPictures, AreDrawnByEverySubCommandThatCanFail)
   const std::string log = (kSources / "rawlogs" / "office.rawlog").string();
   const Arguments all[] = {
       // In a map that is declared foreign every claim is wrong.
-      {"track", "--map", kOffice, "--rawlog", log, "--foreign", "--starts", "2", "--travel", "4",
-       "--method", "signature"},
+      {"track", "--map", kOffice.string(), "--rawlog", log, "--foreign", "--starts", "2",
+       "--travel", "4", "--method", "signature"},
       {"track", "--simulate", "1", "--worlds", "corridor", "--mapped-share", "0.3", "--travel", "6",
        "--seed", "3", "--method", "mcl", "--particles", "50"},
       // Two features do not fix a pose.

@@ -10,8 +10,6 @@ namespace sigloc
 namespace
 {
 using namespace sigloc::test;
-const std::filesystem::path kOffice =
-    std::filesystem::path(SIGLOC_SHARE_FOLDER) / ".." / ".." / "maps" / "office.simplemap";
 
 std::vector<std::string> relocateInOffice(const std::vector<std::string>& more)
 {

@@ -26,7 +26,7 @@ namespace
 using namespace sigloc::test;
 using mrpt::serialization::CSerializable;
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kFloatNan = std::numeric_limits<float>::quiet_NaN();
 constexpr std::uint32_t kAll = 0xFFFFFFFFU;
 
 std::string bytesOf(const CSerializable& object)
@@ -116,7 +116,7 @@ struct HostileObject
 constexpr std::size_t kGridWidth = 2, kGridHeight = 6, kGridXMin = 10, kGridXMax = 14,
                       kGridResolution = 26;
 
-std::vector<HostileObject> hostileMaps()
+std::vector<HostileObject> hostileMapObjects()
 {
   using S = std::string;
   const S grid = "COccupancyGridMap2D";
@@ -131,14 +131,14 @@ std::vector<HostileObject> hostileMaps()
        "a raster of 80 x 80 cells that spans"},
       {"wider.gridmap", gridBytes, [=](S& b) { put(b, grid, kGridXMax, 4000.F); },
        "a raster of 80 x 80 cells that spans"},
-      {"nan.gridmap", gridBytes, [=](S& b) { put(b, grid, kGridXMin, kNan); }, "reaches (nan"},
+      {"nan.gridmap", gridBytes, [=](S& b) { put(b, grid, kGridXMin, kFloatNan); }, "reaches (nan"},
       {"fine.gridmap", gridBytes, [=](S& b) { put(b, grid, kGridResolution, 1e-30F); },
        "cells of 1e-30 m"},
       {"zero.gridmap", gridBytes, [=](S& b) { put(b, grid, kGridResolution, 0.F); },
        "cells of 0 m"},
       {"negative.gridmap", gridBytes, [=](S& b) { put(b, grid, kGridResolution, -0.05F); },
        "cells of -0.05 m"},
-      {"resolution_nan.gridmap", gridBytes, [=](S& b) { put(b, grid, kGridResolution, kNan); },
+      {"resolution_nan.gridmap", gridBytes, [=](S& b) { put(b, grid, kGridResolution, kFloatNan); },
        "cells of nan m"},
       {"weights.gridmap", gridBytes,
        [=](S& b) { put(b, grid, 30 + 80 * 80 + 20 + 58, std::uint32_t{0x7FFFFFFF}); }},
@@ -229,7 +229,7 @@ void expectRefusals(const TemporaryFolder& folder, const std::vector<HostileObje
 TEST(HostileObject, MapsAreRefusedInOneLine)
 {
   const TemporaryFolder folder;
-  expectRefusals(folder, hostileMaps(), "sigloc-map",
+  expectRefusals(folder, hostileMapObjects(), "sigloc-map",
                  [](const std::string& name) {
                    return Arguments{"build", "-i", name, "-o", "m.sigmap"};
                  });

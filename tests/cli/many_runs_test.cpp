@@ -39,12 +39,12 @@ TEST(ManyRuns, GnuParallelSpreadsThemAndMergePoolsThem)
 
   const auto merged = run(folder, "sigloc-eval", {"merge", "runs/1", "runs/2", "--out", "all"});
   ASSERT_EQ(merged.exit_code, 0) << merged.errors;
-  const auto json = nlohmann::json::parse(readBytes(folder / "all" / "summary.json"));
-  const auto& method = json.at("methods").at("signature");
+  const auto summary = nlohmann::json::parse(readBytes(folder / "all" / "summary.json"));
+  const auto& method = summary.at("methods").at("signature");
   EXPECT_EQ(method.at("queries"), 12);
   ASSERT_EQ(method.at("rows").size(), 2U);
   EXPECT_EQ(method.at("rows").at(0).at("recall_at_1_counts").at(1), 6);
-  EXPECT_EQ(json.at("provenance").at("data").size(), 2U);
+  EXPECT_EQ(summary.at("provenance").at("data").size(), 2U);
   EXPECT_TRUE(std::filesystem::exists(folder / "all" / "recall.png"));
 }
 

@@ -23,7 +23,6 @@ namespace
 using namespace sigloc::test;
 using mrpt::math::TPose2D;
 
-const std::filesystem::path kOffice = kSources / "maps/office.simplemap";
 const TPose2D kTurned(12, -7, 73 * M_PI / 180);  // of the second map in the first
 
 /// Writes every `of`-th key frame of a map from `first` on, turned and shifted by the inverse of a

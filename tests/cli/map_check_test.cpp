@@ -25,7 +25,6 @@ namespace
 using namespace sigloc::test;
 using nlohmann::json;
 
-const std::filesystem::path kOffice = kSources / "maps/office.simplemap";
 const Arguments kFew = {"--places", "60", "--scans", "3", "--drives", "4"};
 
 CommandResult check(const TemporaryFolder& folder, const std::filesystem::path& map,

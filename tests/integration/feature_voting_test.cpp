@@ -25,7 +25,7 @@ Feature makeFeature(FeatureType type, double x, double y, double direction = 0, 
   feature.position = {x, y};
   feature.direction = direction;
   feature.size = size;
-  feature.position_covariance = mrpt::math::CMatrixDouble22::Identity() * 1e-4;
+  feature.position_covariance.setDiagonal(1e-4);
   return feature;
 }
 

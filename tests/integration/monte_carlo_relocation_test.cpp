@@ -8,6 +8,7 @@
 #include "eval/scoring/relocation_scoring.h"
 #include "eval/worlds/simulation_files.h"
 #include "sigloc/io/map_files.h"
+#include "support/office_files.h"
 
 namespace sigloc
 {
@@ -15,15 +16,12 @@ namespace
 {
 using mrpt::math::TPose2D;
 
-const std::filesystem::path kOffice =
-    std::filesystem::path(SIGLOC_SOURCE_DIR) / "maps" / "office.simplemap";
-
 class MonteCarloRelocationTest : public ::testing::Test
 {
  protected:
-  MonteCarloRelocationTest() : map_(readEvaluationMap(kOffice))
+  MonteCarloRelocationTest() : map_(readEvaluationMap(testing::kOfficeMap))
   {
-    const auto scans = std::get<std::vector<PosedScans>>(readMapSource(kOffice));
+    const auto scans = std::get<std::vector<PosedScans>>(readMapSource(testing::kOfficeMap));
     asked_ = scans[scans.size() / 2];
   }
 

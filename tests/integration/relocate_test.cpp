@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "eval/protocols/relocate.h"
+#include "support/office_files.h"
 
 #include <gtest/gtest.h>
 
@@ -13,9 +14,6 @@ namespace sigloc
 {
 namespace
 {
-const std::filesystem::path kOffice =
-    std::filesystem::path(SIGLOC_SOURCE_DIR) / "maps" / "office.simplemap";
-
 class RelocateTest : public ::testing::Test
 {
  protected:
@@ -30,7 +28,7 @@ class RelocateTest : public ::testing::Test
   {
     RelocateOptions options;
     options.methods.clear();
-    options.sources.map = kOffice;
+    options.sources.map = testing::kOfficeMap;
     options.sources.interleave = 4;
     options.sources.max_queries = 12;
     for (const std::string& name : relocationMethodNames())
@@ -121,7 +119,7 @@ TEST_F(RelocateTest, NamesWhatIsWrongBeforeItRuns)
   options.methods = {"signature", "no-such-method"};
   EXPECT_THROW(runRelocate(options), std::invalid_argument);
   options = officeOptions();
-  options.sources.queries = kOffice;
+  options.sources.queries = testing::kOfficeMap;
   EXPECT_THROW(runRelocate(options), std::invalid_argument) << "two kinds of queries";
   options = officeOptions();
   options.sources.map = folder_ / "missing.simplemap";
@@ -131,7 +129,7 @@ TEST_F(RelocateTest, NamesWhatIsWrongBeforeItRuns)
 TEST_F(RelocateTest, FindsScansThatAreSimulatedInTheMapItself)
 {
   RelocateOptions options;
-  options.sources.map = kOffice;
+  options.sources.map = testing::kOfficeMap;
   options.methods = {"signature"};
   options.scans_in_map.count = 40;
   options.scans_in_map.view_deg = 270;
@@ -147,7 +145,7 @@ TEST_F(RelocateTest, FindsScansThatAreSimulatedInTheMapItself)
 
 TEST(ScansInMap, ComeFromClearPlacesAndFollowTheirSeed)
 {
-  const EvaluationMap map = readEvaluationMap(kOffice);
+  const EvaluationMap map = readEvaluationMap(testing::kOfficeMap);
   const OccupancyRaster raster = rasterOf(*map.features->field());
   MapScanOptions options;
   options.count = 20;
@@ -171,7 +169,7 @@ TEST(ScansInMap, ComeFromClearPlacesAndFollowTheirSeed)
 
 TEST(ScansInMap, RefuseALaserOutOfRange)
 {
-  const EvaluationMap map = readEvaluationMap(kOffice);
+  const EvaluationMap map = readEvaluationMap(testing::kOfficeMap);
   MapScanOptions options;
   options.count = 1;
   options.range_sigma = -1;

@@ -17,7 +17,7 @@ using mrpt::math::TPose2D;
 
 constexpr std::size_t kAll = 100000;  // proposals
 
-const MappedWorld& office()
+const MappedWorld& keyPairOffice()
 {
   constexpr std::uint64_t kSeed = 31;
   static const MappedWorld world(officeWorld(kSeed), kSeed);
@@ -44,14 +44,14 @@ TEST(KeyPairLaws, ProposeTheTruePose)
 {
   constexpr std::uint64_t kSeed = 32;
   Random random(kSeed);
-  const KeyPairIndex index = indexOf(*office().map());
+  const KeyPairIndex index = indexOf(*keyPairOffice().map());
   constexpr int kScenes = 200;
   int proposed = 0;
   int supported = 0;
   for (int k = 0; k < kScenes; ++k)
   {
-    const TPose2D truth = office().randomPose(random);
-    KeyPairSearch search(index, office().sceneAt(truth, random).features);
+    const TPose2D truth = keyPairOffice().randomPose(random);
+    KeyPairSearch search(index, keyPairOffice().sceneAt(truth, random).features);
     proposed += holdsNear(search.next(kAll), truth, 0.5, 10 * M_PI / 180);
     supported += search.supportersOf(truth) >= 2;
     EXPECT_TRUE(search.finished());
@@ -67,8 +67,8 @@ TEST(KeyPairLaws, RoundsAddUp)
 {
   constexpr std::uint64_t kSeed = 33;
   Random random(kSeed);
-  const KeyPairIndex index = indexOf(*office().map());
-  const ObservedScene scene = office().sceneAt(office().randomPose(random), random);
+  const KeyPairIndex index = indexOf(*keyPairOffice().map());
+  const ObservedScene scene = keyPairOffice().sceneAt(keyPairOffice().randomPose(random), random);
   KeyPairSearch at_once(index, scene.features);
   KeyPairSearch in_rounds(index, scene.features);
   const std::vector<PoseProposal> all = at_once.next(kAll);
@@ -93,12 +93,12 @@ TEST(KeyPairLaws, SupportIsThatOfTheBestSupportedPose)
 {
   constexpr std::uint64_t kSeed = 36;
   Random random(kSeed);
-  const KeyPairIndex index = indexOf(*office().map());
+  const KeyPairIndex index = indexOf(*keyPairOffice().map());
   constexpr std::size_t kMost = 6;
   std::size_t reached = 0;
   for (int k = 0; k < 4; ++k)
   {
-    const ObservedScene scene = office().sceneAt(office().randomPose(random), random);
+    const ObservedScene scene = keyPairOffice().sceneAt(keyPairOffice().randomPose(random), random);
     KeyPairSearch search(index, scene.features);
     std::vector<PoseProposal> joined;
     for (std::size_t wanted = 4; !search.finished() && joined.size() < 2000; wanted *= 4)
@@ -124,19 +124,19 @@ TEST(KeyPairLaws, ProposalsMoveWithTheMap)
   Random random(kSeed);
   const TPose2D moved_from_map(37.3, -12.9, 2.1);
   std::vector<Feature> features;
-  for (const Feature& feature : office().map()->features())
+  for (const Feature& feature : keyPairOffice().map()->features())
   {
     features.push_back(transformed(moved_from_map, feature));
   }
-  const FeatureMap moved(std::move(features), std::nullopt, office().map()->error());
-  const KeyPairIndex index = indexOf(*office().map());
+  const FeatureMap moved(std::move(features), std::nullopt, keyPairOffice().map()->error());
+  const KeyPairIndex index = indexOf(*keyPairOffice().map());
   const KeyPairIndex moved_index = indexOf(moved);
   EXPECT_EQ(moved_index.range(), index.range());
   std::size_t total = 0;
   std::size_t matched = 0;
   for (int k = 0; k < 20; ++k)
   {
-    const ObservedScene scene = office().sceneAt(office().randomPose(random), random);
+    const ObservedScene scene = keyPairOffice().sceneAt(keyPairOffice().randomPose(random), random);
     KeyPairSearch search(index, scene.features);
     KeyPairSearch moved_search(moved_index, scene.features);
     const std::vector<PoseProposal> in_moved = moved_search.next(kAll);
@@ -152,14 +152,14 @@ TEST(KeyPairLaws, ProposalsMoveWithTheMap)
 
 TEST(KeyPairLaws, BuildingIsDeterministic)
 {
-  const KeyPairIndex first = indexOf(*office().map());
-  const KeyPairIndex second = indexOf(*office().map());
+  const KeyPairIndex first = indexOf(*keyPairOffice().map());
+  const KeyPairIndex second = indexOf(*keyPairOffice().map());
   EXPECT_EQ(first.size(), second.size());
   constexpr std::uint64_t kSeed = 35;
   Random random(kSeed);
   for (int k = 0; k < 10; ++k)
   {
-    const ObservedScene scene = office().sceneAt(office().randomPose(random), random);
+    const ObservedScene scene = keyPairOffice().sceneAt(keyPairOffice().randomPose(random), random);
     const std::vector<PoseProposal> a = KeyPairSearch(first, scene.features).next(kAll);
     const std::vector<PoseProposal> b = KeyPairSearch(second, scene.features).next(kAll);
     ASSERT_EQ(a.size(), b.size());

@@ -17,17 +17,9 @@ namespace
 {
 using mrpt::math::TPose2D;
 using testing::isRight;
+using testing::lawOffice;
 using testing::MappedWorld;
 using testing::officeWorld;
-
-constexpr std::uint64_t kOfficeSeed = 3;
-
-/// Built once, because most tests use the same office.
-const MappedWorld& office()
-{
-  static const MappedWorld world(officeWorld(kOfficeSeed), kOfficeSeed);
-  return world;
-}
 
 /// Every number of a result, bit by bit.
 std::string bytesOf(const RelocationResult& result)
@@ -103,8 +95,9 @@ TEST(Localization, FindsRandomPosesInAnOfficeAndKnowsHowWell)
   int inside = 0;
   for (int k = 0; k < 150; ++k)
   {
-    const TPose2D truth = office().randomPose(random);
-    const RelocationResult result = office().matcher()->localize(office().sceneAt(truth, random));
+    const TPose2D truth = lawOffice().randomPose(random);
+    const RelocationResult result =
+        lawOffice().matcher()->localize(lawOffice().sceneAt(truth, random));
     expectWellFormed(result);
     ++tally.asked;
     const bool confident = result.verdict == Verdict::localized;
@@ -137,14 +130,14 @@ TEST(Localization, IsEquivariantUnderMovesOfTheRobotFrame)
   int compared = 0;
   for (int k = 0; k < 40; ++k)
   {
-    const TPose2D truth = office().randomPose(random);
-    LaserScan scan = office().scan(truth, random);
-    const RelocationResult plain = office().matcher()->localize(observeScene({scan}));
+    const TPose2D truth = lawOffice().randomPose(random);
+    LaserScan scan = lawOffice().scan(truth, random);
+    const RelocationResult plain = lawOffice().matcher()->localize(observeScene({scan}));
     if (plain.verdict != Verdict::localized) continue;
     const TPose2D moved_from_robot(random.uniform(-1, 1), random.uniform(-1, 1),
                                    random.uniform(-M_PI, M_PI));
     scan.robot_from_sensor = moved_from_robot + scan.robot_from_sensor;
-    const RelocationResult moved = office().matcher()->localize(observeScene({scan}));
+    const RelocationResult moved = lawOffice().matcher()->localize(observeScene({scan}));
     ASSERT_FALSE(moved.candidates.empty());
     const TPose2D expected =
         plain.candidates.front().pose.mean + (TPose2D(0, 0, 0) - moved_from_robot);
@@ -169,16 +162,16 @@ TEST(Localization, IsEquivariantUnderMovesOfTheMap)
     for (PosedScans& posed : scans) posed.map_from_robot = moved_from_map + posed.map_from_robot;
     return scans;
   };
-  const auto scans =
-      simulateMapping(office().world(), 1.2, 0.35, MappedWorld::laser(), kOfficeSeed);
+  const auto scans = simulateMapping(lawOffice().world(), 1.2, 0.35, MappedWorld::laser(),
+                                     testing::kLawOfficeSeed);
   const SignatureMatcher moved(std::make_shared<FeatureMap>(buildMapFromScans(turned(scans))));
   Random random(1003);
   int compared = 0;
   for (int k = 0; k < 30; ++k)
   {
-    const TPose2D truth = office().randomPose(random);
-    const ObservedScene scene = office().sceneAt(truth, random);
-    const RelocationResult plain = office().matcher()->localize(scene);
+    const TPose2D truth = lawOffice().randomPose(random);
+    const ObservedScene scene = lawOffice().sceneAt(truth, random);
+    const RelocationResult plain = lawOffice().matcher()->localize(scene);
     if (plain.verdict != Verdict::localized) continue;
     const RelocationResult there = moved.localize(scene);
     ASSERT_FALSE(there.candidates.empty());
@@ -210,12 +203,12 @@ Tally askInAnotherMap(const MappedWorld& there, const SignatureMatcher& matcher,
 
 TEST(Localization, IsSeldomConfidentInAMirrorImageOrAForeignMap)
 {
-  const MappedWorld mirror(mirrored(officeWorld(kOfficeSeed)), kOfficeSeed);
-  const Tally in_mirror = askInAnotherMap(office(), *mirror.matcher(), 400, 1004);
+  const MappedWorld mirror(mirrored(officeWorld(testing::kLawOfficeSeed)), testing::kLawOfficeSeed);
+  const Tally in_mirror = askInAnotherMap(lawOffice(), *mirror.matcher(), 400, 1004);
   std::cout << "mirrored: " << in_mirror << "\n";
   EXPECT_LE(in_mirror.confident, 4);
-  const MappedWorld foreign(officeWorld(kOfficeSeed + 100), kOfficeSeed);
-  const Tally in_foreign = askInAnotherMap(office(), *foreign.matcher(), 400, 1005);
+  const MappedWorld foreign(officeWorld(testing::kLawOfficeSeed + 100), testing::kLawOfficeSeed);
+  const Tally in_foreign = askInAnotherMap(lawOffice(), *foreign.matcher(), 400, 1005);
   std::cout << "foreign: " << in_foreign << "\n";
   EXPECT_LE(in_foreign.confident, 4);
 }
@@ -223,17 +216,17 @@ TEST(Localization, IsSeldomConfidentInAMirrorImageOrAForeignMap)
 TEST(Localization, AnEmptyMapSaysNothing)
 {
   Random random(1006);
-  const ObservedScene scene = office().sceneAt(office().randomPose(random), random);
+  const ObservedScene scene = lawOffice().sceneAt(lawOffice().randomPose(random), random);
   const SignatureMatcher none(std::make_shared<FeatureMap>());
   EXPECT_TRUE(none.localize(scene).candidates.empty());
   EXPECT_NE(none.localize(scene).verdict, Verdict::localized);
   // A field without features to propose from.
   const SignatureMatcher bare(
-      std::make_shared<FeatureMap>(std::vector<Feature>{}, office().map()->field()));
+      std::make_shared<FeatureMap>(std::vector<Feature>{}, lawOffice().map()->field()));
   EXPECT_TRUE(bare.localize(scene).candidates.empty());
   EXPECT_NE(bare.localize(scene).verdict, Verdict::localized);
   // Features without a field.
-  const SignatureMatcher sparse(std::make_shared<FeatureMap>(office().map()->features()));
+  const SignatureMatcher sparse(std::make_shared<FeatureMap>(lawOffice().map()->features()));
   expectWellFormed(sparse.localize(scene));
 }
 
@@ -243,20 +236,20 @@ TEST(Localization, SameInputSameBytesOnAnyThread)
   std::vector<ObservedScene> scenes;
   for (int k = 0; k < 12; ++k)
   {
-    scenes.push_back(office().sceneAt(office().randomPose(random), random));
+    scenes.push_back(lawOffice().sceneAt(lawOffice().randomPose(random), random));
   }
   std::vector<std::string> once;
   for (const ObservedScene& scene : scenes)
   {
-    once.push_back(bytesOf(office().matcher()->localize(scene)));
+    once.push_back(bytesOf(lawOffice().matcher()->localize(scene)));
   }
   std::vector<std::string> again(4 * scenes.size());
   runParallel(again.size(), 4,
               [&](std::size_t i)
-              { again[i] = bytesOf(office().matcher()->localize(scenes[i % scenes.size()])); });
+              { again[i] = bytesOf(lawOffice().matcher()->localize(scenes[i % scenes.size()])); });
   for (std::size_t i = 0; i < again.size(); ++i) EXPECT_EQ(again[i], once[i % scenes.size()]);
   // A second matcher of the same map, and a second map of the same scans, give the same result.
-  const MappedWorld rebuilt(officeWorld(kOfficeSeed), kOfficeSeed);
+  const MappedWorld rebuilt(officeWorld(testing::kLawOfficeSeed), testing::kLawOfficeSeed);
   for (std::size_t i = 0; i < scenes.size(); ++i)
   {
     EXPECT_EQ(bytesOf(rebuilt.matcher()->localize(scenes[i])), once[i]);
@@ -266,23 +259,23 @@ TEST(Localization, SameInputSameBytesOnAnyThread)
 TEST(Localization, DegenerateInputIsTooLittle)
 {
   Random random(1009);
-  const LaserScan whole = office().scan(office().randomPose(random), random);
+  const LaserScan whole = lawOffice().scan(lawOffice().randomPose(random), random);
   for (const std::size_t beams : {0U, 1U, 2U, 9U})
   {
     LaserScan scan = whole;
     scan.ranges.resize(beams);
     scan.valid.resize(beams);
-    const RelocationResult result = office().matcher()->localize(observeScene({scan}));
+    const RelocationResult result = lawOffice().matcher()->localize(observeScene({scan}));
     EXPECT_EQ(result.verdict, Verdict::too_little_seen) << beams;
     EXPECT_TRUE(result.candidates.empty());
     EXPECT_EQ(result.elsewhere, 1);
   }
-  EXPECT_EQ(office().matcher()->localize({}).verdict, Verdict::too_little_seen);
+  EXPECT_EQ(lawOffice().matcher()->localize({}).verdict, Verdict::too_little_seen);
   // All returns at one place, and all on one line.
   ObservedScene heap;
   heap.sensor_origins = {{0, 0}};
   heap.beams.assign(50, {{1.0, 1.0}, 0});
-  expectWellFormed(office().matcher()->localize(heap));
+  expectWellFormed(lawOffice().matcher()->localize(heap));
   LaserScan straight = whole;
   straight.first_angle = -1.0;
   straight.angle_step = 2.0 / static_cast<double>(whole.ranges.size());
@@ -292,7 +285,7 @@ TEST(Localization, DegenerateInputIsTooLittle)
     straight.ranges[i] = static_cast<float>(1.0 / std::cos(angle));
     straight.valid[i] = 1;
   }
-  const RelocationResult line = office().matcher()->localize(observeScene({straight}));
+  const RelocationResult line = lawOffice().matcher()->localize(observeScene({straight}));
   expectWellFormed(line);
   EXPECT_NE(line.verdict, Verdict::localized);
 }
@@ -303,9 +296,9 @@ TEST(Localization, ARegionKeepsCandidatesInside)
   const PoseRegion west{0, 10, 0, 12};
   for (int k = 0; k < 20; ++k)
   {
-    const TPose2D truth = office().randomPose(random);
+    const TPose2D truth = lawOffice().randomPose(random);
     const RelocationResult result =
-        office().matcher()->localize(office().sceneAt(truth, random), west);
+        lawOffice().matcher()->localize(lawOffice().sceneAt(truth, random), west);
     for (const Candidate& candidate : result.candidates)
     {
       // Refinement may carry a pose over the border by half a metre.

@@ -17,14 +17,9 @@ namespace
 using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
 using testing::isRight;
+using testing::lawOffice;
 using testing::MappedWorld;
 using testing::officeWorld;
-
-const MappedWorld& office()
-{
-  static const MappedWorld world(officeWorld(3), 3);
-  return world;
-}
 
 TEST(LookAlikes, ExactCopiesShareTheWeight)
 {
@@ -93,17 +88,17 @@ TEST(LookAlikes, IdenticalRastersGetIdenticalWeights)
 {
   for (const std::uint32_t copies : {2U, 3U})
   {
-    const auto map = exactCopies(*office().map(), copies);
+    const auto map = exactCopies(*lawOffice().map(), copies);
     const SignatureMatcher matcher(map);
     const double period =
-        office().map()->field()->frame.width * office().map()->field()->frame.resolution;
+        lawOffice().map()->field()->frame.width * lawOffice().map()->field()->frame.resolution;
     Random random(1010 + copies);
     double worst = 1;
     int equal = 0;
     for (int k = 0; k < 20; ++k)
     {
-      const TPose2D truth = office().randomPose(random);
-      const RelocationResult result = matcher.localize(office().sceneAt(truth, random));
+      const TPose2D truth = lawOffice().randomPose(random);
+      const RelocationResult result = matcher.localize(lawOffice().sceneAt(truth, random));
       EXPECT_NE(result.verdict, Verdict::localized);
       double lightest = 1;
       double heaviest = 0;
@@ -226,7 +221,7 @@ int drivesWithBothAlive(const std::optional<MotionIncrement>& first_motion)
   MatcherOptions one_place;
   one_place.max_candidates = 1;
   const auto matcher =
-      std::make_shared<SignatureMatcher>(exactCopies(*office().map(), 2), one_place);
+      std::make_shared<SignatureMatcher>(exactCopies(*lawOffice().map(), 2), one_place);
   DriveOptions twelve_metres;
   twelve_metres.metres = 12;
   int both_alive = 0;
@@ -234,7 +229,7 @@ int drivesWithBothAlive(const std::optional<MotionIncrement>& first_motion)
   {
     HypothesisTracker tracker(matcher);
     const auto drive =
-        simulateDrive(office().world(), twelve_metres, {}, MappedWorld::laser(), seed);
+        simulateDrive(lawOffice().world(), twelve_metres, {}, MappedWorld::laser(), seed);
     for (const DriveStep& step : drive)
     {
       tracker.step(&step == &drive.front() ? first_motion : step.motion,
@@ -258,7 +253,7 @@ TEST(LookAlikes, APlaceFoundLateCountsAsIfItHadBeenFollowed)
 /// Two copies of the office; the second lacks 0.3 m of every five metres.
 std::shared_ptr<const FeatureMap> oneFullOneStripped()
 {
-  const auto copies = exactCopies(*office().map(), 2);
+  const auto copies = exactCopies(*lawOffice().map(), 2);
   OccupancyRaster raster;
   raster.frame = copies->field()->frame;
   for (std::uint32_t y = 0; y < raster.frame.height; ++y)
@@ -287,7 +282,7 @@ std::optional<double> leadOfTheFullCopy(const std::shared_ptr<const SignatureMat
   HypothesisTracker tracker(matcher, options);
   bool first = true;
   for (const DriveStep& step :
-       simulateDrive(office().world(), drive, {}, MappedWorld::laser(), seed))
+       simulateDrive(lawOffice().world(), drive, {}, MappedWorld::laser(), seed))
   {
     ObservedScene scene = observeScene({*step.scan});
     if (few_returns && !first)

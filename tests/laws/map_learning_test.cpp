@@ -17,7 +17,7 @@ using mrpt::math::TPose2D;
 
 namespace
 {
-const MappedWorld& office()
+const MappedWorld& learnedOffice()
 {
   static const MappedWorld world(makeWorld(WorldKind::office, {}, 5), 5);
   return world;
@@ -25,7 +25,7 @@ const MappedWorld& office()
 
 std::vector<PosedScans> mappingScans()
 {
-  return simulateMapping(office().world(), 1.2, 0.35, MappedWorld::laser(), 5);
+  return simulateMapping(learnedOffice().world(), 1.2, 0.35, MappedWorld::laser(), 5);
 }
 
 /// Share of the features of `a` that `b` has within 10 cm, of their kind, facing their way.
@@ -54,7 +54,7 @@ void expectSameAnswers(const FeatureMap& a, const FeatureMap& b)
   int same = 0;
   for (int i = 0; i < kScenes; ++i)
   {
-    const ObservedScene scene = office().sceneAt(office().randomPose(random), random);
+    const ObservedScene scene = learnedOffice().sceneAt(learnedOffice().randomPose(random), random);
     const auto at_a = in_a.localize(scene);
     const auto at_b = in_b.localize(scene);
     ASSERT_FALSE(at_a.candidates.empty());
@@ -76,7 +76,7 @@ TEST(MapLearning, IsTheSameInOneGoOrOneByOne)
     builder.add(scans[i]);
     if (i % 3 == 0) builder.field();
   }
-  test::expectSameMap(builder.map(), *office().map());
+  test::expectSameMap(builder.map(), *learnedOffice().map());
 }
 
 TEST(MapLearning, DependsLittleOnTheOrder)
@@ -85,10 +85,10 @@ TEST(MapLearning, DependsLittleOnTheOrder)
   std::mt19937 random(17);
   std::shuffle(scans.begin(), scans.end(), random);
   const FeatureMap shuffled = buildMapFromScans(scans);
-  test::expectSameField(*shuffled.field(), *office().map()->field());
-  EXPECT_GE(shareFoundIn(shuffled, *office().map()), 0.95);
-  EXPECT_GE(shareFoundIn(*office().map(), shuffled), 0.95);
-  expectSameAnswers(shuffled, *office().map());
+  test::expectSameField(*shuffled.field(), *learnedOffice().map()->field());
+  EXPECT_GE(shareFoundIn(shuffled, *learnedOffice().map()), 0.95);
+  EXPECT_GE(shareFoundIn(*learnedOffice().map(), shuffled), 0.95);
+  expectSameAnswers(shuffled, *learnedOffice().map());
 }
 
 TEST(MapLearning, WorkGrowsWithTheScansNotWithTheirSquare)

@@ -29,7 +29,7 @@ using mrpt::slam::CMetricMapsAlignmentAlgorithm;
 
 namespace
 {
-const MappedWorld& office()
+const MappedWorld& alignedOffice()
 {
   static const MappedWorld world(makeWorld(WorldKind::office, {}, 11), 11);
   return world;
@@ -111,7 +111,7 @@ std::string refusal(const mrpt::maps::CMetricMap* m1, const mrpt::maps::CMetricM
 
 TEST(SignatureAligner, FindsPosesFarFromTheGuessWhereIcpDoesNot)
 {
-  const SignatureMap map(*office().map());
+  const SignatureMap map(*alignedOffice().map());
   SignatureAligner by_signatures;
   mrpt::slam::CICP by_icp;
   by_icp.options.maxIterations = 100;
@@ -121,8 +121,8 @@ TEST(SignatureAligner, FindsPosesFarFromTheGuessWhereIcpDoesNot)
   constexpr int kPoses = 12;
   for (int i = 0; i < kPoses; ++i)
   {
-    const TPose2D truth = office().randomPose(random);
-    const auto seen = pointsOf(office().scan(truth, random));
+    const TPose2D truth = alignedOffice().randomPose(random);
+    const auto seen = pointsOf(alignedOffice().scan(truth, random));
     const auto right_after = [&](CMetricMapsAlignmentAlgorithm& algorithm)
     {
       const auto pdf = algorithm.AlignPDF(&map, &seen, CPosePDFGaussian());
@@ -141,9 +141,9 @@ TEST(SignatureAligner, FindsPosesFarFromTheGuessWhereIcpDoesNot)
 
 TEST(SignatureAligner, TellsEveryHypothesis)
 {
-  const SignatureMap map(*office().map());
+  const SignatureMap map(*alignedOffice().map());
   Random random(20262, 0);
-  const auto seen = pointsOf(office().scan(office().randomPose(random), random));
+  const auto seen = pointsOf(alignedOffice().scan(alignedOffice().randomPose(random), random));
   SignatureAligner aligner;
   CMetricMapsAlignmentAlgorithm& algorithm = aligner;
   SignatureAligner::TReturnInfo info;
@@ -181,11 +181,11 @@ TEST(SignatureAligner, TellsEveryHypothesis)
 TEST(SignatureAligner, TakesTheMapsThatItNames)
 {
   Random random(20263, 0);
-  const TPose2D truth = office().randomPose(random);
-  const LaserScan scan = office().scan(truth, random);
+  const TPose2D truth = alignedOffice().randomPose(random);
+  const LaserScan scan = alignedOffice().scan(truth, random);
   const auto points = pointsOf(scan);
-  const SignatureMap map(*office().map());
-  const auto grid = gridOf(*office().map()->field());
+  const SignatureMap map(*alignedOffice().map());
+  const auto grid = gridOf(*alignedOffice().map()->field());
   mrpt::maps::CMultiMetricMap several;
   several.maps.push_back(mrpt::maps::COccupancyGridMap2D::Create());
   several.maps.push_back(std::make_shared<SignatureMap>(map));
@@ -212,9 +212,9 @@ TEST(SignatureAligner, TakesTheMapsThatItNames)
 TEST(SignatureAligner, KeepsToTheSearchLimits)
 {
   Random random(20264, 0);
-  const TPose2D truth = office().randomPose(random);
-  const auto seen = pointsOf(office().scan(truth, random));
-  const SignatureMap map(*office().map());
+  const TPose2D truth = alignedOffice().randomPose(random);
+  const auto seen = pointsOf(alignedOffice().scan(truth, random));
+  const SignatureMap map(*alignedOffice().map());
   SignatureAligner aligner;
   aligner.search_limits = {2.0, 0.5};
   const CPosePDFSOG near = align(aligner, map, seen, CPose2D(truth) + CPose2D(0.5, 0.5, 0.2));
@@ -227,11 +227,12 @@ TEST(SignatureAligner, KeepsToTheSearchLimits)
 TEST(SignatureAligner, FollowsAMapThatGrows)
 {
   Random random(20265, 0);
-  const TPose2D truth = office().randomPose(random);
-  const auto seen = pointsOf(office().scan(truth, random));
+  const TPose2D truth = alignedOffice().randomPose(random);
+  const auto seen = pointsOf(alignedOffice().scan(truth, random));
   SignatureAligner aligner;
   EXPECT_EQ(align(aligner, SignatureMap(), seen).size(), 0U);
-  EXPECT_GT(align(aligner, SignatureMap(*office().map()), seen).size(), 0U);
-  EXPECT_EQ(align(aligner, SignatureMap(*office().map()), mrpt::maps::CSimplePointsMap()).size(),
-            0U);
+  EXPECT_GT(align(aligner, SignatureMap(*alignedOffice().map()), seen).size(), 0U);
+  EXPECT_EQ(
+      align(aligner, SignatureMap(*alignedOffice().map()), mrpt::maps::CSimplePointsMap()).size(),
+      0U);
 }

@@ -66,6 +66,14 @@ inline World officeWorld(std::uint64_t seed)
   return makeWorld(WorldKind::office, options, seed);
 }
 
+/// The office of several laws, built once.
+inline constexpr std::uint64_t kLawOfficeSeed = 3;
+inline const MappedWorld& lawOffice()
+{
+  static const MappedWorld world(officeWorld(kLawOfficeSeed), kLawOfficeSeed);
+  return world;
+}
+
 /// Right: within 0.5 m and 10 degrees of the truth.
 inline bool isRight(const mrpt::math::TPose2D& pose, const mrpt::math::TPose2D& truth)
 {

@@ -19,7 +19,6 @@ namespace
 constexpr double kWidth = 48;  // [m]
 constexpr double kHeight = 15;  // [m]
 constexpr double kMapSpacing = 2;  // [m] between mapping scans
-constexpr double kClearance = 0.35;  // [m]
 constexpr double kRangeSigma = 0.03;  // [m]
 
 /// A map of offices and the queries in it.
@@ -43,14 +42,14 @@ Offices makeOffices(std::uint32_t count, const ScaleOptions& options)
   const auto worlds = makeBuildings(WorldKind::office, layout, buildings, options.seed);
   Offices offices;
   offices.area = kWidth * kHeight * count;
-  const auto scans = simulateMapping(worlds, kMapSpacing, kClearance, laser, options.seed);
+  const auto scans = simulateMapping(worlds, kMapSpacing, kRobotClearance, laser, options.seed);
   const double bytes_before = heapBytes();
   const double start = threadCpuSeconds();
   offices.map.features = std::make_shared<const FeatureMap>(buildMapFromScans(scans));
   offices.map.build_seconds = threadCpuSeconds() - start;
   offices.map_bytes = heapBytes() - bytes_before;
   const auto asked = static_cast<std::uint32_t>(options.poses);
-  for (PosedScans& query : simulateQueries(worlds, asked, kClearance, laser, options.seed))
+  for (PosedScans& query : simulateQueries(worlds, asked, kRobotClearance, laser, options.seed))
   {
     offices.queries.push_back(
         {std::to_string(offices.queries.size()), std::move(query.scans), query.map_from_robot});

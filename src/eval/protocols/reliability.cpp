@@ -27,7 +27,6 @@ namespace
 using mrpt::maps::COccupancyGridMap2D;
 using mrpt::math::TPose2D;
 
-constexpr double kClearance = 0.35;  // [m]
 constexpr double kMapSpacing = 1.2;  // [m] between the mapping scans
 constexpr std::size_t kBeams = 180;  // that a tracker scores a pose with
 constexpr double kTrackSigma = 0.05;  // [m] of a pose that a tracker predicts
@@ -41,9 +40,9 @@ class MappedWorld
  public:
   MappedWorld(WorldKind kind, std::uint64_t seed)
       : world_(makeWorld(kind, {}, seed)),
-        space_(world_, kClearance),
+        space_(world_, kRobotClearance),
         map_(evaluationMapFromScans(
-            simulateMapping(world_, kMapSpacing, kClearance, LaserOptions(), seed))),
+            simulateMapping(world_, kMapSpacing, kRobotClearance, LaserOptions(), seed))),
         matcher_(map_.features),
         grid_(detail::occupancyGridOf(rasterOf(*map_.features->field()))),
         random_(seed, kPoseStream)

@@ -24,7 +24,6 @@ using mrpt::math::TPose2D;
 
 namespace
 {
-constexpr double kClearance = 0.35;  // [m] of the robot from every surface
 constexpr double kMappingSpacing = 1.2;  // [m] between mapping scans
 constexpr double kHeadingPerMetre = M_PI / 180 / 0.05;  // [rad/m] error of a mapping scan's pose
 constexpr std::uint32_t kMaxWorlds = 1000;  // of a kind: seeds of two runs never share a world
@@ -48,7 +47,7 @@ LaserOptions mappingLaser()
 EvaluationMap mapOf(const World& world, double sigma, std::uint64_t seed)
 {
   std::vector<PosedScans> scans =
-      simulateMapping(world, kMappingSpacing, kClearance, mappingLaser(), seed);
+      simulateMapping(world, kMappingSpacing, kRobotClearance, mappingLaser(), seed);
   Random random(seed, 21);
   for (PosedScans& posed : scans)
   {
@@ -76,15 +75,15 @@ bool hasRoom(const World& world, const TPoint2D& p)
   for (const Furniture& item : world.furniture)
   {
     const TPoint2D local = item.pose.inverseComposePoint(p);
-    if (std::abs(local.x) < 0.5 * item.length + kClearance &&
-        std::abs(local.y) < 0.5 * item.width + kClearance)
+    if (std::abs(local.x) < 0.5 * item.length + kRobotClearance &&
+        std::abs(local.y) < 0.5 * item.width + kRobotClearance)
     {
       return false;
     }
   }
   return std::none_of(world.doors.begin(), world.doors.end(),
                       [&](const Door& door)
-                      { return door.closed && distanceTo(door.leaf, p) < kClearance; });
+                      { return door.closed && distanceTo(door.leaf, p) < kRobotClearance; });
 }
 
 TPose2D randomPose(const FreeSpace& mapped, const World& asked, Random& random)
@@ -149,7 +148,7 @@ std::vector<EvaluationQuery> queriesIn(const World& mapped, const World& asked,
                                        std::uint32_t count)
 {
   if (conditions.threshold) return queriesInDoors(asked, conditions, name, count);
-  const FreeSpace space(mapped, kClearance);
+  const FreeSpace space(mapped, kRobotClearance);
   const LaserSimulator simulator(asked, conditions.laser);
   Random places(name.seed, 22);
   std::vector<EvaluationQuery> queries(count);

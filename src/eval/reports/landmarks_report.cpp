@@ -14,16 +14,16 @@ namespace sigloc
 namespace
 {
 /// All queries of one method with local maps of one length.
-struct Row
+struct LandmarksRow
 {
   std::string method;
   std::size_t local_map_steps;  ///< 0: as many as needed
   std::vector<LandmarkRecord> records;
 };
 
-std::vector<Row> rowsOf(const LandmarksReport& report)
+std::vector<LandmarksRow> rowsOf(const LandmarksReport& report)
 {
-  std::vector<Row> rows;
+  std::vector<LandmarksRow> rows;
   for (const LandmarkRecord& record : report.records)
   {
     if (rows.empty() || rows.back().method != record.method ||
@@ -34,21 +34,21 @@ std::vector<Row> rowsOf(const LandmarksReport& report)
   return rows;
 }
 
-std::string stepsText(const Row& row)
+std::string stepsText(const LandmarksRow& row)
 {
   return row.local_map_steps > 0 ? std::to_string(row.local_map_steps) : "as needed";
 }
 
-Columns<Row> rowColumns()
+Columns<LandmarksRow> landmarksColumns()
 {
-  using C = Column<Row>;
+  using C = Column<LandmarksRow>;
   using R = LandmarkRecord;
   return {
-      C("", &Row::method, "", 0, {"method"}),
-      C("local_map_steps", &Row::local_map_steps),
+      C("", &LandmarksRow::method, "", 0, {"method"}),
+      C("local_map_steps", &LandmarksRow::local_map_steps),
       C("", stepsText, "", 0, {"local map steps"}),
       C("", part(&Quantiles::mean, quantiles(&R::features)), "", 1, {"features"}),
-      C("queries", [](const Row& row) { return row.records.size(); }),
+      C("queries", [](const LandmarksRow& row) { return row.records.size(); }),
       C("recall_at_1", share(&R::right), "", 0, {"right"}),
       C("firm", share(&R::confident), "significant, and far ahead of the second", 0, {"firm"}),
       C("firm_and_wrong", share(&R::confidently_wrong), "", 0, {"firm and wrong"}),
@@ -87,7 +87,7 @@ std::vector<detail::QueryCurve> curvesOf(const LandmarksReport& report)
 {
   const auto error = [](const LandmarkRecord& record) { return record.first_error.distance; };
   std::vector<detail::QueryCurve> curves;
-  for (const Row& row : rowsOf(report))
+  for (const LandmarksRow& row : rowsOf(report))
   {
     curves.push_back({row.method, values(error)(row), values(&LandmarkRecord::times_ms)(row)});
     if (row.local_map_steps > 0) curves.back().title += ", " + counted(row.local_map_steps, "step");
@@ -98,19 +98,19 @@ std::vector<detail::QueryCurve> curvesOf(const LandmarksReport& report)
 
 std::string landmarksTable(const LandmarksReport& report)
 {
-  return markdownTable(table(rowColumns(), rowsOf(report)));
+  return markdownTable(table(landmarksColumns(), rowsOf(report)));
 }
 
 void writeLandmarksReport(const LandmarksReport& report, const std::filesystem::path& folder)
 {
   RunReport files;
   nlohmann::ordered_json& json = files.summary;
-  json["methods"] = methodsJson(rowsOf(report), rowColumns(), peakMemoryMb());
+  json["methods"] = methodsJson(rowsOf(report), landmarksColumns(), peakMemoryMb());
   json["map"] = toJson(mapColumns(), report.map);
   files.results = csvFile(recordColumns(), report.records);
   files.text = "# Landmarks: " + report.dataset + "\n\n" + landmarksTable(report);
   files.plots = detail::queryPlots(curvesOf(report), "Time from landmarks to ranked candidates");
-  files.notes = legend("What the columns mean", rowColumns()) + mapSection(report.map);
+  files.notes = legend("What the columns mean", landmarksColumns()) + mapSection(report.map);
   files.provenance = report.provenance;
   writeRunReport(files, folder);
 }

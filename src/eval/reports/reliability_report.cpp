@@ -32,7 +32,7 @@ constexpr const char* kDefinitions = R"(
 )";
 
 /// One measure at one share of clutter.
-struct Row
+struct ReliabilityRow
 {
   double clutter;
   std::string measure;
@@ -41,7 +41,7 @@ struct Row
   AreaUnderCurve curve;
 };
 
-PlotSeries curveOf(Row figures)
+PlotSeries curveOf(ReliabilityRow figures)
 {
   std::sort(figures.right.begin(), figures.right.end());
   std::sort(figures.wrong.begin(), figures.wrong.end());
@@ -67,17 +67,17 @@ std::string percentOf(double share)
   return fixedNumber(100 * share, 0);
 }
 
-std::vector<Row> rowsOf(const ReliabilityReport& report)
+std::vector<ReliabilityRow> rowsOf(const ReliabilityReport& report)
 {
   std::set<double> clutters;
   for (const ReliabilityCase& judged : report.cases) clutters.insert(judged.clutter);
-  std::vector<Row> rows;
+  std::vector<ReliabilityRow> rows;
   for (const double clutter : clutters)
   {
     for (const auto& [measure, value] : {std::pair("signature", &ReliabilityCase::signature),
                                          std::pair("mrpt", &ReliabilityCase::mrpt)})
     {
-      Row& row = rows.emplace_back(Row{clutter, measure, {}, {}, {}});
+      ReliabilityRow& row = rows.emplace_back(ReliabilityRow{clutter, measure, {}, {}, {}});
       for (const ReliabilityCase& judged : report.cases)
       {
         if (judged.clutter != clutter) continue;
@@ -89,23 +89,24 @@ std::vector<Row> rowsOf(const ReliabilityReport& report)
   return rows;
 }
 
-std::string intervalText(const Row& row)
+std::string intervalText(const ReliabilityRow& row)
 {
   constexpr double kTwoSided = 1.96;
   const double half = kTwoSided * row.curve.sigma;
   return fmt::format("{:.4f}-{:.4f}", row.curve.area - half, std::min(1.0, row.curve.area + half));
 }
 
-Columns<Row> rowColumns()
+Columns<ReliabilityRow> reliabilityColumns()
 {
-  using C = Column<Row>;
-  return {C("", [](const Row& row) { return percentOf(row.clutter); }, "", 0, {"clutter %"}),
-          C("right", [](const Row& row) { return row.right.size(); }, "", 0, {"right"}),
-          C("wrong", [](const Row& row) { return row.wrong.size(); }, "", 0, {"wrong"}),
-          C("", &Row::measure, "", 0, {"measure"}),
-          C("auc", [](const Row& row) { return row.curve.area; }, "", 4, {"AUC"}),
-          C("auc_sigma", [](const Row& row) { return row.curve.sigma; }),
-          C("", intervalText, "", 0, {"95 %"})};
+  using C = Column<ReliabilityRow>;
+  return {
+      C("", [](const ReliabilityRow& row) { return percentOf(row.clutter); }, "", 0, {"clutter %"}),
+      C("right", [](const ReliabilityRow& row) { return row.right.size(); }, "", 0, {"right"}),
+      C("wrong", [](const ReliabilityRow& row) { return row.wrong.size(); }, "", 0, {"wrong"}),
+      C("", &ReliabilityRow::measure, "", 0, {"measure"}),
+      C("auc", [](const ReliabilityRow& row) { return row.curve.area; }, "", 4, {"AUC"}),
+      C("auc_sigma", [](const ReliabilityRow& row) { return row.curve.sigma; }),
+      C("", intervalText, "", 0, {"95 %"})};
 }
 
 Columns<ReliabilityCase> caseColumns()
@@ -143,14 +144,14 @@ AreaUnderCurve areaUnderCurve(const std::vector<double>& right, std::vector<doub
 
 std::string reliabilityTable(const ReliabilityReport& report)
 {
-  return markdownTable(table(rowColumns(), rowsOf(report)));
+  return markdownTable(table(reliabilityColumns(), rowsOf(report)));
 }
 
 void writeReliabilityReport(const ReliabilityReport& report, const std::filesystem::path& folder)
 {
   RunReport run;
   run.results = csvFile(caseColumns(), report.cases);
-  for (const Row& row : rowsOf(report))
+  for (const ReliabilityRow& row : rowsOf(report))
   {
     const std::string percent = percentOf(row.clutter);
     const Plot roc{"Am I lost? " + percent + " % clutter",
@@ -161,7 +162,8 @@ void writeReliabilityReport(const ReliabilityReport& report, const std::filesyst
                    {}};
     if (row.measure == "signature") run.plots.emplace_back("roc-" + percent + ".png", roc);
     run.plots.back().second.series.push_back(curveOf(row));
-    run.summary["clutter"][fixedNumber(row.clutter, 2)][row.measure] = toJson(rowColumns(), row);
+    run.summary["clutter"][fixedNumber(row.clutter, 2)][row.measure] =
+        toJson(reliabilityColumns(), row);
   }
   run.summary["skipped"] = report.skipped;
   run.text = "# Am I lost?\n\n" + reliabilityTable(report);

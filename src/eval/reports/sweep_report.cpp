@@ -12,7 +12,7 @@ namespace sigloc
 {
 namespace
 {
-constexpr const char* kNotes = R"(
+constexpr const char* kSweepNotes = R"(
 A row pools all worlds. The truth is exact here: **wrong** is every confident answer that is not
 right, and nothing is inaccurate. The errors of mapping scans' poses are independent of each other.
 )";
@@ -173,7 +173,7 @@ RunReport sweepRunReport(const SweepReport& report)
                             [](const RelocationSummary& s)
                             { return claimed(s, &Outcome::confidently_wrong, s.records.size()); })},
                  {"time_ratio.png", timeRatioPlot(report, rows)}};
-  files.notes = relocationDefinitions() + kNotes;
+  files.notes = relocationDefinitions() + kSweepNotes;
   if (ran) files.notes += mapSection(report.map);
   files.provenance = report.provenance;
   return files;

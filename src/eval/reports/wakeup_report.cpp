@@ -19,7 +19,7 @@ namespace
 {
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-constexpr const char* kNotes = R"(
+constexpr const char* kWakeupNotes = R"(
 * Confident: for `signature` and `signature-mcl` the verdict `localized`; for MRPT's filter a position sd below 0.5 m
   and a heading sd below 10 degrees over 5 steps.
 * `signature-mcl`: MRPT's filter with 500 particles, drawn where signatures find a lost robot.
@@ -329,7 +329,7 @@ void writeWakeupReport(const WakeupReport& report, const std::filesystem::path& 
   files.tables = {{"runs.csv", runs}};
   files.plots = plotsOf(report);
   files.notes = legend("What the columns mean", wakeupColumns()) + judgement(report.gates) +
-                kNotes + legend("What the columns of runs.csv mean", runColumns()) +
+                kWakeupNotes + legend("What the columns of runs.csv mean", runColumns()) +
                 legend("What the columns of results.csv mean", stepColumns()) +
                 mapSection(report.map);
   files.page = pageOf(report);

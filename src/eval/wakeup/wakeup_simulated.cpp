@@ -23,7 +23,6 @@ using detail::WakeupDrive;
 /// Failed drives of a method by their numbers, because worlds end in any order.
 using NumberedFailures = std::map<std::size_t, FailedQuery>;
 
-constexpr double kClearance = 0.35;  // [m] of robot and mapping run
 constexpr std::uint64_t kSizeStream = 400;  // of the random numbers, see Random
 constexpr std::uint64_t kMapStream = 401;
 
@@ -141,7 +140,7 @@ EvaluationMap mapPlace(const SimulatedPlace& place, const SimulatedTrackOptions&
 {
   if (place.kind == WorldKind::points) return mapLandmarks(place, options);
   auto scans =
-      simulateMapping(place.world, options.map_spacing, kClearance, place.laser, place.seed);
+      simulateMapping(place.world, options.map_spacing, kRobotClearance, place.laser, place.seed);
   const Bounds& bounds = place.world.bounds;
   const double border = bounds.x_min + options.mapped_share * (bounds.x_max - bounds.x_min);
   scans.erase(
@@ -175,7 +174,7 @@ class DrivenPlace
         map_(map),
         world_(changedWorld(place.world, {options.moved_share, 1.0, options.extra_items, 0.0},
                             place.seed)),
-        space_(world_, kClearance)
+        space_(world_, kRobotClearance)
   {
     if (place.kind == WorldKind::points)
     {

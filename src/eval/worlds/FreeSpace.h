@@ -16,6 +16,9 @@ namespace sigloc
 /// Returns the distance of a point to a surface [m].
 double distanceTo(const WallSegment& segment, const mrpt::math::TPoint2D& p);
 
+/// Distance [m] that the robot of most experiments keeps from every surface.
+constexpr double kRobotClearance = 0.35;
+
 /// Where a round robot can go in a world: connected cells whose centres keep a clearance from every
 /// surface. They are those around World::inside, or the largest such set. Plans paths in it.
 class FreeSpace

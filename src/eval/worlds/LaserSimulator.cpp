@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/plane_products.h"
+
 namespace sigloc
 {
 using mrpt::math::TPoint2D;
@@ -17,13 +19,8 @@ namespace
 {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kMinCellSize = 0.5;  // [m]
-constexpr double kMaxCells = 4e6;
+constexpr double kMaxLookupCells = 4e6;
 constexpr double kMinClutterRange = 0.1;  // [m]
-
-double cross(const TPoint2D& a, const TPoint2D& b)
-{
-  return a.x * b.y - a.y * b.x;
-}
 
 /// Distance along a unit direction to a segment, or infinity.
 double rayToSegment(const TPoint2D& origin, const TPoint2D& direction, const WallSegment& segment)
@@ -78,7 +75,7 @@ void WorldRayCaster::buildCells()
   grid_origin_ = {low.x - kMargin, low.y - kMargin};
   const double width = high.x - low.x + 2 * kMargin;
   const double height = high.y - low.y + 2 * kMargin;
-  cell_size_ = std::max(kMinCellSize, std::sqrt(width * height / kMaxCells));
+  cell_size_ = std::max(kMinCellSize, std::sqrt(width * height / kMaxLookupCells));
   columns_ = static_cast<std::int64_t>(width / cell_size_) + 1;
   rows_ = static_cast<std::int64_t>(height / cell_size_) + 1;
 

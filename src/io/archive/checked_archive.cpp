@@ -4,20 +4,15 @@
 
 #include <mrpt/serialization/CArchive.h>
 
-#include <stdexcept>
 #include <string>
 
 #include "io/archive/ArchiveWalk.h"
+#include "io/archive/file_fault.h"
 
 namespace sigloc::detail
 {
 namespace
 {
-[[noreturn]] void fail(const std::filesystem::path& path, const std::string& reason)
-{
-  throw std::runtime_error(path.string() + ": " + reason);
-}
-
 /// Which reader a file of one simplemap or grid map needs.
 enum class MapReader
 {

@@ -7,10 +7,10 @@
 #include <cstring>
 #include <fstream>
 #include <memory>
-#include <stdexcept>
 #include <string_view>
 #include <vector>
 
+#include "io/archive/file_fault.h"
 #include "sigloc/config/option_fields.h"
 
 namespace sigloc::detail
@@ -19,11 +19,6 @@ namespace
 {
 constexpr unsigned kBufferBytes = 256U * 1024U;
 constexpr unsigned kLeastBuffer = 4096;
-
-[[noreturn]] void fail(const std::filesystem::path& path, const std::string& reason)
-{
-  throw std::runtime_error(path.string() + ": " + reason);
-}
 
 bool isClassNameCharacter(char c)
 {

@@ -9,9 +9,9 @@
 #include <csetjmp>
 #include <cstdio>
 #include <memory>
-#include <stdexcept>
 #include <string>
 
+#include "io/archive/file_fault.h"
 #include "map/map_values.h"
 
 namespace sigloc::detail
@@ -19,11 +19,6 @@ namespace sigloc::detail
 namespace
 {
 using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
-
-[[noreturn]] void fail(const std::filesystem::path& path, const std::string& reason)
-{
-  throw std::runtime_error(path.string() + ": " + reason);
-}
 
 /// Throws for a picture that is empty or larger than a map may be.
 void requireSize(const std::filesystem::path& path, double width, double height)

@@ -134,16 +134,16 @@ Found lookIn(const std::filesystem::path& path)
   const std::string all = readAllBytes(path);
   const std::string_view bytes = all;
   const auto header = objectHeaderIn(bytes.substr(0, kLongestObjectHeader));
-  if (!header || header->old) failIn(path, "not an MRPT file");
+  if (!header || header->old) fail(path, "not an MRPT file");
   const std::string_view name = withoutNamespace(header->name);
   const bool single =
       name == kGrid || std::find(kPoints.begin(), kPoints.end(), name) != kPoints.end();
   if (!single && name != kMulti)
   {
-    failIn(path, "holds a '" + std::string(header->name) + "', not a map of a grid or of points" +
-                     (name == kLandmarks ? kAdvice : ""));
+    fail(path, "holds a '" + std::string(header->name) + "', not a map of a grid or of points" +
+                   (name == kLandmarks ? kAdvice : ""));
   }
-  if (bytes.back() != kObjectEnd) failIn(path, "truncated or damaged");
+  if (bytes.back() != kObjectEnd) fail(path, "truncated or damaged");
   const std::size_t from = single ? 0 : header->size + 1;
   Found found;
   const auto landmarks = findObject(bytes, from, kLandmarks);
@@ -177,9 +177,9 @@ OccupancyRaster readMetricMap(const std::filesystem::path& path, const ReadingOp
   if (found.grid) return std::move(*found.grid);
   if (!found.points)
   {
-    failIn(path,
-           std::string("holds neither a grid map with walls and free cells nor a map of points") +
-               (found.landmarks ? kAdvice : ""));
+    fail(path,
+         std::string("holds neither a grid map with walls and free cells nor a map of points") +
+             (found.landmarks ? kAdvice : ""));
   }
   OccupancyRaster raster = rasterOfPoints(*found.points, reading, path);
   requireWallAndFree(raster, path);

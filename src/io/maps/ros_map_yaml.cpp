@@ -6,9 +6,9 @@
 #include <fstream>
 #include <map>
 #include <optional>
-#include <stdexcept>
 #include <vector>
 
+#include "io/archive/file_fault.h"
 #include "io/archive/gzip_input.h"
 #include "io/text_rows.h"
 #include "map/map_values.h"
@@ -19,11 +19,6 @@ namespace
 {
 constexpr std::size_t kMostBytes = 1U << 16U;
 constexpr std::string_view kBlanks = " \t\r";
-
-[[noreturn]] void fail(const std::filesystem::path& path, const std::string& reason)
-{
-  throw std::runtime_error(path.string() + ": " + reason);
-}
 
 std::string_view trimmed(std::string_view text)
 {

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/archive/file_fault.h"
 #include "io/archive/gzip_input.h"
 #include "io/archive_values.h"
 #include "io/maps/feature_archive.h"
@@ -21,6 +22,7 @@
 
 namespace sigloc
 {
+using detail::fail;
 using mrpt::serialization::CArchive;
 
 namespace
@@ -35,11 +37,6 @@ constexpr std::uint8_t kOldestBodyVersion = 2;  // it lacks the error of the map
 constexpr std::uint64_t kMostSkipped = 1ULL << 28U;  // bytes, which take half a second
 constexpr std::size_t kBlockCells = 1U << 16U;
 constexpr std::uint32_t kLongestText = 1U << 16U;
-
-[[noreturn]] void fail(const std::filesystem::path& path, const std::string& reason)
-{
-  throw std::runtime_error(path.string() + ": " + reason);
-}
 
 // Cells are written in blocks of four planes. Equal bytes are next to each other, so that the
 // lowest level of compression is both quick and small. A reader allocates no more than the file has

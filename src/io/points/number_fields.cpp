@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <stdexcept>
 
 #include "io/archive/gzip_input.h"
 #include "io/text_rows.h"
@@ -88,9 +87,9 @@ PointList textRows(std::string_view text, std::size_t count, const Places& place
   PointList points;
   for (std::size_t row = 0; row < count; ++row)
   {
-    if (text.empty()) failIn(path, "is cut off");
+    if (text.empty()) fail(path, "is cut off");
     const auto cells = words(takeLine(text));
-    if (cells.size() <= needed) failIn(path, "is cut off or damaged");
+    if (cells.size() <= needed) fail(path, "is cut off or damaged");
     addPoint(points, toNumber(cells[places[0]]).value_or(kNoNumber),
              toNumber(cells[places[1]]).value_or(kNoNumber),
              toNumber(cells[places[2]]).value_or(kNoNumber));
@@ -114,17 +113,12 @@ std::string readAllBytes(const std::filesystem::path& path)
   for (std::size_t got = kChunk; got == kChunk;)
   {
     const std::size_t size = bytes.size();
-    if (size > kMost) failIn(path, "holds more than 4 GB");
+    if (size > kMost) fail(path, "holds more than 4 GB");
     bytes.resize(size + kChunk);
     got = input.Read(bytes.data() + size, kChunk);
     bytes.resize(size + got);
   }
-  if (input.damaged()) failIn(path, "truncated or damaged");
+  if (input.damaged()) fail(path, "truncated or damaged");
   return bytes;
-}
-
-void failIn(const std::filesystem::path& path, const std::string& reason)
-{
-  throw std::runtime_error(path.string() + ": " + reason);
 }
 }  // namespace sigloc::detail

@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 
+#include "io/archive/file_fault.h"
 #include "io/points/point_files.h"
 
 // What the readers of files of points share.
@@ -51,7 +52,4 @@ void addPoint(PointList& points, double x, double y, double z);
 /// Returns what a file holds, unpacked. Throws std::runtime_error "path: reason" for a file that is
 /// missing, empty or damaged, or holds more than 4 GB.
 std::string readAllBytes(const std::filesystem::path& path);
-
-/// Throws std::runtime_error "path: reason".
-[[noreturn]] void failIn(const std::filesystem::path& path, const std::string& reason);
 }  // namespace sigloc::detail

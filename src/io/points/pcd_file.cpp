@@ -35,7 +35,7 @@ PcdHeader takePcdHeader(std::string_view& text, const std::filesystem::path& pat
   std::optional<std::size_t> points;
   while (header.data.empty())
   {
-    if (text.empty()) failIn(path, "not a PCD file, or its header is cut off");
+    if (text.empty()) fail(path, "not a PCD file, or its header is cut off");
     auto line = words(takeLine(text));
     if (line.empty() || line[0].front() == '#') continue;
     const std::string_view key = line[0];
@@ -66,12 +66,12 @@ PcdHeader takePcdHeader(std::string_view& text, const std::filesystem::path& pat
     }
     else if (key != "VERSION" && key != "WIDTH" && key != "HEIGHT" && key != "VIEWPOINT")
     {
-      failIn(path, "not a PCD file");
+      fail(path, "not a PCD file");
     }
   }
   const std::size_t n = header.fields.size();
   if (!points || sizes.size() != n || types.size() != n || (!counts.empty() && counts.size() != n))
-    failIn(path, "its header does not tell the fields of its points");
+    fail(path, "its header does not tell the fields of its points");
   header.points = *points;
   for (std::size_t i = 0; i < n; ++i)
   {
@@ -79,7 +79,7 @@ PcdHeader takePcdHeader(std::string_view& text, const std::filesystem::path& pat
     header.fields[i].kind = kindOf(std::string(types[i]) + std::string(sizes[i]));
     const auto count = counts.empty() ? std::optional<std::size_t>(1) : countIn(counts[i]);
     if (header.fields[i].kind == nullptr || !count || *count > kMostOfOne)
-      failIn(path, "a field of its points is of an unknown kind");
+      fail(path, "a field of its points is of an unknown kind");
     header.fields[i].count = *count;
   }
   return header;
@@ -95,7 +95,7 @@ std::string unpacked(std::string_view packed, std::size_t size, const std::files
   std::size_t at = 0;
   const auto next = [&]
   {
-    if (at >= packed.size()) failIn(path, "its packed data is cut off");
+    if (at >= packed.size()) fail(path, "its packed data is cut off");
     return static_cast<unsigned>(static_cast<unsigned char>(packed[at++]));
   };
   while (at < packed.size())
@@ -104,7 +104,7 @@ std::string unpacked(std::string_view packed, std::size_t size, const std::files
     if (control < kLiteral)
     {
       const std::size_t length = control + 1;
-      if (length > packed.size() - at) failIn(path, "its packed data is cut off");
+      if (length > packed.size() - at) fail(path, "its packed data is cut off");
       out.append(packed.substr(at, length));
       at += length;
     }
@@ -113,12 +113,12 @@ std::string unpacked(std::string_view packed, std::size_t size, const std::files
       std::size_t length = control >> 5U;
       if (length == kLongRun) length += next();
       const std::size_t back = ((control & 31U) << 8U) + next() + 1;
-      if (back > out.size()) failIn(path, "its packed data is damaged");
+      if (back > out.size()) fail(path, "its packed data is damaged");
       for (std::size_t i = 0; i < length + 2; ++i) out.push_back(out[out.size() - back]);
     }
-    if (out.size() > size) failIn(path, "its packed data is damaged");
+    if (out.size() > size) fail(path, "its packed data is damaged");
   }
-  if (out.size() != size) failIn(path, "its packed data is damaged");
+  if (out.size() != size) fail(path, "its packed data is damaged");
   return out;
 }
 
@@ -129,12 +129,12 @@ std::string unpackedPcd(std::string_view data, std::size_t expected,
   constexpr std::size_t kSizes = 2 * sizeof(std::uint32_t);
   // Packing by LZF makes nothing smaller than by this, so it is asked before memory is taken.
   constexpr std::size_t kBestPacking = 100;
-  if (data.size() < kSizes) failIn(path, "is cut off");
+  if (data.size() < kSizes) fail(path, "is cut off");
   const auto packed = static_cast<std::size_t>(kindOf("U4")->read(data.data(), false));
   const auto size = static_cast<std::size_t>(kindOf("U4")->read(data.data() + 4, false));
   data.remove_prefix(kSizes);
-  if (packed > data.size()) failIn(path, "is cut off");
-  if (size != expected || size / kBestPacking > packed) failIn(path, "its packed data is damaged");
+  if (packed > data.size()) fail(path, "is cut off");
+  if (size != expected || size / kBestPacking > packed) fail(path, "its packed data is damaged");
   return unpacked(data.substr(0, packed), size, path);
 }
 
@@ -151,7 +151,7 @@ Places placesIn(const PcdHeader& header, const std::filesystem::path& path)
       if (found != nullptr) break;
       at += field.count;
     }
-    if (found == nullptr) failIn(path, std::string("its points have no ") + kAxes[axis]);
+    if (found == nullptr) fail(path, std::string("its points have no ") + kAxes[axis]);
     places[axis] = at;
   }
   return places;
@@ -178,7 +178,7 @@ PointList binaryPoints(const PcdHeader& header, std::string_view data, bool by_f
     bytes += field.kind->bytes * field.count;
   }
   if (!by_field) step.fill(bytes);
-  if (bytes == 0 || data.size() / bytes < header.points) failIn(path, "is cut off");
+  if (bytes == 0 || data.size() / bytes < header.points) fail(path, "is cut off");
   const auto at = [&](std::size_t axis, std::size_t i)
   { return kinds[axis]->read(data.data() + first[axis] + i * step[axis], false); };
   PointList points;
@@ -202,7 +202,7 @@ PointList readPcd(const std::filesystem::path& path)
   const Places places = placesIn(header, path);
   if (header.data == "ascii") return textRows(data, header.points, places, path);
   if (header.data == "binary") return binaryPoints(header, data, false, path);
-  if (header.data != "binary_compressed") failIn(path, "not a PCD file of a known format");
+  if (header.data != "binary_compressed") fail(path, "not a PCD file of a known format");
   const std::string all = unpackedPcd(data, header.points * bytesOfPoint(header), path);
   return binaryPoints(header, all, true, path);
 }

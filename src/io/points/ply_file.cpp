@@ -35,7 +35,7 @@ struct PlyHeader
 /// Takes the header off a PLY file.
 PlyHeader takePlyHeader(std::string_view& text, const std::filesystem::path& path)
 {
-  if (words(takeLine(text)) != std::vector<std::string_view>{"ply"}) failIn(path, "not a PLY file");
+  if (words(takeLine(text)) != std::vector<std::string_view>{"ply"}) fail(path, "not a PLY file");
   PlyHeader header;
   while (!text.empty())
   {
@@ -62,10 +62,10 @@ PlyHeader takePlyHeader(std::string_view& text, const std::filesystem::path& pat
     }
     else
     {
-      failIn(path, "a line of its header is not known");
+      fail(path, "a line of its header is not known");
     }
   }
-  failIn(path, "its header is cut off");
+  fail(path, "its header is cut off");
 }
 
 Places placesIn(const PlyElement& vertices, const std::filesystem::path& path)
@@ -76,7 +76,7 @@ Places placesIn(const PlyElement& vertices, const std::filesystem::path& path)
     const auto found = std::find_if(vertices.properties.begin(), vertices.properties.end(),
                                     [&](const PlyProperty& p) { return p.name == kAxes[axis]; });
     if (found == vertices.properties.end() || found->length != nullptr)
-      failIn(path, std::string("its vertices have no ") + kAxes[axis]);
+      fail(path, std::string("its vertices have no ") + kAxes[axis]);
     places[axis] = static_cast<std::size_t>(found - vertices.properties.begin());
   }
   return places;
@@ -88,7 +88,7 @@ void takePlyElement(std::string_view& data, const PlyElement& element, bool swap
 {
   const auto take = [&](const NumberKind& kind)
   {
-    if (data.size() < kind.bytes) failIn(path, "is cut off");
+    if (data.size() < kind.bytes) fail(path, "is cut off");
     const double value = kind.read(data.data(), swapped);
     data.remove_prefix(kind.bytes);
     return value;
@@ -103,7 +103,7 @@ void takePlyElement(std::string_view& data, const PlyElement& element, bool swap
     }
     const double length = take(*property.length);
     const double bytes = length * static_cast<double>(property.kind->bytes);
-    if (!(length >= 0 && bytes <= static_cast<double>(data.size()))) failIn(path, "is cut off");
+    if (!(length >= 0 && bytes <= static_cast<double>(data.size()))) fail(path, "is cut off");
     data.remove_prefix(static_cast<std::size_t>(bytes));
     values.push_back(kNoNumber);
   }
@@ -119,7 +119,7 @@ PointList readPly(const std::filesystem::path& path)
   const bool text = header.format == "ascii";
   const bool swapped = header.format == "binary_big_endian";
   if (!text && !swapped && header.format != "binary_little_endian")
-    failIn(path, "not a PLY file of a known format");
+    fail(path, "not a PLY file of a known format");
   PointList points;
   std::vector<double> values;
   for (const PlyElement& element : header.elements)
@@ -128,16 +128,16 @@ PointList readPly(const std::filesystem::path& path)
     const Places places = vertices ? placesIn(element, path) : Places{};
     if (vertices && text) return textRows(data, element.count, places, path);
     // Elements without a property would take no bytes, and time for ever.
-    if (element.properties.empty() && element.count > 0) failIn(path, "its header is damaged");
+    if (element.properties.empty() && element.count > 0) fail(path, "its header is damaged");
     for (std::size_t i = 0; i < element.count; ++i)
     {
-      if (data.empty()) failIn(path, "is cut off");
+      if (data.empty()) fail(path, "is cut off");
       text ? static_cast<void>(takeLine(data))
            : takePlyElement(data, element, swapped, values, path);
       if (vertices) addPoint(points, values[places[0]], values[places[1]], values[places[2]]);
     }
     if (vertices) return points;
   }
-  failIn(path, "has no vertices");
+  fail(path, "has no vertices");
 }
 }  // namespace sigloc::detail

@@ -110,7 +110,7 @@ std::optional<PointList> pointRowsOf(const std::filesystem::path& path)
   }
   if (points.empty() || (!named && points.size() < kFewestPoints)) return std::nullopt;
   if (!areDense(points)) return std::nullopt;
-  if (odd && *odd == last) failIn(path, "its last row is cut off or damaged");
+  if (odd && *odd == last) fail(path, "its last row is cut off or damaged");
   if (odd) failAtLine(path, *odd, fmt::format("no point of {} numbers as the others", columns));
   return points;
 }

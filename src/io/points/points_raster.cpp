@@ -27,7 +27,7 @@ std::vector<TPoint2D> pointsInBand(const PointList& points, const ReadingOptions
                                    const std::filesystem::path& path)
 {
   constexpr double kFlat = 0.01;  // [m]
-  if (points.empty()) failIn(path, "no point in it");
+  if (points.empty()) fail(path, "no point in it");
   const auto [low, high] = std::minmax_element(
       points.begin(), points.end(), [](const auto& a, const auto& b) { return a.z < b.z; });
   const auto lowest = static_cast<double>(low->z);
@@ -42,9 +42,9 @@ std::vector<TPoint2D> pointsInBand(const PointList& points, const ReadingOptions
   }
   if (kept.empty())
   {
-    failIn(path, fmt::format("no point at a height of {:g} to {:g} m; they are at {:.2f} to {:.2f} "
-                             "m, see --heights",
-                             reading.min_height, reading.max_height, lowest, highest));
+    fail(path, fmt::format("no point at a height of {:g} to {:g} m; they are at {:.2f} to {:.2f} "
+                           "m, see --heights",
+                           reading.min_height, reading.max_height, lowest, highest));
   }
   return kept;
 }
@@ -61,22 +61,22 @@ RasterFrame frameAround(const std::vector<TPoint2D>& points, double resolution,
   }
   for (const TPoint2D& corner : {low, high})
   {
-    if (const auto reason = beyondReach(corner.x, corner.y)) failIn(path, *reason);
+    if (const auto reason = beyondReach(corner.x, corner.y)) fail(path, *reason);
   }
   RasterFrame frame;
   frame.resolution = resolution;
   frame.origin = {low.x - kMargin, low.y - kMargin};
   frame.width = static_cast<std::uint32_t>(std::ceil((high.x - low.x + 2 * kMargin) / resolution));
   frame.height = static_cast<std::uint32_t>(std::ceil((high.y - low.y + 2 * kMargin) / resolution));
-  if (const auto flaw = flawOf(frame)) failIn(path, *flaw);
+  if (const auto flaw = flawOf(frame)) fail(path, *flaw);
   // So that no memory is taken for a map of a few points that lie far apart.
   constexpr double kMostOfPoint = 2e4;
   constexpr double kAlways = 1e6;
   const double cells = static_cast<double>(frame.width) * frame.height;
   if (cells > std::max(kAlways, kMostOfPoint * static_cast<double>(points.size())))
   {
-    failIn(path, fmt::format("{} points are too few for a map of {:.0f} m x {:.0f} m",
-                             points.size(), high.x - low.x, high.y - low.y));
+    fail(path, fmt::format("{} points are too few for a map of {:.0f} m x {:.0f} m", points.size(),
+                           high.x - low.x, high.y - low.y));
   }
   return frame;
 }

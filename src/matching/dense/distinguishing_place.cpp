@@ -13,7 +13,7 @@ namespace
 {
 constexpr double kReach = 8.0;  // [m] from the robot, farthest point
 constexpr double kNearest = 0.5;  // [m] from the robot, within which points are its own position
-constexpr double kSpacing = 0.3;  // [m] between samples
+constexpr double kSampleSpacing = 0.3;  // [m] between samples
 constexpr double kWall = 0.2;  // [m] to a wall, small enough that samples do not step over one
 constexpr double kClear = 0.5;  // [m] to any wall, least distance of a point in free space
 
@@ -36,22 +36,22 @@ std::optional<TPoint2D> distinguishingPlace(const DenseField& field, const TPose
   const Placement at_b(b);
   std::optional<TPoint2D> nearest;
   double least = kReach * kReach;
-  const int samples = static_cast<int>(kReach / kSpacing);
+  const int samples = static_cast<int>(kReach / kSampleSpacing);
   for (int iy = -samples; iy <= samples; ++iy)
   {
     for (int ix = -samples; ix <= samples; ++ix)
     {
-      const double square = kSpacing * kSpacing * (ix * ix + iy * iy);
+      const double square = kSampleSpacing * kSampleSpacing * (ix * ix + iy * iy);
       if (square >= least || square < kNearest * kNearest) continue;
-      const auto x = static_cast<float>(kSpacing * ix);
-      const auto y = static_cast<float>(kSpacing * iy);
+      const auto x = static_cast<float>(kSampleSpacing * ix);
+      const auto y = static_cast<float>(kSampleSpacing * iy);
       if (!differ(cells.at(at_a.placedX(x, y), at_a.placedY(x, y)),
                   cells.at(at_b.placedX(x, y), at_b.placedY(x, y))))
       {
         continue;
       }
       least = square;
-      nearest = TPoint2D(kSpacing * ix, kSpacing * iy);
+      nearest = TPoint2D(kSampleSpacing * ix, kSampleSpacing * iy);
     }
   }
   return nearest;

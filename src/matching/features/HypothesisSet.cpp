@@ -12,7 +12,7 @@ namespace sigloc
 {
 namespace
 {
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t kUnmatched = std::numeric_limits<std::uint32_t>::max();
 constexpr std::size_t kMostItems = 4096;  // hypotheses kept; with more the worse half is dropped
 constexpr std::int64_t kHeadingCells = 21;  // of the grid, each at least kSamePlaceAngle
 
@@ -60,7 +60,7 @@ void HypothesisSet::enterCells(std::uint32_t index)
 {
   Item& item = items_[index];
   cells_[keyOf(cellOf(item.hypothesis.pose.mean))].push_back(index);
-  item.mapped_of.assign(observed_count_, kNone);
+  item.mapped_of.assign(observed_count_, kUnmatched);
   for (const FeaturePairing& pairing : item.hypothesis.pairings)
   {
     item.mapped_of[pairing.observed] = pairing.mapped;
