@@ -300,7 +300,7 @@ LocalizationSetup readLocalizationSetup(const fs::path& ini_path, const fs::path
                                         const fs::path& map)
 {
   return parsed(ini_path, [&](const CConfigFileMemory& ini, LocalizationSetup& setup)
-               { readExperiment(ini, ini_path, rawlog, map, setup); });
+                { readExperiment(ini, ini_path, rawlog, map, setup); });
 }
 
 LocalizationSetup readOptionSections(const fs::path& ini_path)
