@@ -134,6 +134,7 @@ RelocationResult SignatureMatcher::localize(const ObservedScene& scene,
   // 1. Propose by the signatures of features, in the modes that do so.
   std::vector<FeatureHypothesis> hypotheses;
   if (generator_) hypotheses = generator_->generate(scene.features, result.counters);
+  result.complete = result.counters.cut_short == 0;
 
   // 2. Judge by the dense field, where the map has one and the scene has returns. Without proposals
   // so far, pairs of key points and minimal sets propose, and are judged in turn.
@@ -162,7 +163,7 @@ RelocationResult SignatureMatcher::localize(const ObservedScene& scene,
     candidate.pairings = std::move(hypothesis.pairings);
     result.candidates.push_back(std::move(candidate));
   }
-  weighByLogOdds(result, place_background, result.counters.cut_short > 0 ? kMissed : 0);
+  weighByLogOdds(result, place_background, result.complete ? 0 : kMissed);
   return result;
 }
 

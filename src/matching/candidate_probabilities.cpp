@@ -56,6 +56,7 @@ void decide(RelocationResult& result)
 {
   VerdictGrounds grounds;
   grounds.poses = result.candidates.size();
+  grounds.unfinished = !result.complete;
   if (result.candidates.empty())
   {
     result.elsewhere = 1;

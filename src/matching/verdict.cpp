@@ -35,11 +35,15 @@ VerdictDecision decideVerdict(const VerdictGrounds& grounds, double sure)
     {
       return {Verdict::too_little_seen, grounds.elsewhere, VerdictReason::no_pose_seen_little};
     }
+    if (grounds.unfinished)
+    {
+      return {Verdict::too_little_seen, grounds.elsewhere, VerdictReason::no_pose_unfinished};
+    }
     return {Verdict::not_here, grounds.elsewhere, VerdictReason::no_pose};
   }
   const std::optional<VerdictReason> objection = objectionTo(grounds, sure);
   if (!objection) return {Verdict::localized, grounds.first, VerdictReason::one_pose};
-  if (grounds.elsewhere >= kNotHere)
+  if (grounds.elsewhere >= kNotHere && !grounds.unfinished)
   {
     return {Verdict::not_here, grounds.elsewhere, VerdictReason::elsewhere};
   }
@@ -54,6 +58,8 @@ const char* toString(VerdictReason reason)
       return "nothing in the map explains the scan";
     case VerdictReason::no_pose_seen_little:
       return "fewer returns than needed";
+    case VerdictReason::no_pose_unfinished:
+      return "the search ended at its budget and has found nothing yet";
     case VerdictReason::one_pose:
       return "one hypothesis holds";
     case VerdictReason::elsewhere:

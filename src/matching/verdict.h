@@ -18,6 +18,7 @@ struct VerdictGrounds
   bool confirmed = true;  ///< the evidence that the robot is in the map is strong enough
   bool doubtful = false;  ///< the first pose has stopped explaining the scans
   bool sees_too_little = false;  ///< the scan has too few returns for the verdict *not here*
+  bool unfinished = false;  ///< the map was not searched to its end, so it is not ruled out
 };
 
 /// What decided the verdict.
@@ -25,6 +26,7 @@ enum class VerdictReason
 {
   no_pose,  ///< nothing in the map explains the scan
   no_pose_seen_little,  ///< no pose is left, but the scan shows too little to rule the map out
+  no_pose_unfinished,  ///< no pose was found, but the map was not searched to its end
   one_pose,  ///< one pose is claimed
   elsewhere,  ///< the probability of being elsewhere is at least 0.95
   open_position,  ///< the pose is a line of poses
@@ -45,8 +47,8 @@ struct VerdictDecision
 };
 
 /// Returns the verdict for the matcher, the tracker and the particle filter alike. A claim requires
-/// the probability `sure` and a largest position sigma below 0.5 m. *Not here* requires no pose, or
-/// a probability of 0.95 of being elsewhere.
+/// the probability `sure` and a largest position sigma below 0.5 m. *Not here* requires a finished
+/// search, and no pose or a probability of 0.95 of being elsewhere.
 /// \cite algorithm section 7, "The verdict"; section 8, "Publish"
 VerdictDecision decideVerdict(const VerdictGrounds& grounds, double sure = kLocalizedProbability);
 }  // namespace sigloc

@@ -26,7 +26,8 @@ double gainOf(double p)
   return std::max(std::log(bounded / (1.0 - bounded)), -kMaxAgainst);
 }
 
-/// Confirms the modes by the probabilities of the candidates. Eq. (9.2)
+/// Confirms the modes by the probabilities of the candidates. A search that was not complete says
+/// nothing of a mode that it did not find. Eq. (9.2)
 void confirmByProbability(TrackSet& set, const RelocationResult& result, double fresh_share)
 {
   for (Track& track : set.tracks)
@@ -36,6 +37,7 @@ void confirmByProbability(TrackSet& set, const RelocationResult& result, double 
     {
       if (set.trackAt(candidate.pose.mean) == &track) p += candidate.probability;
     }
+    if (p == 0 && !result.complete) continue;
     track.confirmed =
         std::clamp(track.confirmed + fresh_share * gainOf(p), kMinInMap, kMaxConfirmed);
   }
@@ -49,7 +51,7 @@ void ModeTracker::forget(bool known)
   schedule_ = RelocationSchedule(options_);
   if (!known) return;
   set_.elsewhere = options_.min_elsewhere;
-  schedule_.noteRelocation();
+  schedule_.noteKnownStart();
 }
 
 double ModeTracker::predict(const std::optional<MotionIncrement>& motion)
@@ -126,9 +128,8 @@ bool ModeTracker::relocateByFeatures(const ObservedScene& scene, const Signature
                                      const std::optional<PoseRegion>& region)
 {
   const RelocationResult result = matcher.localize(scene, region);
-  if (result.verdict == Verdict::too_little_seen) return false;
   const double fresh_share = schedule_.freshShare();
-  schedule_.noteRelocation();
+  if (!schedule_.noteResult(result)) return false;
   double covered = kLeastProbability;
   double rival = kLeastProbability;
   for (const Candidate& candidate : result.candidates)
@@ -138,11 +139,14 @@ bool ModeTracker::relocateByFeatures(const ObservedScene& scene, const Signature
   }
   set_.noteFound(result);
   confirmByProbability(set_, result, fresh_share);
-  const double lead = std::log(rival / covered);
-  const bool beaten = lead > sureLogOdds(options_);
-  const double counted = set_.holdsAgainst(beaten) ? std::min(0.0, lead) : lead;
-  set_.weighElsewhere(fresh_share * counted);
-  set_.overrule(result, beaten);
+  if (result.complete)
+  {
+    const double lead = std::log(rival / covered);
+    const bool beaten = lead > sureLogOdds(options_);
+    const double counted = set_.holdsAgainst(beaten) ? std::min(0.0, lead) : lead;
+    set_.weighElsewhere(fresh_share * counted);
+    set_.overrule(result, beaten);
+  }
   set_.dealOut(result,
                [&](std::size_t k)
                {
@@ -176,6 +180,7 @@ Belief ModeTracker::publish(const SignatureMatcher& matcher, bool blind)
   }
   BeliefGrounds grounds;
   grounds.sees_too_little = blind;
+  grounds.unfinished = !schedule_.hasSearchedAll();
   if (!set_.tracks.empty())
   {
     belief.reliability = reliabilityOf(set_.tracks.front().evidence);

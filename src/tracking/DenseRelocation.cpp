@@ -12,9 +12,8 @@ bool DenseRelocation::run(TrackSet& set, RelocationSchedule& schedule,
                           std::uint64_t& next_id) const
 {
   const RelocationResult result = matcher.localize(scene, region);
-  if (result.verdict == Verdict::too_little_seen) return false;
   const double fresh_share = schedule.freshShare();
-  schedule.noteRelocation();
+  if (!schedule.noteResult(result)) return false;
   const DenseVerifier& verifier = *matcher.verifier();
   const double travelled = schedule.travelled();
 

@@ -26,8 +26,8 @@ class DenseRelocation
   /// Stores a scan, taken after `travelled` [m] in all.
   void remember(const DenseScan& scan, double travelled) { past_.remember(scan, travelled); }
 
-  /// Relocates by a scene and its `scan`, within a region if one is given. Returns false where
-  /// too little is seen. New tracks take the ids from `next_id` on. Eq. (8.7), (8.9), (8.24)
+  /// Relocates by a scene and its `scan`, within a region if one is given. Returns false where that
+  /// gives no answer. New tracks take the ids from `next_id` on. Eq. (8.7), (8.9), (8.24)
   bool run(TrackSet& set, RelocationSchedule& schedule, const SignatureMatcher& matcher,
            const ObservedScene& scene, const DenseScan& scan,
            const std::optional<PoseRegion>& region, std::uint64_t& next_id) const;

@@ -148,9 +148,7 @@ void HypothesisTracker::State::trackByFeatures(const std::optional<MotionIncreme
   if (schedule.isDue(suspicious()))
   {
     const bool settled = belief.verdict == Verdict::localized && !suspicious();
-    relocated =
-        landmark_tracker->relocate(set, regionToSearch(), schedule.freshShare(), settled, next_id);
-    if (relocated) schedule.noteRelocation();
+    relocated = landmark_tracker->relocate(set, schedule, regionToSearch(), settled, next_id);
   }
   landmark_tracker->remember();
   set.mergeAndPrune();
@@ -199,6 +197,7 @@ void HypothesisTracker::State::publish(const ObservedScene& scene)
   belief = beliefOf(set, matcher->map(), options);
   BeliefGrounds grounds;
   grounds.sees_too_little = seesTooLittle(scene);
+  grounds.unfinished = !schedule.hasSearchedAll();
   if (!set.tracks.empty())
   {
     belief.reliability = reliability;

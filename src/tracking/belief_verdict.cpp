@@ -43,6 +43,7 @@ void setVerdict(Belief& belief, const BeliefGrounds& more, double sure, const De
   grounds.confirmed = more.confirmed;
   grounds.doubtful = more.doubtful;
   grounds.sees_too_little = more.sees_too_little;
+  grounds.unfinished = more.unfinished;
   if (grounds.poses > 0)
   {
     grounds.first = belief.hypotheses.front().weight;

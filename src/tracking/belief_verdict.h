@@ -16,6 +16,7 @@ struct BeliefGrounds
   bool confirmed = false;  ///< the evidence that the robot is in the map is strong enough
   bool doubtful = false;  ///< the first hypothesis has stopped explaining the scans
   bool sees_too_little = false;  ///< the scan has too few returns for the verdict *not here*
+  bool unfinished = false;  ///< no relocation has searched the map to its end yet
 };
 
 /// Returns what is published of the tracks, which must be sorted: their poses with the map's common

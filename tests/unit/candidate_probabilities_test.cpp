@@ -169,6 +169,27 @@ TEST(Weighing, WhatASearchThatWasCutShortFoundIsNeverLocalized)
   EXPECT_NEAR(sumOf(result), 1.0, 1e-12);
 }
 
+TEST(Weighing, WhatASearchThatWasCutShortDidNotFindIsNotRuledOut)
+{
+  for (const bool complete : {true, false})
+  {
+    RelocationResult nothing;
+    nothing.complete = complete;
+    weighByLogOdds(nothing, std::nullopt, 0.2);
+    EXPECT_EQ(nothing.verdict, complete ? Verdict::not_here : Verdict::too_little_seen);
+    EXPECT_EQ(nothing.elsewhere, 1.0);
+    weighCandidates(nothing);
+    EXPECT_EQ(nothing.verdict, complete ? Verdict::not_here : Verdict::too_little_seen);
+
+    RelocationResult poor = resultOf({0.1});
+    ASSERT_EQ(poor.verdict, Verdict::not_here);
+    poor.complete = complete;
+    weighCandidates(poor);
+    EXPECT_EQ(poor.verdict, complete ? Verdict::not_here : Verdict::ambiguous);
+    EXPECT_NEAR(sumOf(poor), 1.0, 1e-12);
+  }
+}
+
 TEST(Weighing, AnOpenLineIsNeverLocalized)
 {
   RelocationResult result = resultOf({0.97, 0.2});

@@ -19,7 +19,7 @@ enum class Verdict : std::uint8_t
   localized = 0,  ///< one pose has a probability of at least 0.99
   ambiguous = 1,  ///< several poses, or a line of poses, explain the scan
   not_here = 2,  ///< no pose in the map explains the scan
-  too_little_seen = 3,  ///< too few returns or features for any other verdict
+  too_little_seen = 3,  ///< too few returns or features, or too short a search, for any other
 };
 
 /// Returns "localized", "ambiguous", "not here" or "too little seen".
@@ -74,7 +74,10 @@ struct RelocationResult
   Verdict verdict = Verdict::too_little_seen;
   double probability = 0;  ///< of the verdict's claim; for `localized`, of the first candidate
   double elsewhere = 1;  ///< probability that the robot is at none of the candidates
-  double view = 2 * M_PI;  ///< [rad] angular coverage of the scan
+  double view = 2 * M_PI;  ///< [rad] angular coverage of the scan.
+  /// False where the generation of hypotheses ended at its budget. Then nothing follows from what
+  /// was not found.
+  bool complete = true;
   MatchingCounters counters;
 };
 

@@ -154,11 +154,13 @@ RelocationResult LandmarkTracker::localize(const std::optional<PoseRegion>& regi
   return matcher_->localize(scene, region);
 }
 
-bool LandmarkTracker::relocate(TrackSet& set, const std::optional<PoseRegion>& region,
-                               double fresh_share, bool settled, std::uint64_t& next_id)
+bool LandmarkTracker::relocate(TrackSet& set, RelocationSchedule& schedule,
+                               const std::optional<PoseRegion>& region, bool settled,
+                               std::uint64_t& next_id)
 {
   const RelocationResult result = localize(region, settled);
-  if (result.verdict == Verdict::too_little_seen) return false;
+  const double fresh_share = schedule.freshShare();
+  if (!schedule.noteResult(result)) return false;
   weighElsewhere(set, result, fresh_share);
   for (const Candidate& candidate : result.candidates)
   {
@@ -201,11 +203,11 @@ void LandmarkTracker::weighNewcomers(TrackSet& set) const
 }
 
 /// "Somewhere else" gains where a relocation finds poses without a track that are as good as those
-/// of the tracks. Eq. (8.19)
+/// of the tracks. A search that was not complete may have missed those of the tracks. Eq. (8.19)
 void LandmarkTracker::weighElsewhere(TrackSet& set, const RelocationResult& result,
                                      double fresh_share) const
 {
-  if (set.tracks.empty()) return;
+  if (set.tracks.empty() || !result.complete) return;
   double best_tracked = 0;  // "all clutter"
   double best_untracked = 0;
   for (const Candidate& candidate : result.candidates)

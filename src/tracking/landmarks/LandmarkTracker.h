@@ -10,6 +10,7 @@
 #include "sigloc/matching/SignatureMatcher.h"
 #include "sigloc/tracking/TrackerOptions.h"
 #include "tracking/landmarks/FeatureSpacing.h"
+#include "tracking/tracks/RelocationSchedule.h"
 #include "tracking/tracks/TrackSet.h"
 
 namespace sigloc
@@ -37,10 +38,10 @@ class LandmarkTracker
   void weigh(TrackSet& set, double travel) const;
 
   /// Relocates with a local map of the last steps or, once the belief is `settled`, with the
-  /// present step alone. `fresh_share` in [0, 1] is how far it counts as new evidence. Returns
-  /// false where too little is seen for an answer. Eq. (8.9), (8.19)
-  bool relocate(TrackSet& set, const std::optional<PoseRegion>& region, double fresh_share,
-                bool settled, std::uint64_t& next_id);
+  /// present step alone. The schedule tells how far it counts as new evidence. Returns false where
+  /// it gives no answer. Eq. (8.9), (8.19)
+  bool relocate(TrackSet& set, RelocationSchedule& schedule,
+                const std::optional<PoseRegion>& region, bool settled, std::uint64_t& next_id);
 
   /// Stores the present step for later local maps.
   void remember();

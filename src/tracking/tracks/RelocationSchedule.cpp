@@ -37,15 +37,28 @@ void RelocationSchedule::noteVerdict(bool localized)
 
 bool RelocationSchedule::isDue(bool suspicious) const
 {
-  if (waking_up_ || suspicious) return true;
+  if ((waking_up_ && !waits_) || suspicious) return true;
   return since_relocation_ >=
          (localized_ ? options_.confirmation_distance : options_.relocation_distance);
 }
 
-void RelocationSchedule::noteRelocation()
+void RelocationSchedule::noteKnownStart()
 {
   waking_up_ = false;
+  searched_all_ = true;
   since_relocation_ = 0;
+}
+
+bool RelocationSchedule::noteResult(const RelocationResult& result)
+{
+  const bool answered = result.verdict != Verdict::too_little_seen;
+  if (!answered && result.complete) return false;
+  since_relocation_ = 0;
+  waits_ = !answered;
+  if (!answered) return false;
+  waking_up_ = false;
+  searched_all_ = searched_all_ || result.complete;
+  return true;
 }
 
 double RelocationSchedule::freshShare() const

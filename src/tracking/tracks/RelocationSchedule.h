@@ -30,13 +30,18 @@ class RelocationSchedule
   /// True at the start and on suspicion. Else relocations come at a steady rate, and at a lower one
   /// while the robot is localized.
   bool isDue(bool suspicious) const;
-  /// Notes that a relocation has given an answer.
-  void noteRelocation();
+  /// Notes that the pose is known from elsewhere, as if by a relocation.
+  void noteKnownStart();
+  /// Notes a relocation. Returns whether it has given an answer. One that ended at its budget with
+  /// nothing found has not, but the next one waits as if it had, because it would cost as much.
+  bool noteResult(const RelocationResult& result);
   /// How much a relocation counts as new evidence, in [0, 1]: phi of section 8.
   double freshShare() const;
 
   /// True until a relocation has given an answer.
   bool isWakingUp() const { return waking_up_; }
+  /// True once a relocation that gave an answer has searched the map to its end.
+  bool hasSearchedAll() const { return searched_all_; }
   /// [m] in all.
   double travelled() const { return travelled_; }
   /// [m] driven since the robot was last localized, or since the start.
@@ -45,6 +50,8 @@ class RelocationSchedule
  private:
   TrackerOptions options_;
   bool waking_up_ = true;
+  bool searched_all_ = false;
+  bool waits_ = false;  // the last relocation ended at its budget with nothing found
   bool localized_ = false;  // at the last step
   double since_relocation_ = 0;  // [m]
   double travelled_ = 0;

@@ -13,7 +13,8 @@ namespace
 constexpr double kMissWeight = 0.5;  // factor of the evidence against a track, eq. (8.7)
 
 /// What a relocation says of a track: the log-odds of the candidate that it found there. A track
-/// that it did not find has the fit of the best candidate and its own score.
+/// that it did not find has the fit of the best candidate and its own score; a search that was not
+/// complete says nothing of it.
 double evidenceFor(const Track& track, TrackSet& set, const RelocationResult& result)
 {
   if (result.candidates.empty()) return 0;
@@ -21,6 +22,7 @@ double evidenceFor(const Track& track, TrackSet& set, const RelocationResult& re
   {
     if (set.trackAt(result.candidates[k].pose.mean) == &track) return inMapLogOdds(result, k);
   }
+  if (!result.complete) return 0;
   const Candidate& first = result.candidates.front();
   return std::min(0.0, fitLogOdds(first) + leadLogOdds(track.score, first.score));
 }
