@@ -18,34 +18,11 @@ namespace
 {
 constexpr std::string_view kSeparators = " \t,;\r";
 constexpr std::string_view kUtf8Mark = "\xEF\xBB\xBF";
-constexpr std::size_t kChunkBytes = 1U << 16U;
-// Text of numbers is packed to a third or a tenth. A small file that holds far more is no such
-// text, and is refused before it takes the memory.
-constexpr std::size_t kMostRatio = 50;
-constexpr std::size_t kAlwaysBytes = 1U << 26U;
 }  // namespace
 
 std::vector<std::string> readLines(const std::filesystem::path& path)
 {
-  GzipInput input(path);
-  std::error_code unknown;
-  const std::uintmax_t packed = std::filesystem::file_size(path, unknown);
-  const std::uintmax_t most = std::max<std::uintmax_t>(kAlwaysBytes, kMostRatio * packed);
-  std::string text;
-  while (true)
-  {
-    const std::size_t size = text.size();
-    text.resize(size + kChunkBytes);
-    const std::size_t got = input.Read(text.data() + size, kChunkBytes);
-    text.resize(size + got);
-    if (!unknown && text.size() > most)
-    {
-      throw std::runtime_error(fmt::format("{}: no text: it unpacks to more than {} times its size",
-                                           path.string(), kMostRatio));
-    }
-    if (got < kChunkBytes) break;
-  }
-  if (input.damaged()) throw std::runtime_error(path.string() + ": truncated or damaged");
+  std::string text = unpackedBytes(path);
   if (text.find('\0') != std::string::npos)
   {
     throw std::runtime_error(path.string() + ": not a text file");

@@ -181,7 +181,9 @@ TEST(MixedLog, AnObservationThatIsCutOffEndsTheLog)
   EXPECT_TRUE(reader.truncated());
 }
 
-// MRPT takes memory for what such an observation says that it holds.
+// MRPT takes memory for what such an observation says that it holds. The peak is 74 MB in a Release
+// build. Under the address sanitizer it is 325 MB, because that keeps up to 256 MB of what was
+// freed. With ASAN_OPTIONS=quarantine_size_mb=16 it is 138 MB; a test that reads one log takes 129.
 TEST(MixedLog, NoChangedByteHurtsTheReader)
 {
   const TemporaryFolder folder;

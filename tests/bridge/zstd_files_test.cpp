@@ -206,14 +206,30 @@ TEST(ZstdFiles, damagedOnesAreRefused)
 }
 
 // A few kilobytes of it would fill all memory.
-TEST(ZstdFiles, aTextThatUnpacksToFarMoreIsRefused)
+TEST(ZstdFiles, numbersThatUnpackToFarMoreAreRefused)
 {
   const TemporaryFolder folder;
-  const std::string rows((std::size_t{1} << 26U) + 1, '0');
-  writeText(folder / "points.txt", packed(rows));
-  EXPECT_NE(mapErrorOf(folder / "points.txt").find("unpacks to more than 50 times its size"),
-            std::string::npos)
-      << mapErrorOf(folder / "points.txt");
+  const std::string bomb = packed(std::string(detail::kAlwaysUnpacked + 1, '0'));
+  for (const char* const name : {"points.txt", "points.ply"})
+  {
+    writeText(folder / name, bomb);
+    EXPECT_EQ(mapErrorOf(folder / name),
+              (folder / name).string() + ": unpacks to more than 50 times its size");
+  }
+}
+
+TEST(ZstdFiles, unpackedBytesAreLimitedByTheFilesSize)
+{
+  constexpr std::size_t kSize = 1U << 20U;
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder / "zeros";
+  writeText(path, packed(std::string(kSize, '0')));
+  EXPECT_EQ(detail::unpackedBytes(path, kSize).size(), kSize);
+  EXPECT_THROW(detail::unpackedBytes(path, kSize / 4), std::runtime_error);
+  writeText(path, std::string(kSize, '0'));
+  EXPECT_EQ(detail::unpackedBytes(path, kSize / 4).size(), kSize) << "which is not packed";
+  std::filesystem::resize_file(path, (std::uintmax_t{1} << 32U) + 1);  // takes no room on the disk
+  EXPECT_THROW(detail::unpackedBytes(path), std::runtime_error);
 }
 }  // namespace
 }  // namespace sigloc

@@ -20,6 +20,12 @@ namespace
 constexpr unsigned kBufferBytes = 256U * 1024U;
 constexpr unsigned kLeastBuffer = 4096;
 
+/// How much of a file to read at a time. Small files are many, and read sooner so.
+unsigned bufferFor(std::uint64_t file_size)
+{
+  return static_cast<unsigned>(std::clamp<std::uint64_t>(file_size, kLeastBuffer, kBufferBytes));
+}
+
 bool isClassNameCharacter(char c)
 {
   return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
@@ -100,6 +106,33 @@ void requireIntact(const std::filesystem::path& path)
   if (file->wrong()) fail(path, "damaged");
 }
 
+std::string unpackedBytes(const std::filesystem::path& path, std::size_t always)
+{
+  // Numbers are packed to a third or a tenth. A small file that holds far more is none of numbers,
+  // and is refused before it takes the memory.
+  constexpr std::uint64_t kMostRatio = 50;
+  constexpr std::uint64_t kMost = std::uint64_t{1} << 32U;
+  GzipInput input(path);
+  const std::uint64_t packed = input.getTotalBytesCount();
+  constexpr const char* kTooMuch = "holds more than 4 GB";
+  if (packed > kMost) fail(path, kTooMuch);
+  const std::uint64_t by_size = std::max<std::uint64_t>(always, kMostRatio * packed);
+  const std::size_t chunk = bufferFor(packed);
+  std::string bytes;
+  for (std::size_t got = chunk; got == chunk;)
+  {
+    const std::size_t size = bytes.size();
+    bytes.resize(size + chunk);
+    got = input.Read(bytes.data() + size, chunk);
+    bytes.resize(size + got);
+    if (bytes.size() > kMost) fail(path, kTooMuch);
+    if (bytes.size() > by_size)
+      fail(path, "unpacks to more than " + std::to_string(kMostRatio) + " times its size");
+  }
+  if (input.damaged()) fail(path, "truncated or damaged");
+  return bytes;
+}
+
 GzipInput::GzipInput(const std::filesystem::path& path) : path_(path)
 {
   requireFile(path);
@@ -107,9 +140,7 @@ GzipInput::GzipInput(const std::filesystem::path& path) : path_(path)
   const auto size = std::filesystem::file_size(path, error);
   file_size_ = error ? 0 : size;
   unpacked_size_ = unpackedSize(path, file_size_);
-  // zlib takes three times this. Small files are many, and read sooner so.
-  file_ = openPacked(path, static_cast<unsigned>(
-                               std::clamp<std::uint64_t>(file_size_, kLeastBuffer, kBufferBytes)));
+  file_ = openPacked(path, bufferFor(file_size_));  // zlib takes three times this
   if (!file_) fail(path, "cannot be opened");
   constexpr std::size_t kMagic = 4;
   if (beginsPacked(peek(kMagic)))

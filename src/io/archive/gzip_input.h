@@ -87,6 +87,13 @@ class GzipInput final : public mrpt::io::CStream
 /// bytes in them, so this is called before them. Costs one decompression of the file.
 void requireIntact(const std::filesystem::path& path);
 
+constexpr std::size_t kAlwaysUnpacked = 1U << 26U;  // bytes
+
+/// Returns what a file holds, unpacked. Throws std::runtime_error "path: reason" for a file that is
+/// missing, empty or damaged, or holds too much. That is more than 4 GB, or more than both `always`
+/// bytes and 50 times its size.
+std::string unpackedBytes(const std::filesystem::path& path, std::size_t always = kAlwaysUnpacked);
+
 /// Returns "; did you mean '...'?" with the entry of the path's folder whose name is nearest to
 /// that of a file that does not exist, or an empty text.
 std::string didYouMeanFile(const std::filesystem::path& path);

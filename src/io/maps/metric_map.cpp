@@ -131,7 +131,9 @@ Found lookIn(const std::filesystem::path& path)
 {
   requireFile(path);
   requireIntact(path);
-  const std::string all = readAllBytes(path);
+  // A grid map may be far smaller than its cells, most of which are alike.
+  constexpr std::size_t kUsualGrid = 1U << 29U;  // bytes
+  const std::string all = unpackedBytes(path, kUsualGrid);
   const std::string_view bytes = all;
   const auto header = objectHeaderIn(bytes.substr(0, kLongestObjectHeader));
   if (!header || header->old) fail(path, "not an MRPT file");

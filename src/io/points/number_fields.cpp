@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstring>
 
-#include "io/archive/gzip_input.h"
 #include "io/text_rows.h"
 
 namespace sigloc::detail
@@ -101,24 +100,5 @@ void addPoint(PointList& points, double x, double y, double z)
 {
   if (std::isfinite(x) && std::isfinite(y) && std::isfinite(z))
     points.emplace_back(static_cast<float>(x), static_cast<float>(y), static_cast<float>(z));
-}
-
-std::string readAllBytes(const std::filesystem::path& path)
-{
-  constexpr std::size_t kChunk = 1U << 20U;
-  constexpr std::size_t kMost = std::size_t{1} << 32U;
-  requireFile(path);
-  GzipInput input(path);
-  std::string bytes;
-  for (std::size_t got = kChunk; got == kChunk;)
-  {
-    const std::size_t size = bytes.size();
-    if (size > kMost) fail(path, "holds more than 4 GB");
-    bytes.resize(size + kChunk);
-    got = input.Read(bytes.data() + size, kChunk);
-    bytes.resize(size + got);
-  }
-  if (input.damaged()) fail(path, "truncated or damaged");
-  return bytes;
 }
 }  // namespace sigloc::detail

@@ -48,8 +48,4 @@ PointList textRows(std::string_view text, std::size_t count, const Places& place
 
 /// Adds a point, unless a coordinate is no number.
 void addPoint(PointList& points, double x, double y, double z);
-
-/// Returns what a file holds, unpacked. Throws std::runtime_error "path: reason" for a file that is
-/// missing, empty or damaged, or holds more than 4 GB.
-std::string readAllBytes(const std::filesystem::path& path);
 }  // namespace sigloc::detail

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/archive/gzip_input.h"
 #include "io/points/number_fields.h"
 #include "io/text_rows.h"
 
@@ -196,7 +197,7 @@ std::size_t bytesOfPoint(const PcdHeader& header)
 
 PointList readPcd(const std::filesystem::path& path)
 {
-  const std::string bytes = readAllBytes(path);
+  const std::string bytes = unpackedBytes(path);
   std::string_view data = bytes;
   const PcdHeader header = takePcdHeader(data, path);
   const Places places = placesIn(header, path);

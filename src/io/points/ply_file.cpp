@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/archive/gzip_input.h"
 #include "io/points/number_fields.h"
 #include "io/text_rows.h"
 
@@ -113,7 +114,7 @@ void takePlyElement(std::string_view& data, const PlyElement& element, bool swap
 
 PointList readPly(const std::filesystem::path& path)
 {
-  const std::string bytes = readAllBytes(path);
+  const std::string bytes = unpackedBytes(path);
   std::string_view data = bytes;
   const PlyHeader header = takePlyHeader(data, path);
   const bool text = header.format == "ascii";
