@@ -16,16 +16,9 @@ namespace detail
 const std::vector<MapFormat>& mapFormats()
 {
   static const std::vector<MapFormat> kFormats = {
-      {MapKind::simplemap, "simplemap", {".simplemap"}},
-      {MapKind::gridmap, "grid map", {".gridmap"}},
-      {MapKind::metric_map, "metric map", {".metricmap"}},
-      {MapKind::ros_map, "ROS map", {".yaml", ".yml"}},
-      {MapKind::image, "image with its resolution", {".pgm", ".png"}},
-      {MapKind::carmen_log, "CARMEN log", {".log", ".clf", ".carmen"}},
-      {MapKind::landmarks, "landmark file", {".csv"}},
-      {MapKind::rows, "landmarks or points", {".txt"}},
-      {MapKind::points, "points", {".ply", ".pcd"}},
-      {MapKind::sigmap, "sigmap", {".sigmap"}},
+#define SIGLOC_ROW(kind, reader, name, ...) {MapKind::kind, name, {__VA_ARGS__}},
+      SIGLOC_MAP_FORMATS(SIGLOC_ROW)
+#undef SIGLOC_ROW
   };
   return kFormats;
 }

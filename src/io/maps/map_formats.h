@@ -5,30 +5,37 @@
 #include <string>
 #include <vector>
 
+/// Every kind of map: its reader, its name for messages, and the extensions in lower case, which
+/// `.gz` or `.zst` may follow. A new one is a row here and its reader. A macro, because a launcher
+/// that links no reader names them, too.
+#define SIGLOC_MAP_FORMATS(FORMAT)                                           \
+  FORMAT(simplemap, readSimplemap, "simplemap", ".simplemap")                \
+  FORMAT(gridmap, readGridmap, "grid map", ".gridmap")                       \
+  FORMAT(metric_map, readMetricMap, "metric map", ".metricmap")              \
+  FORMAT(ros_map, readRosMap, "ROS map", ".yaml", ".yml")                    \
+  FORMAT(image, readMapImage, "image with its resolution", ".pgm", ".png")   \
+  FORMAT(carmen_log, readCarmenLog, "CARMEN log", ".log", ".clf", ".carmen") \
+  FORMAT(landmarks, readLandmarks, "landmark file", ".csv")                  \
+  FORMAT(rows, readRows, "landmarks or points", ".txt")                      \
+  FORMAT(points, readPointMap, "points", ".ply", ".pcd")                     \
+  FORMAT(sigmap, loadSigmap, "sigmap", ".sigmap")
+
 namespace sigloc::detail
 {
 enum class MapKind
 {
-  simplemap,
-  gridmap,
-  metric_map,
-  ros_map,
-  image,
-  carmen_log,
-  landmarks,
-  rows,
-  points,
-  sigmap,
+#define SIGLOC_KIND(kind, ...) kind,
+  SIGLOC_MAP_FORMATS(SIGLOC_KIND)
+#undef SIGLOC_KIND
 };
 
 /// A kind of file that maps come in.
 struct MapFormat
 {
   MapKind kind;
-  const char* name;  ///< for messages
-  std::vector<std::string> extensions;  ///< lower case; `.gz` or `.zst` may follow
+  const char* name;
+  std::vector<std::string> extensions;
 };
 
-/// Every kind of map: a new one is a row there and its reader.
 const std::vector<MapFormat>& mapFormats();
 }  // namespace sigloc::detail

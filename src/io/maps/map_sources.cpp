@@ -13,6 +13,7 @@
 #include <iterator>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "io/archive/checked_archive.h"
@@ -37,30 +38,30 @@ constexpr int kBuildVersion = 8;
 
 using detail::MapKind;
 
+/// Some readers have options.
+template <class Reader>
+MapSource readBy(Reader reader, const std::filesystem::path& path, const ReadingOptions& reading)
+{
+  if constexpr (std::is_invocable_v<Reader, const std::filesystem::path&, const ReadingOptions&>)
+  {
+    return reader(path, reading);
+  }
+  else
+  {
+    return reader(path);
+  }
+}
+
 MapSource readAs(MapKind kind, const std::filesystem::path& path, const ReadingOptions& reading)
 {
+  using namespace detail;
   switch (kind)
   {
-    case MapKind::simplemap:
-      return detail::readSimplemap(path, reading);
-    case MapKind::gridmap:
-      return detail::readGridmap(path, reading);
-    case MapKind::metric_map:
-      return detail::readMetricMap(path, reading);
-    case MapKind::ros_map:
-      return detail::readRosMap(path);
-    case MapKind::image:
-      return detail::readMapImage(path, reading);
-    case MapKind::carmen_log:
-      return detail::readCarmenLog(path);
-    case MapKind::landmarks:
-      return detail::readLandmarks(path);
-    case MapKind::rows:
-      return detail::readRows(path, reading);
-    case MapKind::points:
-      return detail::readPointMap(path, reading);
-    case MapKind::sigmap:
-      return loadSigmap(path);
+#define SIGLOC_CASE(kind, reader, ...) \
+  case MapKind::kind:                  \
+    return readBy(reader, path, reading);
+    SIGLOC_MAP_FORMATS(SIGLOC_CASE)
+#undef SIGLOC_CASE
   }
   throw std::logic_error("a kind of map without a reader");
 }
