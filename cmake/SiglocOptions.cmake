@@ -72,7 +72,7 @@ function(sigloc_add_library name)
     set_target_properties(${name} PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION 0)
   endif()
   # Most of the time goes into the headers of MRPT. Where CMAKE_UNITY_BUILD is on, a folder is compiled
-  # as one file: no two of its files use a name of theirs alone for different things.
+  # as one file, so a name in an unnamed namespace must be unique in its folder.
   set_target_properties(${name} PROPERTIES UNITY_BUILD_MODE GROUP)
   foreach(source IN LISTS sources)
     cmake_path(RELATIVE_PATH source BASE_DIRECTORY "${PROJECT_SOURCE_DIR}/src" OUTPUT_VARIABLE folder)

@@ -74,10 +74,8 @@ struct RelocationResult
   Verdict verdict = Verdict::too_little_seen;
   double probability = 0;  ///< of the verdict's claim; for `localized`, of the first candidate
   double elsewhere = 1;  ///< probability that the robot is at none of the candidates
-  double view = 2 * M_PI;  ///< [rad] angular coverage of the scan.
-  /// False where the generation of hypotheses ended at its budget. Then nothing follows from what
-  /// was not found.
-  bool complete = true;
+  double view = 2 * M_PI;  ///< [rad] angular coverage of the scan
+  bool complete = true;  ///< false where the search was cut short: what it missed may be right
   MatchingCounters counters;
 };
 
