@@ -13,6 +13,7 @@ import argparse
 import collections
 import concurrent.futures
 import hashlib
+import itertools
 import json
 import os
 import pathlib
@@ -23,8 +24,9 @@ import sys
 
 TIDY = ["clang-tidy-14", "--quiet"]
 GROUP_CHECKS = "--checks=-bugprone-suspicious-include"
-MAX_GROUP = 12
+MAX_GROUP = 24
 ROOT = pathlib.Path(__file__).resolve().parent.parent
+NAME = re.compile(r"^\w[\w:<>, &*]*[ &*](\w+)(?:\(| = )", re.MULTILINE)  # in the first column
 HAS_MAIN = re.compile(r"^int main\(", re.MULTILINE)
 
 
@@ -33,8 +35,13 @@ HAS_MAIN = re.compile(r"^int main\(", re.MULTILINE)
 LINTED = ["src/*.cpp", "apps/*.cpp", "examples/*.cpp", "python/*.cpp", "ros/*.cpp"]
 
 
+# What differs between targets and means nothing to clang-tidy.
+IDLE_FLAG = re.compile(r"-fPI[CE]|-fvisibility=\w+|-D\w+_EXPORTS")
+
+
 def own_commands(build, files):
-    """Yields (file, flags) of our sources: generated and fetched ones are not ours."""
+    """Yields (file, flags) of our sources: generated and fetched ones are not ours. Each file gets
+    the include folders and definitions of all of them, so that more are compiled alike."""
     listed = subprocess.run(
         ["git", "ls-files", "--cached", "--others", "--exclude-standard", "--"] + LINTED,
         cwd=ROOT, capture_output=True, text=True, check=True,
@@ -42,30 +49,39 @@ def own_commands(build, files):
     own = {str(ROOT / line) for line in listed.stdout.splitlines()}
     wanted = own & {str(path.resolve()) for path in files} if files else own
     database = json.loads((build / "compile_commands.json").read_text(encoding="utf-8"))
-    for entry in sorted(database, key=lambda entry: entry["file"]):
-        if entry["file"] in wanted:
-            wanted.discard(entry["file"])  # a file of two targets is linted once
-            words = shlex.split(entry["command"])[: shlex.split(entry["command"]).index("-o")]
-            flags = [words[i] for i in range(len(words)) if is_flag(words, i)]
-            yield entry["file"], (*flags, "-Wno-unknown-warning-option")
+    flags = {item["file"]: flags_of(item["command"]) for item in database if item["file"] in own}
+    values = collections.defaultdict(dict)  # a name's flags, such as those that define SIGLOC_WORK
+    for flag in itertools.chain(*flags.values()):
+        values[flag[-1].partition("=")[0]][flag] = True
+    shared = [flag for alike in values.values() if len(alike) == 1 for flag in alike]
+    for file in sorted(wanted & flags.keys()):
+        apart = [flag for flag in flags[file] if flag not in shared]
+        yield file, (*itertools.chain(*shared, *apart), "-Wno-unknown-warning-option")
 
 
-def is_flag(words, i):
-    return words[i].startswith("-") or words[i - 1] in ("-isystem", "-include")
+def flags_of(command):
+    """Returns the flags of a compiler's command, each as a tuple of one or two words."""
+    words = shlex.split(command)
+    words = words[: words.index("-o")]
+    pairs = [(a, b) for a, b in zip(words, words[1:]) if a in ("-isystem", "-include")]
+    singles = [(a,) for a in words if a.startswith("-") and a not in ("-isystem", "-include")]
+    return [flag for flag in singles + pairs if not IDLE_FLAG.fullmatch(flag[-1])]
 
 
 def make_groups(commands):
-    """Yields (files, flags): groups of nearly equal size, compiled alike, with at most one main."""
-    alike = collections.defaultdict(list)
+    """Yields (files, flags): groups that are compiled alike and seem not to use a name twice."""
+    groups = []
     for file, flags in commands:
-        if HAS_MAIN.search(pathlib.Path(file).read_text(encoding="utf-8")):
-            yield [file], flags
-        else:
-            alike[flags].append(file)
-    for flags, files in alike.items():
-        count = -(-len(files) // MAX_GROUP)
-        for i in range(count):
-            yield files[i * len(files) // count : (i + 1) * len(files) // count], flags
+        text = pathlib.Path(file).read_text(encoding="utf-8")
+        names = set(NAME.findall(text)) - {"main"}
+        fits = (g for g in groups if g[1] == flags and len(g[0]) < MAX_GROUP and not g[2] & names)
+        group = next(fits, None)
+        if group is None:
+            groups.append(group := ([], flags, set()))
+        group[0].append(file)
+        group[2].update(names)
+    for files, flags, _ in groups:
+        yield files, flags
 
 
 def tidy(unit, flags, *options):
@@ -73,6 +89,14 @@ def tidy(unit, flags, *options):
     command = [*TIDY, *options, unit, "--", *flags]
     result = subprocess.run(command, capture_output=True, text=True)
     return None if result.returncode == 0 else result.stdout + result.stderr
+
+
+def inclusion(file):
+    """Returns the lines that include file, its main under a name of its own."""
+    if not HAS_MAIN.search(pathlib.Path(file).read_text(encoding="utf-8")):
+        return f'#include "{file}"\n'
+    name = "mainOf" + hashlib.sha1(file.encode()).hexdigest()
+    return f'#define main {name}\n#include "{file}"\n#undef main\n'
 
 
 def lint(files, flags, folder):
@@ -84,7 +108,7 @@ def lint(files, flags, folder):
         return int(findings is not None)
     name = hashlib.sha1("\n".join(files).encode()).hexdigest()
     unit = folder / f"{name}.cpp"
-    unit.write_text("".join(f'#include "{file}"\n' for file in files), encoding="utf-8")
+    unit.write_text("".join(map(inclusion, files)), encoding="utf-8")
     if tidy(str(unit), flags, GROUP_CHECKS) is None:
         return 0
     half = len(files) // 2

@@ -19,7 +19,7 @@ namespace
 {
 static_assert(std::is_trivially_copyable_v<WakeupStep>, "sent as bytes");
 
-struct Header
+struct AnswerHeader
 {
   std::size_t start;
   std::size_t kidnapped_at;
@@ -55,14 +55,14 @@ bool readAll(int file, void* data, std::size_t bytes)
 
 bool sendRun(int out, const Wakeup& run)
 {
-  const Header header{run.start, run.kidnapped_at, run.steps.size(), 0};
+  const AnswerHeader header{run.start, run.kidnapped_at, run.steps.size(), 0};
   return writeAll(out, &header, sizeof(header)) &&
          writeAll(out, run.steps.data(), run.steps.size() * sizeof(WakeupStep));
 }
 
 void sendFailure(int out, const std::string& reason)
 {
-  const Header header{0, 0, 0, reason.size()};
+  const AnswerHeader header{0, 0, 0, reason.size()};
   if (writeAll(out, &header, sizeof(header))) writeAll(out, reason.data(), reason.size());
 }
 
@@ -93,7 +93,7 @@ struct Received
 Received receive(int in)
 {
   Received received;
-  Header header{};
+  AnswerHeader header{};
   if (!readAll(in, &header, sizeof(header))) return received;
   std::string reason(header.reason, ' ');
   Wakeup& run = received.run;
