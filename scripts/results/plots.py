@@ -111,29 +111,37 @@ def growing_maps(bench):
                 'set ylabel "median ms"\nplot ' + ", ".join(parts) + "\n")  # fmt: skip
 
 
+def risks(answers):
+    """Per cent of the answers taken, most probable first, and of these per cent that are not right."""
+    wrong, rows = 0, []
+    for k, (_, is_right) in enumerate(answers):
+        wrong += not is_right
+        rows.append((100 * (k + 1) / len(answers), 100 * wrong / (k + 1)))
+    return rows
+
+
 def misleading(bench):
     """Risk over coverage of single answers, and the share that is right over the weight published."""
-    answers = sorted(integrity.first_answers(bench), reverse=True)
-    data = "set multiplot layout 1,2\n"
-    if answers:
-        wrong, rows = 0, []
-        for k, (_, is_right) in enumerate(answers):
-            wrong += not is_right
-            rows.append((100 * (k + 1) / len(answers), 100 * wrong / (k + 1)))
-        data += block("risk", rows) + 'set xlabel "coverage [%]"\nset ylabel "not right [%]"\n'
-        data += "set xrange [0:100]\nset yrange [0:]\nplot $risk with lines linewidth 2 notitle\n"
-    at_home, imitated, _ = integrity.at_home_and_away(bench)
+    data, curves = "set multiplot layout 1,2\nset key inside left top\n", []
+    for i, (name, only_new) in enumerate((("sets not trained on", True), ("all", False))):
+        answers = sorted(integrity.first_answers(bench, only_new), reverse=True)
+        if answers:
+            data += block(f"risk{i}", risks(answers))
+            curves.append(f'$risk{i} with lines linewidth 2 title "{name}"')
+    data += 'set xlabel "coverage [%]"\nset ylabel "not right [%]"\nset xrange [0:100]\nset yrange [0:]\n'
+    data += f"plot {', '.join(curves)}\n"
+    at_home = integrity.steps_at_home(bench)
     parts = []
-    for name, steps in (("recorded", at_home), ("simulated", imitated)):
-        rows = []
+    for name in (integrity.RECORDED, integrity.SIMULATED):
+        steps, rows = at_home[name], []
         for low, high in integrity.weight_bins():
             right = integrity.in_bin(steps, low, high)
             if right:
                 rows.append(((low + high) / 2, sum(right) / len(right)))
         if rows:
-            data += block(name, rows)
-            parts.append(f'${name} with linespoints linewidth 2 pointtype 7 title "{name}"')
-    if not answers or not parts:
+            data += block(name.split(",", maxsplit=1)[0], rows)
+            parts.append(f'${name.split(",", maxsplit=1)[0]} with linespoints linewidth 2 pointtype 7 title "{name}"')
+    if not curves or not parts:
         return None
     data += 'set xlabel "weight of the first pose"\nset ylabel "share right"\nset key inside right bottom\n'
     data += "set xrange [0:1]\nset yrange [0:1]\nplot x with lines dashtype 2 notitle, "

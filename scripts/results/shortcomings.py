@@ -7,7 +7,7 @@ from results.numbers import NONE
 
 def shortcomings(tables):
     """Bullets from the page's tables by title."""
-    makers = (one_scan, others_ahead, features, filter_ahead, recorded, landmark_tracking, moved, half_mapped, no_odometry,
+    makers = (one_scan, others_ahead, features, wrong_scans, filter_ahead, recorded, landmark_tracking, moved, half_mapped, no_odometry,
               foreign_kind, foreign_size, sweep)  # fmt: skip
     return [text for text in (maker(tables) for maker in makers) if text]
 
@@ -47,11 +47,24 @@ def filter_ahead(tables):
 
 def features(tables):
     table = tables[scans.ONE_SCAN]
-    parts = [f"{table.cell(name, 'localized, right')} of {table.cell(name, 'scans')} on "
-             f"{name.split(',')[0]}" for name in table.rows if name.endswith(scans.FEATURES)]  # fmt: skip
+    parts = [f"{table.cell(name, 'localized, right')} right and {table.cell(name, 'localized, wrong')} wrong of "
+             f"{table.cell(name, 'scans')} on {name.split(',')[0]}"
+             for name in table.rows if name.endswith(scans.FEATURES)]  # fmt: skip
     if not parts:
         return None
-    return f"**Features alone claim little**: *localized* are {' and '.join(parts)}."
+    return f"**Features alone claim little**: *localized* are {'; '.join(parts)}."
+
+
+def wrong_scans(tables):
+    """Every row of single scans at home that has a wrong claim."""
+    parts = []
+    for title in (scans.ONE_SCAN, opponents.CBGL):
+        table = tables[title]
+        for name in table.rows:
+            right, wrong = (table.cell(name, f"localized, {kind}") for kind in ("right", "wrong"))
+            if wrong:
+                parts.append(f"{name} ({wrong}, {right} right)")
+    return f"**Wrong claims of one scan**: {'; '.join(parts)}." if parts else None
 
 
 def recorded(tables):
@@ -123,4 +136,7 @@ def sweep(tables):
     if low is None:
         return None
     value, rest = table.cell(low, "hardest: right@1").split(": ")
-    return f"**Harder worlds**: at {value}, {low}, the first answer is right in {rest}."
+    wrong = [f"{table.cell(name, 'wrong claims of all')} over {name}" for name in table.rows
+             if not table.cell(name, "wrong claims of all").startswith("0 ")]  # fmt: skip
+    claims = f" Wrong claims: {'; '.join(wrong)}." if wrong else ""
+    return f"**Harder worlds**: at {value}, {low}, the first answer is right in {rest}.{claims}"
