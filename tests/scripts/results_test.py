@@ -122,6 +122,9 @@ class Bench:
         self.add("sim-mapped", {"signature": simulated_drives(98, 100)}, rows)
         rows = [f"signature,{i},{KINDS[i % 2]},1,2,0" for i in range(20)]
         self.add("sim-moved", {"signature": simulated_drives(90, 100, KINDS[:2])}, rows)
+        rows = [f"signature,{i},{KINDS[i]},1,2,0" for i in range(3)]
+        self.add("sim-half", {"signature": simulated_drives(75, 100)}, rows)
+        self.add("sim-no-odometry", {"signature": simulated_drives(95, 100)}, rows[:1])
         # 6 worlds of 2 drives; worlds 3 to 5 get the map of another kind.
         rows = [f"signature,{i},{KINDS[i // 2 % 3]},0,,{int(i in (0, 6))}" for i in range(12)]
         self.add("sim-foreign-mixed", {"signature": drive(0, 12, 2)}, rows)
@@ -244,9 +247,9 @@ class ResultsTest(unittest.TestCase):
 
     def test_published_weights_are_compared_with_what_was_right(self):
         page = self.page()
-        self.assertIn("| 0.50-0.70 | 0.000 of 2 | - | 0.000 of 50 | - | - |", page)
+        self.assertIn("| 0.50-0.70 | 0.000 of 2 | - | 0.000 of 50 | 0.000 of 3 | 0.000 of 1 |", page)
         # Of the two kidnapped robots the steps after it: those before repeat the drives of others.
-        self.assertIn("| 0.99-1.00 | 1.000 of 4 | - | 1.000 of 50 | - | - |", page)
+        self.assertIn("| 0.99-1.00 | 1.000 of 4 | - | 1.000 of 50 | 1.000 of 3 | 1.000 of 1 |", page)
         self.assertIn("| 0.70-0.90 | - | - | - | - | - | 0 |", page)
 
     def test_answers_without_a_sure_truth_are_counted(self):
@@ -298,6 +301,10 @@ class ResultsTest(unittest.TestCase):
         readme = (self.root / "README.md").read_text()
         self.assertIn("| median time, one thread | 0.50 ms |", readme)
         self.assertIn("2 of 4 in halls", " ".join(readme.split()))
+        self.assertIn("These numbers are of commit abc1234, made by", readme)
+        self.assertIn("| campus (99 scans) | intel, trained on (99 scans) |", readme)
+        self.assertIn("Claims on intel are no test", " ".join(readme.split()))
+        self.assertIn("With half of the world mapped 0 of 300 are wrong", " ".join(readme.split()))
         self.assertIn("On campus (24 scans) `branch-and-bound` is right in 0.875, sigloc in 0.792.",
                       " ".join(readme.split()))  # fmt: skip
         self.assertTrue(readme.startswith("# x\n") and readme.endswith("after\n"))
