@@ -7,7 +7,7 @@
 * Public headers, product apps and examples include public headers only.
 * No folder of src/ is crowded, and public headers are few.
 * Files are no longer than MAX_LINES and carry the two SPDX lines.
-* Every equation that a source file cites is in docs/algorithm.md.
+* Every equation that a source file or a page cites is in docs/algorithm.md.
 * Every path of ours that a page, a source or a script names is there, and so is what pages link to.
 * With --binaries DIR: no executable or library built there links what it must not.
 
@@ -87,6 +87,9 @@ INCLUDED = ROOT / "include"
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
 PRINTS = re.compile(r"\bstd::(cout|cerr|clog)\b|(?<![a-zA-Z_])(f?printf|puts)\(")
 EQUATION = re.compile(r"\((\d+\.\d+)\)")
+# A page says no "eq.", so there a number in brackets from 1 on is taken for an equation's.
+EQUATION_OF_PAGE = re.compile(r"\(([1-9]\d?\.\d{1,2})\)")
+WRITES_PAGES = {"scripts/results/data_use.py"}  # its equations are in docs/results
 CITES_EQUATION = re.compile(r"\b[Ee]q\.")
 OWN_PATH = re.compile(
     r"(?<![\w/.<-])(?:src|include|apps|docs|examples|python|ros|scripts|tests|cmake)/[\w/.-]*\w(?![\w*<{$]|/[*<{$])"
@@ -195,13 +198,15 @@ def source_violations(path, lines):
             yield number, reason
 
 
-def citation_violations(lines, equations):
-    """Finds cited equations that are not there; a citation is on the line that says "eq."."""
+def citation_violations(path, lines, equations):
+    """Finds cited equations that are not there; in code a citation is on the line that says "eq."."""
+    is_code = path.suffix in (".h", ".cpp")
     for number, line in enumerate(lines, 1):
-        if CITES_EQUATION.search(line):
-            for equation in EQUATION.findall(line):
-                if equation not in equations:
-                    yield number, f"equation ({equation}) is not in docs/algorithm.md"
+        if is_code and not CITES_EQUATION.search(line):
+            continue
+        for equation in (EQUATION if is_code else EQUATION_OF_PAGE).findall(line):
+            if equation not in equations:
+                yield number, f"equation ({equation}) is not in docs/algorithm.md"
 
 
 def is_there(path):
@@ -238,7 +243,8 @@ def file_violations(path, text, equations):
             yield 1, "the two SPDX lines are missing"
     if is_code:
         yield from source_violations(path, lines)
-        yield from citation_violations(lines, equations)
+    if is_code or path.suffix == ".md" or str(path) in WRITES_PAGES:
+        yield from citation_violations(path, lines, equations)
 
 
 def own_files(root):
@@ -248,8 +254,8 @@ def own_files(root):
     )  # fmt: skip
     for line in sorted(set(listed.stdout.splitlines())):
         path = pathlib.Path(line)
-        # Notes and results tell of their time; what is in maps/ and rawlogs/ is data.
-        is_ours = not re.match("(maps|rawlogs|docs/(lab-notes|results|images))/", line)
+        # Notes, but for one, and results tell of their time; what is in maps/ and rawlogs/ is data.
+        is_ours = not re.match("(maps|rawlogs|docs/(lab-notes(?!/choices-and-data)|results|images))/", line)
         if is_ours and (root / path).is_file():
             yield path
 

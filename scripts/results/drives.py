@@ -56,7 +56,7 @@ def wake_ups(bench):
         lasers_said(table),
         "*Metres to settle* is the median of the runs that are sure from some step on.",
         "`signature-mcl` is MRPT's filter with particles where signatures propose poses.",
-        "Rules of the tracker were chosen with these drives in view, but for uwb's: they are no test.",
+        "Rules of the tracker were chosen with these drives in view, but for uwb's and orebro's: they are no test.",
         "The odometry of fhw, acapulco, infinite-corridor and orebro is made from corrected poses.",
         "Starts of one drive overlap: the intervals treat them as independent.",
     ]
