@@ -65,7 +65,7 @@ def wake_ups(bench):
         noticed, cases = kidnapped["noticed_counts"]
         text += [
             f"The {cases} robots to be kidnapped start as those of intel do, and drive the same 15 m first.",
-            f"Then they are carried away: {noticed} noticed, {kidnapped['confidently_wrong']} were wrong at some step.",
+            f"Then they are carried away: {noticed} noticed. Wrong at some step: {kidnapped['confidently_wrong']}.",
             "One that was not sure before has noticed at once.",
         ]
     return Section(WAKE_UPS, table, text, "wake-ups.png")

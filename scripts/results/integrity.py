@@ -220,7 +220,7 @@ def weighed_steps(bench, runs):
             if row["method"] != METHOD or row["weight"] == "":
                 continue
             if run == drives.KIDNAPPED and row["kidnapped"] != "1":
-                continue  # the same steps as those of the robots that are not
+                continue  # until then they drive as the robots of track-intel, step by step
             right = None
             if row["error_m"] != "":
                 right = (float(row["error_m"]) <= RIGHT_METRES
@@ -277,7 +277,7 @@ def reliability(bench):
         "*Recorded* are steps on mapped area. *Whole map* is as mapped, with moved furniture and with clutter.",
         "The plot has these two alone. In half-mapped worlds about half of the steps are off the mapped area.",
         "Steps without truth, drives by landmarks and those that do not overlap are in no column.",
-        "Of kidnapped robots only the steps after that count.",
+        "Of kidnapped robots only the steps after the kidnapping count.",
         "Steps of one drive hang together, so there are no intervals.",
     )
     return Section(RELIABILITY, table, text)
