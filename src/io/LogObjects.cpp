@@ -5,10 +5,10 @@
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationOdometry.h>
 
-#include <stdexcept>
 #include <string>
 
 #include "io/archive/checked_archive.h"
+#include "io/archive/file_fault.h"
 #include "io/carmen_log.h"
 #include "io/scan_conversion.h"
 
@@ -52,10 +52,8 @@ void LogObjects::openRawlog(const std::filesystem::path& path)
   input_ = std::make_unique<GzipInput>(path);
   requireIntact(path);
   const std::string name = input_->nextClassName();
-  const auto fail = [&](const std::string& reason)
-  { throw std::runtime_error(path.string() + ": " + reason); };
-  if (name.empty()) fail(input_->damaged() ? "truncated or damaged" : "not a rawlog");
-  if (!isLogClass(name)) fail("not a rawlog: it starts with a '" + name + "'");
+  if (name.empty()) fail(path, input_->damaged() ? "truncated or damaged" : "not a rawlog");
+  if (!isLogClass(name)) fail(path, "not a rawlog: it starts with a '" + name + "'");
 }
 
 mrpt::serialization::CSerializable::Ptr LogObjects::next()

@@ -125,6 +125,19 @@ TEST(SignatureMonteCarlo, IsSetByTheCallersOwnParticles)
   }
 }
 
+TEST(SignatureMonteCarlo, SaysNotHereOnlyOfAMapThatWasSearched)
+{
+  Office office;
+  SignatureMonteCarlo2D filter(kParticles);
+  filter.options.metricMap = office.map;
+  TPose2D wrong = office.truthAt(0);
+  wrong.x += 3;
+  filter.resetDeterministic(wrong, kParticles);
+  office.advance(filter, 0, false);
+  ASSERT_FALSE(filter.relocated());
+  EXPECT_EQ(filter.belief().verdict, Verdict::ambiguous) << filter.belief().reason;
+}
+
 TEST(SignatureMonteCarlo, RecoversFromKidnapping)
 {
   Office office;

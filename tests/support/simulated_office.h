@@ -16,10 +16,10 @@ class MappedWorld
 {
  public:
   explicit MappedWorld(World world, std::uint64_t seed, double spacing = 1.2)
-      : world_(std::move(world)), space_(world_, 0.35), simulator_(world_, laser())
+      : world_(std::move(world)), space_(world_, kRobotClearance), simulator_(world_, laser())
   {
     map_ = std::make_shared<FeatureMap>(
-        buildMapFromScans(simulateMapping(world_, spacing, 0.35, laser(), seed)));
+        buildMapFromScans(simulateMapping(world_, spacing, kRobotClearance, laser(), seed)));
     matcher_ = std::make_shared<SignatureMatcher>(map_);
   }
 

@@ -25,7 +25,7 @@ struct DriveOptions
   double speed = 0.5;
   double step_time = 0.5;
   double turn_rate_deg = 60;
-  double clearance = 0.35;
+  double clearance = kRobotClearance;
 
   template <class V>
   static void visitFields(V&& visit)

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <stdexcept>
 #include <string>
 
 #include "io/archive/checked_archive.h"
+#include "io/archive/file_fault.h"
 #include "io/archive/gzip_input.h"
 #include "io/maps/map_source_readers.h"
 #include "io/maps/occupancy_grid.h"
@@ -74,7 +74,7 @@ void requireWallAndFree(const OccupancyRaster& raster, const std::filesystem::pa
 {
   if (const auto reason = unusableGrid(raster))
   {
-    throw std::runtime_error(path.string() + ": " + *reason);
+    detail::fail(path, *reason);
   }
 }
 

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <string>
 
+#include "io/archive/file_fault.h"
 #include "io/maps/map_source_readers.h"
 #include "io/text_rows.h"
 #include "map/map_values.h"
@@ -97,8 +97,8 @@ FeatureMap readLandmarks(const std::filesystem::path& path)
       landmarks.push_back(toLandmark(row, columns, path, i));
     }
   }
-  if (landmarks.empty()) throw std::runtime_error(path.string() + ": no landmark in it");
-  if (const auto flaw = flawOf(landmarks)) throw std::runtime_error(path.string() + ": " + *flaw);
+  if (landmarks.empty()) fail(path, "no landmark in it");
+  if (const auto flaw = flawOf(landmarks)) fail(path, *flaw);
   return FeatureMap(std::move(landmarks));
 }
 }  // namespace sigloc::detail

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/maps/map_reach.h"
 
-#include <stdexcept>
 #include <string>
+
+#include "io/archive/file_fault.h"
 
 namespace sigloc::detail
 {
@@ -22,7 +23,7 @@ class ReachCheck
   void operator()(const OccupancyRaster& raster) const
   {
     const auto reason = flawOf(raster.frame);
-    if (reason) throw std::runtime_error(path_.string() + ": " + *reason);
+    if (reason) fail(path_, *reason);
   }
 
   void operator()(const FeatureMap&) const {}  // its constructor has checked it
@@ -31,7 +32,7 @@ class ReachCheck
   void require(double x, double y) const
   {
     const auto reason = beyondReach(x, y);
-    if (reason) throw std::runtime_error(path_.string() + ": " + *reason);
+    if (reason) fail(path_, *reason);
   }
 
   const std::filesystem::path& path_;

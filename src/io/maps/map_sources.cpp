@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "io/archive/checked_archive.h"
+#include "io/archive/file_fault.h"
 #include "io/archive/gzip_input.h"
 #include "io/archive/UnreadObservation.h"
 #include "io/key_frames.h"
@@ -171,7 +172,7 @@ FeatureMap build(const std::filesystem::path& path, const MapBuildingOptions& bu
   }
   catch (const std::invalid_argument& error)
   {
-    throw std::runtime_error(path.string() + ": " + error.what());
+    detail::fail(path, error.what());
   }
 }
 }  // namespace
@@ -246,7 +247,7 @@ std::vector<PosedScans> readSimplemap(const std::filesystem::path& path,
     }
   }
   std::vector<PosedScans> scans = posedScansOf(simplemap);
-  if (scans.empty()) throw std::runtime_error(path.string() + ": no usable 2D laser scan in it");
+  if (scans.empty()) detail::fail(path, "no usable 2D laser scan in it");
   return scans;
 }
 }  // namespace detail
@@ -276,7 +277,7 @@ FeatureMap buildMapFromFile(const std::filesystem::path& path, const MapBuilding
                        ? loadSigmap(path)
                        : build(path, building, extraction, reading,
                                provenanceOf(path, building, extraction, reading), progress);
-  if (map.empty()) throw std::runtime_error(path.string() + ": no feature found in it");
+  if (map.empty()) detail::fail(path, "no feature found in it");
   return map;
 }
 

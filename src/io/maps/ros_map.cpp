@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "io/archive/file_fault.h"
 #include "io/archive/gzip_input.h"
 #include "io/maps/gray_image.h"
 #include "io/maps/map_source_readers.h"
@@ -84,7 +85,7 @@ auto ofImage(const RosMapHeader& header, const std::filesystem::path& path, Read
   }
   catch (const std::runtime_error& error)
   {
-    throw std::runtime_error(path.string() + ": its image " + error.what());
+    fail(path, std::string("its image ") + error.what());
   }
 }
 
@@ -123,8 +124,7 @@ void requireResolution(const std::filesystem::path& path, const ReadingOptions& 
 {
   if (reading.image_resolution > 0)
   {
-    if (const auto reason = unusableCells(reading.image_resolution))
-      throw std::runtime_error(path.string() + ": " + *reason);
+    if (const auto reason = unusableCells(reading.image_resolution)) fail(path, *reason);
     return;
   }
   std::string hint;
