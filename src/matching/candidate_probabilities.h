@@ -18,8 +18,8 @@ double logLikelihoodOfScore(double score);
 /// the share through walls. Returns in free space are left out. \cite algorithm eq. (8.11)
 double reliabilityOf(const DenseEvidence& evidence);
 
-/// Returns the score (6.8) without the returns in free space, in [-2, 1], as if nothing unmapped
-/// had hidden the walls. \cite algorithm section 8, "Publish"
+/// Returns ½ (F + C) - ½ T of (6.8), over the returns that are not in free space, in [-2, 1], as if
+/// nothing unmapped had hidden the walls. \cite algorithm section 8, "Publish"
 double scoreOfUnhidden(const DenseEvidence& evidence);
 
 /// Returns the share, in [0, 1], of the returns in known cells that the map does not explain.

@@ -19,6 +19,7 @@ from run_page_test import browser, check, shown
 
 OFFICE = ["--map", "maps/office.simplemap", "--rawlog", "rawlogs/office.rawlog"]
 OFFICE += ["--ground-truth", "rawlogs/office-truth.txt"]
+NARROW = ["--scans-in-map", "20", "--view", "120"]  # of which some fit several places
 
 
 def rows_of(path):
@@ -47,6 +48,22 @@ def coloured_pixels(driver, canvas):
         return count;""",
         canvas,
     )
+
+
+def check_probabilities(driver, out):
+    """The probability of an ambiguous verdict is not that of its first pose."""
+    rows = [row for row in rows_of(out / "results.csv") if row["method"] == "signature"]
+    unsure = next(k for k, row in enumerate(rows) if row["verdict"] == "ambiguous")
+    asked = ("signature", rows[unsure]["query"], "1")
+    first = next(
+        row for row in rows_of(out / "candidates.csv")
+        if (row["method"], row["query"], row["rank"]) == asked
+    )  # fmt: skip
+    listed(driver)[unsure].click()
+    facts = " ".join(shown(driver, "facts").split())
+    for what, row in (("first pose", first), ("verdict", rows[unsure])):
+        expected = f"probability of the {what} {float(row['probability']):.3f}"
+        check(expected in facts, f"no '{expected}' in '{facts}'")
 
 
 def check_relocation(driver, out):
@@ -103,7 +120,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         once, drives = pathlib.Path(folder) / "once", pathlib.Path(folder) / "drives"
         for arguments in (
-            ["relocate", *OFFICE, "--method", "signature,signature-anchors", "--max-queries", "20",
+            ["relocate", *OFFICE[:2], *NARROW, "--method", "signature,signature-anchors",
              "--out", once],
             ["track", *OFFICE, "--starts", "3", "--travel", "3", "--method", "signature",
              "--out", drives],
@@ -119,6 +136,7 @@ def main():
                     what(driver, out)
                     if len(sys.argv) > 3:
                         driver.save_screenshot(sys.argv[3])
+                    check_probabilities(driver, out)
                     check_methods(driver, ["signature", "signature-anchors"])
                 check(listed(driver), "no place is listed")
             runs = rows_of(drives / "runs.csv")

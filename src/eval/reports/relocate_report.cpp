@@ -110,7 +110,12 @@ PagePlace pagePlace(const std::string& method, const RelocationRecord& record)
   const auto fact = [&](const std::string& name, const std::string& text)
   { place.facts.emplace_back(name, text); };
   fact("verdict", toString(record.verdict));
-  fact("probability of the first pose", fmt::format("{:.3f}", record.probability));
+  fact("probability of the verdict", fmt::format("{:.3f}", record.probability));
+  if (!record.listed.empty())
+  {
+    fact("probability of the first pose",
+         fmt::format("{:.3f}", record.listed.front().candidate.probability));
+  }
   if (record.truth && record.first)
   {
     fact("off the truth", fmt::format("{:.2f} m, {:.1f} deg", record.error.distance,

@@ -38,7 +38,7 @@ class CellEvidence
   void countAnew() { unexplained_ = known_ = off_walls_ = 0; }
 
   /// Share of the cells of mapped area whose returns end off all walls or beyond one, in [0, 1]; 0
-  /// before the first. Fewer than five cells count as five. \cite algorithm eq. (8.22)
+  /// before the first. Less than one cell counts as one. \cite algorithm eq. (8.22)
   double offWallShare() const;
 
  private:
