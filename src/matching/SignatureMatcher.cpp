@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <future>
 #include <stdexcept>
 
 #include "features/feature_values.h"
@@ -88,23 +89,26 @@ SignatureMatcher::SignatureMatcher(std::shared_ptr<const FeatureMap> map,
 {
   if (!map_) throw std::invalid_argument("SignatureMatcher: no map");
   checkOptions(options);
-  if (map_->field() && options.use_dense_field)
+  const bool dense = map_->field() && options.use_dense_field;
+  const auto mode = static_cast<GenerationMode>(options.mode);
+  if (mode == GenerationMode::minimal_sets && !dense)
+    throw std::invalid_argument("SignatureMatcher: minimal sets need a dense field");
+  // The pairs take as long as all else, and need nothing of it.
+  std::future<std::unique_ptr<const KeyPairIndex>> key_pairs;
+  if (mode == GenerationMode::automatic && dense)
+  {
+    key_pairs = std::async(
+        [this]
+        { return std::make_unique<const KeyPairIndex>(mappedKeyPoints(*map_), map_->error()); });
+  }
+  if (dense)
   {
     verifier_ =
         std::make_unique<DenseVerifier>(*map_->field(), wallBlur(map_->features(), *map_->field()));
   }
-  const auto mode = static_cast<GenerationMode>(options.mode);
-  const bool from_minimal_sets =
-      mode == GenerationMode::minimal_sets || (mode == GenerationMode::automatic && verifier_);
-  if (from_minimal_sets)
+  if (dense && (mode == GenerationMode::automatic || mode == GenerationMode::minimal_sets))
   {
-    if (!verifier_)
-      throw std::invalid_argument("SignatureMatcher: minimal sets need a dense field");
     proposer_ = std::make_unique<PoseProposer>(*map_);
-    if (mode == GenerationMode::automatic)
-    {
-      key_pairs_ = std::make_unique<KeyPairIndex>(mappedKeyPoints(*map_), map_->error());
-    }
   }
   else
   {
@@ -114,6 +118,7 @@ SignatureMatcher::SignatureMatcher(std::shared_ptr<const FeatureMap> map,
         std::make_shared<const PreparedMap>(*map_), generation);
     generator_ = makeGenerator(mode, feature_verifier_);
   }
+  if (key_pairs.valid()) key_pairs_ = key_pairs.get();
 }
 
 SignatureMatcher::~SignatureMatcher() = default;
