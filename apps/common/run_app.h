@@ -3,6 +3,8 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <csignal>
+#include <cstdlib>
 #include <functional>
 #include <iostream>
 #include <stdexcept>
@@ -57,9 +59,13 @@ inline bool printManual(const CLI::App& app, int argc, char** argv)
 
 /// What every program does: parses the command line, runs `work`, and reports an error in one line.
 /// Lost output is an error, too. Returns the exit code: that of `work`, 0 after --help and
-/// --version, else 1.
+/// --version, else 1. Sets the process's handling of SIGXFSZ, and an environment variable of Mesa.
 inline int runApp(CLI::App& app, int argc, char** argv, const std::function<int()>& work)
 {
+  // A file that grows over its limit is a failed write then, and told in one line.
+  std::signal(SIGXFSZ, SIG_IGN);
+  // Mesa would die by a signal where the disk of its cache is full.
+  setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);
   try
   {
     int code = 0;

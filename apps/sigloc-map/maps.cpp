@@ -76,18 +76,19 @@ sigloc::LocalizationSetup setupWith(const sigloc::ReadingArguments& reading)
   return setup;
 }
 
-/// Throws std::runtime_error where the map would replace its own source, or a file whose name is
-/// not that of a map.
+/// Throws std::runtime_error where the map would replace its own source, or is not named as one.
+/// Programs take a file for what its name says.
 void checkBuildOutput(const std::filesystem::path& input, const std::filesystem::path& output,
                       const std::filesystem::path& config)
 {
   std::vector<std::filesystem::path> inputs = sigloc::filesOfMapSource(input);
   inputs.push_back(config);
   sigloc::refuseToReplaceInputs(output, inputs);
-  if (std::filesystem::exists(output) && output.extension() != ".sigmap")
+  if (output.extension() != ".sigmap")
   {
-    throw std::runtime_error(output.string() +
-                             ": exists, and is no .sigmap by its name; not overwritten");
+    const bool exists = std::filesystem::exists(output);
+    throw std::runtime_error(output.string() + ": a map's name must end in .sigmap" +
+                             (exists ? "; not overwritten" : ""));
   }
 }
 

@@ -8,10 +8,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <string>
 
 #include "io/archive/checked_archive.h"
+#include "io/archive/file_fault.h"
 #include "io/archive/gzip_input.h"
 #include "io/key_frames.h"
 #include "io/text_rows.h"
@@ -25,6 +25,7 @@ namespace
 constexpr double kMaxTurn = 0.2;  // [rad] between two rows that are interpolated
 constexpr double kMaxStep = 0.75;  // [m]
 constexpr double kSameTime = 1e-3;  // [s]
+constexpr double kFarthest = 1.3e7;  // [m] any coordinate of a place on earth is smaller
 constexpr double kLargestIndex = 1e7;  // larger whole numbers are seconds since some epoch
 
 struct Row
@@ -147,7 +148,11 @@ GroundTruth GroundTruth::read(const std::filesystem::path& path, const TPose2D& 
       }
     }
   }
-  if (truth.entries_.empty()) throw std::runtime_error(path.string() + ": no pose in it");
+  if (truth.entries_.empty()) detail::fail(path, "no pose in it");
+  const auto is_nowhere = [](const Entry& entry)
+  { return std::max(std::abs(entry.pose.x), std::abs(entry.pose.y)) > kFarthest; };
+  if (std::any_of(truth.entries_.begin(), truth.entries_.end(), is_nowhere))
+    detail::fail(path, "a pose farther from the origin than the earth is wide");
   for (Entry& entry : truth.entries_)
   {
     entry.pose = map_from_truth + entry.pose;

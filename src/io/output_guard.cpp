@@ -46,6 +46,8 @@ void checkOutputFolder(const fs::path& folder, const OutputFolderRule& rule,
                        const std::vector<fs::path>& inputs)
 {
   std::error_code error;
+  if (fs::exists(folder, error) && !fs::is_directory(folder, error))
+    throw std::runtime_error(folder.string() + ": is no folder; not overwritten");
   const bool is_own = rule.is_own(folder);
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
   {

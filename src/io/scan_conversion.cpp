@@ -59,7 +59,7 @@ std::optional<LaserScan> toLaserScan(const mrpt::obs::CObservation2DRangeScan& s
 
   LaserScan out;
   out.angle_step = static_cast<double>(scan.aperture) / static_cast<double>(n - 1);
-  if (!(out.angle_step > 0 && std::isfinite(out.angle_step))) return std::nullopt;
+  if (!(out.angle_step > 0 && out.angle_step < M_PI)) return std::nullopt;
   out.first_angle = -0.5 * static_cast<double>(scan.aperture);
   out.max_range = std::min(static_cast<double>(scan.maxRange), kFarthestReturn);
   out.range_sigma = rangeSigmaOf(scan);

@@ -228,7 +228,8 @@ void readExperiment(const CConfigFileMemory& ini, const fs::path& path, const fs
 {
   if (!ini.sectionExists(kExperiment))
   {
-    throw std::runtime_error(fmt::format("no section [{}]", kExperiment));
+    throw std::runtime_error(
+        fmt::format("no section [{}]; for a map and a log: --map MAP --log LOG", kExperiment));
   }
   const std::string unread = detail::warningOfUnreadKeys(ini, kExperiment);
   if (!unread.empty()) setup.warnings.push_back(unread);

@@ -110,9 +110,10 @@ TEST(GroundTruth, NamesFileAndReasonForUnusableFiles)
   writeText(folder / "words.txt", "1 2 three\n");
   writeText(folder / "columns.txt", "1 2 3\n1 2 3 4\n");
   writeText(folder / "five.txt", "1 2 3 4 5\n");
+  writeText(folder / "far.txt", "1e308 -1e308 1\n");
   writeText(folder / "m.simplemap", "noise");
   for (const char* name : {"empty.txt", "comment.txt", "words.txt", "columns.txt", "five.txt",
-                           "m.simplemap", "no.txt"})
+                           "far.txt", "m.simplemap", "no.txt"})
   {
     const std::string message = truthErrorOf(folder / name);
     EXPECT_EQ(message.rfind((folder / name).string() + ": ", 0), 0U) << name << ": " << message;

@@ -19,7 +19,7 @@ CommandResult runLimited(const TemporaryFolder& folder, std::size_t bytes,
                          const std::string& program, const Arguments& arguments)
 {
   constexpr std::size_t kBlock = 512;  // of POSIX's ulimit
-  return runShell(folder, "trap '' XFSZ; ulimit -f " + std::to_string(bytes / kBlock) + "; " +
+  return runShell(folder, "ulimit -f " + std::to_string(bytes / kBlock) + "; " +
                               commandLine(program, arguments));
 }
 

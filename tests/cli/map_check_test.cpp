@@ -226,6 +226,8 @@ TEST(MapCheck, badInputIsRefusedInOneLine)
   refused({office, "--at", "poses.txt"}, "row 1");
   refused({office, "--out", "mine"}, "places.csv");
   EXPECT_EQ(readBytes(folder / "mine/places.csv"), "my own\n");
+  refused({office, "--out", "none.ini"}, "none.ini: is no folder; not overwritten");
+  EXPECT_EQ(readBytes(folder / "none.ini"), "[lidar]\n");
 }
 }  // namespace
 }  // namespace sigloc

@@ -49,6 +49,24 @@ TEST(CommandLine, aMapAndALogTakeThePlaceOfThoseOfTheIni)
                 "'rawlog_file' names none.rawlog, which does not exist");
 }
 
+TEST(CommandLine, aMapIsNamedAsOne)
+{
+  const TemporaryFolder folder;
+  for (const std::string name : {"map.png", "map.yaml", "map"})
+  {
+    expectOneLine(folder, "sigloc-map", {"build", "-i", kLabMap.string(), "-o", name},
+                  name + ": a map's name must end in .sigmap");
+  }
+}
+
+TEST(CommandLine, aMapAndALogWithoutTheirKeysAreNoIni)
+{
+  const TemporaryFolder folder;
+  writeText(folder / "map.yaml", "image: map.pgm\nresolution: 0.05\n");
+  expectOneLine(folder, "sigloc-localize", {"map.yaml", kLabLog.string()},
+                "no section [LocalizationExperiment]; for a map and a log: --map MAP --log LOG");
+}
+
 TEST(CommandLine, aLinkToAProgramWorks)
 {
   const TemporaryFolder folder;

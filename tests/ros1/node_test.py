@@ -257,7 +257,7 @@ def test_an_image_with_its_resolution_is_a_map(start, bag, tmp_path):
 def test_publishes_the_transform_only_while_the_pose_is_known(start, bag):
     player = start(publish_tf="true")
     statuses = player.play(bag)
-    known = [k for k, status in enumerate(statuses) if values(status)["state"] == "known"]
+    known = [k for k, status in enumerate(statuses) if values(status).get("state") == "known"]
     assert known
     eventually(lambda: len(player.transforms) == len(known), "every transform")
     assert not player.initial_poses

@@ -75,7 +75,8 @@ struct OutputFolderRule
 };
 
 /// Throws std::runtime_error ("folder: reason") when a run that writes into `folder` could replace
-/// one of `inputs`, or an entry that no earlier run wrote. A folder that is not there is fine.
+/// one of `inputs`, or an entry that no earlier run wrote. So it does where `folder` is a file. A
+/// folder that is not there is fine.
 void checkOutputFolder(const std::filesystem::path& folder, const OutputFolderRule& rule,
                        const std::vector<std::filesystem::path>& inputs);
 
