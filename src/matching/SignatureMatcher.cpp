@@ -93,7 +93,7 @@ SignatureMatcher::SignatureMatcher(std::shared_ptr<const FeatureMap> map,
   const auto mode = static_cast<GenerationMode>(options.mode);
   if (mode == GenerationMode::minimal_sets && !dense)
     throw std::invalid_argument("SignatureMatcher: minimal sets need a dense field");
-  // The pairs take as long as all else, and need nothing of it.
+  // The pairs take long, and need nothing of the rest.
   std::future<std::unique_ptr<const KeyPairIndex>> key_pairs;
   if (mode == GenerationMode::automatic && dense)
   {
