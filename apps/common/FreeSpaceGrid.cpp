@@ -108,7 +108,25 @@ std::size_t FreeSpaceGrid::nearestCell(const TPoint2D& place) const
 
 std::vector<TPoint2D> FreeSpaceGrid::spreadPlaces(std::size_t count) const
 {
-  const double side = std::max(kCell, std::sqrt(area() / static_cast<double>(count)));
+  // Free space is ragged: of squares of this side, more hold some of it than are wanted.
+  constexpr double kWider = 1.05;
+  double side = std::max(kCell, std::sqrt(area() / static_cast<double>(count)));
+  std::vector<TPoint2D> places = placesInSquares(side);
+  while (places.size() > count)
+  {
+    std::vector<TPoint2D> fewer = placesInSquares(side *= kWider);
+    if (fewer.size() < count) break;
+    places = std::move(fewer);
+  }
+  const std::size_t wanted = std::min(count, places.size());
+  std::vector<TPoint2D> chosen;
+  chosen.reserve(wanted);
+  for (std::size_t k = 0; k < wanted; ++k) chosen.push_back(places[k * places.size() / wanted]);
+  return chosen;
+}
+
+std::vector<TPoint2D> FreeSpaceGrid::placesInSquares(double side) const
+{
   // Of each square the free cell nearest to its middle.
   std::map<std::pair<std::int64_t, std::int64_t>, std::pair<double, std::size_t>> squares;
   for (const std::size_t cell : cells_)

@@ -23,7 +23,8 @@ class FreeSpaceGrid
   /// [m^2]
   double area() const { return kCell * kCell * static_cast<double>(cells_.size()); }
 
-  /// Returns about `count` places, one in each square of a regular division, row by row.
+  /// Returns `count` places, at most one in each square of a regular division, row by row. Fewer
+  /// where so many cells are not free.
   std::vector<mrpt::math::TPoint2D> spreadPlaces(std::size_t count) const;
 
   /// Returns the poses of a drive from a place of the free space, a step about half a metre. It
@@ -34,6 +35,7 @@ class FreeSpaceGrid
 
  private:
   static constexpr double kCell = 0.25;  // [m]
+  std::vector<mrpt::math::TPoint2D> placesInSquares(double side) const;
   std::size_t nearestCell(const mrpt::math::TPoint2D& place) const;
   mrpt::math::TPoint2D centreOf(std::size_t cell) const;
 

@@ -68,13 +68,13 @@ std::string placesCsv(const MapCheck& check)
 
 std::string twinsCsv(const MapCheck& check)
 {
-  std::string csv = "twins,a_x_m,a_y_m,a_deg,b_x_m,b_y_m,b_deg,scans,weight\n";
+  std::string csv = "twins,a_x_m,a_y_m,a_deg,b_x_m,b_y_m,b_deg,scans,mean_probability\n";
   for (std::size_t k = 0; k < check.twins.size(); ++k)
   {
     const Twins& twins = check.twins[k];
     csv += fmt::format("{},{:.3f},{:.3f},{},{:.3f},{:.3f},{},{},{:.4f}\n", k + 1, twins.a.x,
                        twins.a.y, degrees(twins.a.phi), twins.b.x, twins.b.y, degrees(twins.b.phi),
-                       twins.scans, twins.weight);
+                       twins.scans, twins.meanProbability());
   }
   return csv;
 }

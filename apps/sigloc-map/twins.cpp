@@ -32,6 +32,8 @@ bool sameTwins(const Twins& twins, const TPose2D& a, const TPose2D& b)
 std::vector<Twins> gatherTwins(const std::vector<Confusion>& confusions)
 {
   std::vector<Twins> all;
+  std::vector<TPose2D>
+      latest;  // truth of each: a scan may have several candidates at the other place
   for (const Confusion& confusion : confusions)
   {
     const TPose2D& a = confusion.truth;
@@ -42,9 +44,12 @@ std::vector<Twins> gatherTwins(const std::vector<Confusion>& confusions)
     if (known == all.end())
     {
       all.push_back({a, b, 1, confusion.probability});
+      latest.push_back(a);
       continue;
     }
-    ++known->scans;
+    TPose2D& before = latest[static_cast<std::size_t>(known - all.begin())];
+    if (before != a) ++known->scans;
+    before = a;
     known->weight += confusion.probability;
   }
   std::stable_sort(all.begin(), all.end(),

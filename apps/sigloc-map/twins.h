@@ -24,9 +24,13 @@ struct Twins
   mrpt::math::TPose2D a;
   mrpt::math::TPose2D b;
   std::size_t scans = 0;  ///< that could be from either
-  double weight = 0;  ///< sum of the probabilities given to the wrong one
+  double weight = 0;  ///< sum, over the scans, of the probability given to the wrong one
+
+  /// What a scan gives to the wrong one on average, in [0, 1].
+  double meanProbability() const { return weight / static_cast<double>(scans); }
 };
 
-/// Gathers confusions between the same two neighbourhoods, either way. The heaviest come first.
+/// Gathers confusions between the same two neighbourhoods, either way; those of one scan follow one
+/// another. The heaviest come first.
 std::vector<Twins> gatherTwins(const std::vector<Confusion>& confusions);
 }  // namespace sigloc

@@ -92,6 +92,17 @@ TEST(MapCheck, anOfficeIsToldToBeEasyInFilesThatAgree)
   EXPECT_GT(pixelsLike(picture, mrpt::img::TColor(90, 186, 110)), 5000) << "always localized";
 }
 
+TEST(MapCheck, asksAtAsManyPlacesAsItIsTold)
+{
+  const TemporaryFolder folder;
+  ASSERT_EQ(run(folder, "sigloc-map",
+                {"check", kOffice.string(), "--places", "150", "--scans", "1", "--drives", "0",
+                 "-o", "answer"})
+                .exit_code,
+            0);
+  EXPECT_EQ(summaryIn(folder, "answer")["places"], 150);
+}
+
 TEST(MapCheck, equalSeedsGiveEqualLists)
 {
   const TemporaryFolder folder;
@@ -114,6 +125,13 @@ TEST(MapCheck, roomsThatRepeatAreNamedAsTwins)
   EXPECT_LT(corridor["localized_share"], 0.3);
   const auto twins = rowsOf(readBytes(folder / "answer/twins.csv"));
   ASSERT_GE(twins.size(), 10U);
+  const auto places = rowsOf(readBytes(folder / "answer/places.csv"));
+  for (const auto& pair : twins)
+  {
+    EXPECT_LE(pair[7], 3 * places.size()) << "more scans than were asked";
+    EXPECT_GE(pair[8], 0);
+    EXPECT_LE(pair[8], 1) << "a probability";
+  }
   // Exact copies are apart along the corridor only, and look the same way.
   int copies = 0;
   for (std::size_t k = 0; k < 10; ++k)
