@@ -122,6 +122,13 @@ std::string manPage(const CLI::App& app, const std::string& source)
   return page;
 }
 
+std::string usage(const CLI::App& app)
+{
+  const auto given = app.get_subcommands();
+  if (given.empty()) return synopsis(app, app.get_name());
+  return synopsis(*given.front(), app.get_name() + " " + given.front()->get_name());
+}
+
 std::string bashCompletion(const CLI::App& app)
 {
   const std::string& name = app.get_name();

@@ -11,6 +11,10 @@ namespace sigloc
 /// "sigloc 0.1.0".
 std::string manPage(const CLI::App& app, const std::string& source);
 
+/// How the program is called, or the command of it that was given: "sigloc-map info [OPTIONS]
+/// file".
+std::string usage(const CLI::App& app);
+
 /// A program's completion for bash: its commands, and the options of the one that was typed.
 std::string bashCompletion(const CLI::App& app);
 }  // namespace sigloc

@@ -44,7 +44,9 @@ inline std::string unknownWord(const CLI::App& app)
   const std::string what = option    ? "no such option: "
                            : command ? "no such command: "
                                      : "one argument too many: ";
-  return what + word + didYouMean(word.substr(0, word.find('=')), knownWords(app));
+  const std::string hint = didYouMean(word.substr(0, word.find('=')), knownWords(app));
+  if (!hint.empty()) return what + word + hint;
+  return what + word + (option || command ? "; see --help" : "; type: " + usage(app));
 }
 
 /// Prints what the build makes the man page and the completion from, where the only argument asks

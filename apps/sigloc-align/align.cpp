@@ -87,8 +87,14 @@ void print(const std::vector<sigloc::MapPose>& poses)
 }
 }  // namespace
 
-int siglocAlign(const sigloc::AlignArguments& arguments)
+int siglocAlign(const sigloc::AlignArguments& given)
 {
+  sigloc::AlignArguments arguments = given;
+  if (!given.output.empty())
+  {
+    if (given.poses.empty()) arguments.poses = given.output / "poses.CPosePDFSOG";
+    if (given.picture.empty()) arguments.picture = given.output / "align.png";
+  }
   checkOutputs(arguments);
   const auto a = readMap(arguments.a, arguments.reading.in());
   const auto b = readMap(arguments.b, arguments.reading.in());
@@ -106,6 +112,7 @@ int siglocAlign(const sigloc::AlignArguments& arguments)
   }
   print(poses);
   if (poses.empty()) return kNoPose;
+  if (!given.output.empty()) fs::create_directories(given.output);
   if (!arguments.poses.empty()) writePoses(poses, arguments.poses);
   if (!arguments.picture.empty())
   {

@@ -14,6 +14,7 @@ struct AlignArguments
 {
   std::filesystem::path a;
   std::filesystem::path b;
+  std::filesystem::path output;  ///< folder; empty: none
   std::filesystem::path poses;
   std::filesystem::path picture;
   ReadingArguments reading;

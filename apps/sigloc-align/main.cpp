@@ -7,6 +7,7 @@
 #include "arguments.h"
 #include "load_work.h"
 #include "number_option.h"
+#include "out_option.h"
 #include "run_app.h"
 #include "sigloc/io/map_files.h"
 
@@ -20,6 +21,8 @@ int main(int argc, char** argv)
       ->required();
   app.add_option("B", arguments.b, "map whose pose in A is asked")->required();
   arguments.reading.declare(app);
+  app.add_option(sigloc::kOut, arguments.output,
+                 "folder for poses.CPosePDFSOG and align.png, where they are not named");
   app.add_option("--poses", arguments.poses, "file to write, named *.CPosePDFSOG");
   app.add_option("--picture", arguments.picture, "PNG to write: B over A at the first pose");
   sigloc::addNumber(app, "--places", arguments.options.places, "of B whose views are looked for", 1,

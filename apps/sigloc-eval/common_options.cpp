@@ -13,6 +13,7 @@
 #include <stdexcept>
 
 #include "eval/data/method_names.h"
+#include "out_option.h"
 #include "sigloc/io/map_files.h"
 #include "warn.h"
 
@@ -30,7 +31,7 @@ void CommonOptions::declareRunning(CLI::App& command)
             256);
   command.add_flag("--quiet", quiet, "no progress bar, no table");
   command
-      .add_option("--out", out,
+      .add_option(kOut, out,
                   "folder for summary.json, results.csv, report.md, report.html and plots; an "
                   "earlier run's are "
                   "replaced, other files of these names are not")

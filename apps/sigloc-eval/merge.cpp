@@ -6,6 +6,7 @@
 
 #include "commands.h"
 #include "eval/reports/report_files.h"
+#include "out_option.h"
 
 namespace sigloc
 {
@@ -33,7 +34,7 @@ std::function<int()> setUpMerge(CLI::App& command, const std::string& command_li
   const auto flags = std::make_shared<MergeFlags>();
   command.add_option("DIR", flags->runs, "folders that runs of relocate, sweep or track wrote")
       ->required();
-  command.add_option("--out", flags->out, "folder for the pooled results")->required();
+  command.add_option(kOut, flags->out, "folder for the pooled results")->required();
   command.add_flag("--quiet", flags->quiet, "no table");
   return [flags, command_line] { return flags->run(command_line); };
 }

@@ -5,6 +5,7 @@
 #include "commands.h"
 #include "eval/data/reference_path.h"
 #include "eval/reports/report_files.h"
+#include "out_option.h"
 #include "reading_arguments.h"
 #include "sigloc/io/file_output.h"
 
@@ -41,7 +42,7 @@ std::function<int()> setUpReference(CLI::App& command, const std::string& /*comm
   command.add_option("--rawlog", flags->rawlog, "with odometry")->required();
   addPoseOption(command, "--last", flags->last, "the known pose at the end of the log")->required();
   flags->reading.declare(command);
-  command.add_option("--out", flags->out, "file for the rows `time x y phi`")->required();
+  command.add_option(kOut, flags->out, "file for the rows `time x y phi`")->required();
   return [flags] { return flags->run(); };
 }
 }  // namespace sigloc

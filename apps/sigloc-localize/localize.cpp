@@ -132,6 +132,7 @@ sigloc::LocalizationSetup setupOf(const sigloc::LocalizeArguments& arguments)
 int runAll(const sigloc::LocalizeArguments& arguments)
 {
   sigloc::LocalizationSetup setup = setupOf(arguments);
+  sigloc::requireMapAndLog(setup);
   for (const std::string& warning : setup.warnings)
     sigloc::warn(kProgram, arguments.config, warning);
   if (arguments.output) setup.output_folder = *arguments.output;

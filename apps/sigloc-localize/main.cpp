@@ -11,6 +11,7 @@
 
 #include "arguments.h"
 #include "load_work.h"
+#include "out_option.h"
 #include "run_app.h"
 #include "sigloc/io/map_files.h"
 
@@ -65,9 +66,8 @@ int main(int argc, char** argv)
                      "map to localize in, instead of map_file: " + sigloc::mapFormatNames() +
                          ". .gz or .zst may follow");
   auto* const log = app.add_option("--log", arguments.rawlog, "the same as DATASET.rawlog");
-  log->excludes(rawlog);
   arguments.reading.declare(app);
-  app.add_option("--out", arguments.output, "output folder instead of logOutput_dir");
+  app.add_option(sigloc::kOut, arguments.output, "output folder instead of logOutput_dir");
   app.add_option("--seed", arguments.seed, "seed instead of the one in [sigloc.matcher]");
   app.add_flag("--quiet", arguments.quiet, "no progress");
   app.add_flag("--print-defaults", arguments.print_defaults,
@@ -79,6 +79,9 @@ int main(int argc, char** argv)
     {
       throw std::runtime_error("needs --map MAP --log LOG.rawlog, or CONFIG.ini; see --help");
     }
+    if (rawlog->count() > 0 && log->count() > 0)
+      throw std::runtime_error("two logs: --log " + log->as<std::string>() + " and the argument " +
+                               rawlog->as<std::string>() + "; give one");
     if (arguments.output && arguments.output->empty()) throw std::runtime_error("--out is empty");
     return sigloc::loadWork<decltype(siglocLocalize)>("siglocLocalize",
                                                       picturesOf(arguments))(arguments);

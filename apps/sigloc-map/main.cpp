@@ -7,6 +7,7 @@
 #include "arguments.h"
 #include "load_work.h"
 #include "number_option.h"
+#include "out_option.h"
 #include "run_app.h"
 #include "sigloc/io/map_files.h"
 
@@ -20,7 +21,7 @@ void declareCheck(CLI::App& command, sigloc::MapArguments& arguments)
   arguments.reading.declare(command);
   command.add_option("--laser", arguments.laser,
                      "ini with [laser]; default: that of the map's own scans, else 270 degrees");
-  command.add_option("--out", arguments.output, "folder for picture, lists and summary");
+  command.add_option(sigloc::kOut, arguments.output, "folder for picture, lists and summary");
   command.add_option("--at", arguments.at,
                      "ask at these poses, rows `x y deg`, not over the free space");
   sigloc::addNumber(command, "--places", options.places, "spread over the free space", 1, kMost);
@@ -41,7 +42,7 @@ int main(int argc, char** argv)
       app.add_subcommand("build", "Builds a .sigmap from one of: " + sigloc::mapFormatNames() +
                                       ". .gz or .zst may follow.");
   build_command->add_option("-i,--input", arguments.input, "map source")->required();
-  build_command->add_option("-o,--output", arguments.output, ".sigmap to write")->required();
+  build_command->add_option(sigloc::kOutOrOutput, arguments.output, ".sigmap to write")->required();
   build_command->add_option("--config", arguments.config,
                             "ini with [sigloc.map], [sigloc.features] and [sigloc.reading]");
   arguments.reading.declare(*build_command);
@@ -53,7 +54,7 @@ int main(int argc, char** argv)
 
   CLI::App* draw_command = app.add_subcommand("draw", "Draws a map of any kind");
   draw_command->add_option("file", arguments.input, "map to read")->required();
-  draw_command->add_option("-o,--output", arguments.output, "PNG to write")->required();
+  draw_command->add_option(sigloc::kOutOrOutput, arguments.output, "PNG to write")->required();
   arguments.reading.declare(*draw_command);
 
   CLI::App* check_command =

@@ -18,6 +18,7 @@
 #include "eval/worlds/simulation_files.h"
 #include "eval/worlds/world_generators.h"
 #include "number_option.h"
+#include "out_option.h"
 #include "run_app.h"
 #include "sigloc/config/option_fields.h"
 
@@ -138,7 +139,7 @@ void describeOptions(CLI::App& app, Settings& settings)
   app.add_option("--log", settings.log, "kind of rawlog: action-frame or observations")
       ->check(CLI::IsMember({"action-frame", "observations"}))
       ->capture_default_str();
-  app.add_option("--out", settings.out, "folder for the files; made when missing")->required();
+  app.add_option(sigloc::kOut, settings.out, "folder for the files; made when missing")->required();
   limit(addFlags(app, settings.maps, "Maps", ""), scanned);
   limit(addFlags(app, settings.layout, "World", "", {{"furniture_per_room", "--furniture"}}),
         by_key);
@@ -231,15 +232,9 @@ std::string commandOf(int argc, char** argv)
   {
     // The folder is where the reader found the note: naming another would only mislead.
     const std::string argument = argv[i];
-    if (argument == "--out")
-    {
-      ++i;
-      command += " --out DIR";
-    }
-    else
-    {
-      command += " " + (argument.rfind("--out=", 0) == 0 ? "--out DIR" : argument);
-    }
+    const auto is_out = [&](const char* name) { return argument.rfind(name, 0) == 0; };
+    if (argument == "--out" || argument == "-o") ++i;
+    command += " " + (is_out("--out") || is_out("-o") ? "--out DIR" : argument);
   }
   return command;
 }

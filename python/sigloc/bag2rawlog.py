@@ -210,7 +210,7 @@ def pose_of(text: str) -> _Pose:
 def make_parser() -> Parser:
     parser = Parser(prog=_PROGRAM, description=(__doc__ or "").splitlines()[0])
     parser.add_argument("bag", type=pathlib.Path, metavar="BAG", help="the recording")
-    parser.add_argument("-o", "--output", type=pathlib.Path, metavar="RAWLOG",
+    parser.add_argument("-o", "--out", "--output", dest="output", type=pathlib.Path, metavar="RAWLOG",
                         help="the rawlog; default: the bag's name with .rawlog")  # fmt: skip
     parser.add_argument("--scan", action="append", default=[], metavar="TOPIC",
                         help="a LaserScan to take, may be repeated; default: every one")  # fmt: skip

@@ -13,8 +13,11 @@
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+#include <tuple>
 
 #include "io/archive/gzip_input.h"
+#include "io/carmen_log.h"
+#include "io/maps/map_formats.h"
 #include "io/text_rows.h"
 #include "localize/ini_warnings.h"
 #include "sigloc/io/file_output.h"
@@ -36,17 +39,19 @@ constexpr const char* kFeatures = "sigloc.features";
 constexpr const char* kMap = "sigloc.map";
 constexpr const char* kReading = "sigloc.reading";
 constexpr const char* kReport = "sigloc.localize";
+constexpr const char* kMapAndLog = "; for a map and a log: --map MAP --log LOG";
 constexpr std::array<const char*, 7> kSections = {kMatcher, kTracker, kParticles, kFeatures,
                                                   kMap,     kReading, kReport};
 
 /// Returns the text of a file that exists; throws std::runtime_error where it is no file.
-std::string readText(const fs::path& path)
+std::string readText(const fs::path& path, const std::string& hint)
 {
   std::ifstream file(path, std::ios::binary);
   std::stringstream text;
   text << file.rdbuf();
   if (!file) throw std::runtime_error("cannot be read, or is empty");
-  if (text.str().find('\0') != std::string::npos) throw std::runtime_error("not an ini file");
+  if (text.str().find('\0') != std::string::npos)
+    throw std::runtime_error("not an ini file" + hint);
   return text.str();
 }
 
@@ -228,8 +233,7 @@ void readExperiment(const CConfigFileMemory& ini, const fs::path& path, const fs
 {
   if (!ini.sectionExists(kExperiment))
   {
-    throw std::runtime_error(
-        fmt::format("no section [{}]; for a map and a log: --map MAP --log LOG", kExperiment));
+    throw std::runtime_error(fmt::format("no section [{}]{}", kExperiment, kMapAndLog));
   }
   const std::string unread = detail::warningOfUnreadKeys(ini, kExperiment);
   if (!unread.empty()) setup.warnings.push_back(unread);
@@ -251,15 +255,16 @@ void readExperiment(const CConfigFileMemory& ini, const fs::path& path, const fs
   if (setup.use_particles) setup.particle_counts = readParticleCounts(ini);
 }
 
-/// Runs `read` on the parsed ini and puts the path before whatever it throws.
+/// Runs `read` on the parsed ini and puts the path before whatever it throws. `hint` tells what to
+/// do with a file that is no ini.
 template <class Read>
-LocalizationSetup parsed(const fs::path& path, Read&& read)
+LocalizationSetup parsed(const fs::path& path, const std::string& hint, Read&& read)
 {
   detail::requireFile(path);
   try
   {
     CConfigFileMemory ini;
-    const std::string text = readText(path);
+    const std::string text = readText(path, hint);
     ini.setContent(text);
     LocalizationSetup setup;
     std::vector<std::string> sections(kSections.begin(), kSections.end());
@@ -297,16 +302,31 @@ std::optional<mrpt::math::TPose2D> LocalizationSetup::finalTruth() const
                              mrpt::DEG2RAD(report.final_truth_phi_deg));
 }
 
+void requireMapAndLog(const LocalizationSetup& setup)
+{
+  const auto& [map, log] = std::tie(setup.map_file, setup.rawlog_file);
+  const auto is_map = [](const fs::path& path) { return detail::mapKindOf(path).has_value(); };
+  const auto is_log = [](const fs::path& path)
+  { return detail::isCarmenLog(path) || detail::extensionOf(path) == ".rawlog"; };
+  // The name of a CARMEN log is that of a map, too.
+  if (!is_log(map) || !is_map(log) || (is_map(map) && is_log(log))) return;
+  const char* const meant =
+      setup.config_file.empty() ? "--map {} --log {}" : "map_file = {} and rawlog_file = {}";
+  throw std::runtime_error(fmt::format("map and log look swapped; did you mean {}?",
+                                       fmt::format(meant, log.string(), map.string())));
+}
+
 LocalizationSetup readLocalizationSetup(const fs::path& ini_path, const fs::path& rawlog,
                                         const fs::path& map)
 {
-  return parsed(ini_path, [&](const CConfigFileMemory& ini, LocalizationSetup& setup)
+  return parsed(ini_path, kMapAndLog,
+                [&](const CConfigFileMemory& ini, LocalizationSetup& setup)
                 { readExperiment(ini, ini_path, rawlog, map, setup); });
 }
 
 LocalizationSetup readOptionSections(const fs::path& ini_path)
 {
-  return parsed(ini_path, [](const CConfigFileMemory&, LocalizationSetup&) {});
+  return parsed(ini_path, "", [](const CConfigFileMemory&, LocalizationSetup&) {});
 }
 
 std::string defaultOptionSections()

@@ -263,9 +263,14 @@ TEST(RosMap, AMissingImageIsToldWithTheMapThatNamesIt)
   const std::string expected = (folder / "m.yaml").string() + ": its image " +
                                (folder / "m.pgm").string() + ": no such file";
   const auto path = folder / "m.yaml";
-  EXPECT_EQ(mapErrorOf(path), expected);
-  EXPECT_EQ(messageOf<std::runtime_error>([&] { buildMapFromFile(path, {}, {}); }), expected);
-  EXPECT_EQ(messageOf<std::runtime_error>([&] { filesOfMapSource(path); }), expected);
+  const std::string hint = "; put it there, or name another in the line 'image:'";
+  EXPECT_EQ(mapErrorOf(path), expected + hint);
+  EXPECT_EQ(messageOf<std::runtime_error>([&] { buildMapFromFile(path, {}, {}); }),
+            expected + hint);
+  EXPECT_EQ(messageOf<std::runtime_error>([&] { filesOfMapSource(path); }), expected + hint);
+  writeText(folder / "floor_2.png", "renamed");
+  EXPECT_EQ(messageOf<std::runtime_error>([&] { filesOfMapSource(path); }),
+            expected + "; did you mean 'floor_2.png'?");
   writeText(folder / "m.pgn", pgm("3 1", {0, 205, 254}));
   EXPECT_EQ(messageOf<std::runtime_error>([&] { filesOfMapSource(path); }),
             expected + "; did you mean 'm.pgn'?");

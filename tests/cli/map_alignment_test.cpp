@@ -78,6 +78,16 @@ TEST(MapAlignment, aTurnedMapIsFoundInItsOriginal)
   EXPECT_LT(pixelsLike(picture, mrpt::img::TColor(150, 150, 150)), 8000);
 }
 
+TEST(MapAlignment, aFolderTakesPosesAndPicture)
+{
+  const TemporaryFolder folder;
+  const std::string lab = kLabMap.string();
+  ASSERT_EQ(run(folder, "sigloc-align", {lab, lab, "-o", "answer", "--places", "20"}).exit_code, 0);
+  expectFirstPose(posesIn(folder / "answer/poses.CPosePDFSOG"), {});
+  mrpt::img::CImage picture;
+  EXPECT_TRUE(picture.loadFromFile((folder / "answer/align.png").string()));
+}
+
 TEST(MapAlignment, aMapOfOtherScansOfThePlaceIsFound)
 {
   const TemporaryFolder folder;

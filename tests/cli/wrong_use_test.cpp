@@ -123,10 +123,94 @@ TEST(CommandLine, misspeltOptionsAndCommandsAreTold)
                 "no such option: --mpa; did you mean '--map'?");
   expectOneLine(folder, "sigloc-localize", {"--map", "x", "--log", "y", "--ouput=z"},
                 "no such option: --ouput=z; did you mean '--out'?");
-  expectOneLine(folder, "sigloc-localize", {"a.ini", "b.rawlog", "c"}, "one argument too many: c");
+  expectOneLine(folder, "sigloc-localize", {"a.ini", "b.rawlog", "c"},
+                "one argument too many: c; type: sigloc-localize [OPTIONS] [CONFIG.ini] "
+                "[DATASET.rawlog]");
+  expectOneLine(folder, "sigloc-map", {"info", "x.sigmap", "y.sigmap"},
+                "one argument too many: y.sigmap; type: sigloc-map info [OPTIONS] file");
+  expectOneLine(folder, "sigloc-localize", {"--frobnicate"},
+                "no such option: --frobnicate; see --help");
   expectOneLine(folder, "sigloc-map", {"buidl"}, "no such command: buidl; did you mean 'build'?");
   expectOneLine(folder, "sigloc-map", {"info", "x.sigmap", "--jsno"},
                 "no such option: --jsno; did you mean '--json'?");
+}
+
+TEST(CommandLine, aMapAndALogThatAreSwappedAreTold)
+{
+  const TemporaryFolder folder;
+  std::filesystem::copy_file(kLabMap, folder / "m.simplemap.gz");
+  std::filesystem::copy_file(kLabLog, folder / "d.rawlog");
+  expectOneLine(folder, "sigloc-localize",
+                {"--map", "d.rawlog", "--log", "m.simplemap.gz", "--out", "x"},
+                "map and log look swapped; did you mean --map m.simplemap.gz --log d.rawlog?");
+  writeText(folder / "run.ini",
+            "[LocalizationExperiment]\nmap_file = d.rawlog\nrawlog_file = m.simplemap.gz\n");
+  expectOneLine(folder, "sigloc-localize", {"run.ini"},
+                "did you mean map_file = m.simplemap.gz and rawlog_file = d.rawlog?");
+  // The name of a CARMEN log may be that of a map.
+  expectOneLine(folder, "sigloc-localize", {"--map", "d.log", "--log", "m.yaml"},
+                "map and log look swapped; did you mean --map m.yaml --log d.log?");
+  expectOneLine(folder, "sigloc-localize", {"--map", "d.log", "--log", "e.log"},
+                "e.log: no such file");
+}
+
+TEST(CommandLine, aFolderGivenAsAMapIsToldWithAMapInIt)
+{
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "maps");
+  expectOneLine(folder, "sigloc-map", {"info", "maps"},
+                "maps: is a folder, not a file; no map is in it");
+  for (const char* const name : {"floor.png", "floor.yaml", "notes.md"})
+    writeText(folder / (std::string("maps/") + name), "x");
+  const std::string told = "maps: is a folder, not a file; did you mean 'maps/floor.yaml'?";
+  expectOneLine(folder, "sigloc-map", {"info", "maps"}, told);
+  expectOneLine(folder, "sigloc-map", {"check", "maps", "--out", "x"}, told);
+  expectOneLine(folder, "sigloc-localize",
+                {"--map", "maps", "--log", kLabLog.string(), "--out", "x"}, told);
+}
+
+TEST(CommandLine, twoLogsAreTold)
+{
+  const TemporaryFolder folder;
+  expectOneLine(folder, "sigloc-localize", {"--map", "m", "--log", "a", "b.ini", "c"},
+                "two logs: --log a and the argument c; give one");
+}
+
+TEST(CommandLine, aMapAndALogAsArgumentsAreNoIni)
+{
+  const TemporaryFolder folder;
+  expectOneLine(folder, "sigloc-localize", {kOffice.string(), kLabLog.string()},
+                "not an ini file; for a map and a log: --map MAP --log LOG");
+}
+
+TEST(CommandLine, everyProgramTakesOut)
+{
+  const TemporaryFolder folder;
+  for (const auto& [program, command] :
+       std::vector<std::pair<std::string, std::string>>{{"sigloc-localize", ""},
+                                                        {"sigloc-map", "build"},
+                                                        {"sigloc-map", "draw"},
+                                                        {"sigloc-map", "check"},
+                                                        {"sigloc-align", ""},
+                                                        {"sigloc-simulate", ""},
+                                                        {"sigloc-eval", "relocate"},
+                                                        {"sigloc-eval", "reference"},
+                                                        {"sigloc-eval", "merge"},
+                                                        {"sigloc-bag2rawlog", ""}})
+  {
+    Arguments arguments = {"--help"};
+    if (!command.empty()) arguments.insert(arguments.begin(), command);
+    const CommandResult result = run(folder, program, arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    EXPECT_NE(result.output.find("-o,--out"), std::string::npos) << program << " " << command;
+  }
+  for (const char* const name : {"-o", "--out", "--output"})
+  {
+    EXPECT_EQ(
+        run(folder, "sigloc-map", {"build", "-i", kLabMap.string(), name, "m.sigmap"}).exit_code, 0)
+        << name;
+    std::filesystem::remove(folder / "m.sigmap");
+  }
 }
 
 TEST(CommandLine, aLineBreakInANameHidesNoReason)

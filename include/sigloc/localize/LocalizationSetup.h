@@ -103,6 +103,9 @@ LocalizationSetup readLocalizationSetup(const std::filesystem::path& ini,
                                         const std::filesystem::path& rawlog = {},
                                         const std::filesystem::path& map = {});
 
+/// Throws std::runtime_error where the names of map and log tell that they are swapped.
+void requireMapAndLog(const LocalizationSetup& setup);
+
 /// Reads only the [sigloc.*] sections of an ini; the same errors.
 LocalizationSetup readOptionSections(const std::filesystem::path& ini);
 

@@ -66,10 +66,9 @@ std::optional<ObjectHeader> objectHeaderIn(std::string_view bytes)
   return spelled ? std::optional(header) : std::nullopt;
 }
 
-std::string didYouMeanFile(const std::filesystem::path& path)
+std::vector<std::string> namesIn(const std::filesystem::path& folder)
 {
   constexpr std::size_t kMostLooked = 2000;  // a folder may be huge
-  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
   std::vector<std::string> names;
   std::error_code error;
   for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
@@ -79,7 +78,17 @@ std::string didYouMeanFile(const std::filesystem::path& path)
     if (names.size() == kMostLooked) break;
   }
   std::sort(names.begin(), names.end());
-  return didYouMean(path.filename().string(), names);
+  return names;
+}
+
+std::filesystem::path folderOf(const std::filesystem::path& path)
+{
+  return path.has_parent_path() ? path.parent_path() : ".";
+}
+
+std::string didYouMeanFile(const std::filesystem::path& path)
+{
+  return didYouMean(path.filename().string(), namesIn(folderOf(path)));
 }
 
 void requireFile(const std::filesystem::path& path)

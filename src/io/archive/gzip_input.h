@@ -98,6 +98,12 @@ std::string unpackedBytes(const std::filesystem::path& path, std::size_t always 
 /// that of a file that does not exist, or an empty text.
 std::string didYouMeanFile(const std::filesystem::path& path);
 
+/// The names in a folder, in order; not all of a huge one, none where it cannot be read.
+std::vector<std::string> namesIn(const std::filesystem::path& folder);
+
+/// The folder that a file is in: "." where its path has none.
+std::filesystem::path folderOf(const std::filesystem::path& path);
+
 /// Returns a file's extension in lower case, the one before .gz or .zst where the file has
 /// both.
 std::string extensionOf(const std::filesystem::path& path);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,4 +40,7 @@ struct MapFormat
 };
 
 const std::vector<MapFormat>& mapFormats();
+
+/// The kind that a file's name tells, if any.
+std::optional<MapKind> mapKindOf(const std::filesystem::path& path);
 }  // namespace sigloc::detail

@@ -67,20 +67,44 @@ MapSource readAs(MapKind kind, const std::filesystem::path& path, const ReadingO
   throw std::logic_error("a kind of map without a reader");
 }
 
+/// A map in a folder, of the kind that is listed first, or an empty text.
+std::string didYouMeanMapIn(const std::filesystem::path& folder)
+{
+  std::optional<MapKind> best;
+  std::string best_name;
+  for (const std::string& name : detail::namesIn(folder))
+  {
+    const auto kind = detail::mapKindOf(name);
+    if (!kind || (best && *best <= *kind)) continue;
+    best = kind;
+    best_name = name;
+  }
+  if (!best) return "; no map is in it";
+  return "; did you mean '" + (folder / best_name).string() + "'?";
+}
+
+/// Throws for a folder: it is often given for the map in it.
+void refuseFolder(const std::filesystem::path& path)
+{
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error))
+    detail::fail(path, "is a folder, not a file" + didYouMeanMapIn(path));
+}
+
+void requireMapFile(const std::filesystem::path& path)
+{
+  refuseFolder(path);
+  detail::requireFile(path);
+}
+
 MapKind kindOf(const std::filesystem::path& path)
 {
-  const std::string extension = detail::extensionOf(path);
-  std::string known;
+  if (const auto kind = detail::mapKindOf(path)) return *kind;
+  refuseFolder(path);
+  std::vector<std::string> known;
   for (const detail::MapFormat& format : detail::mapFormats())
-  {
-    for (const std::string& own : format.extensions)
-    {
-      if (own == extension) return format.kind;
-      known += (known.empty() ? "" : ", ") + own;
-    }
-  }
-  throw std::runtime_error(
-      fmt::format("{}: unknown kind of map (known: {})", path.string(), known));
+    known.insert(known.end(), format.extensions.begin(), format.extensions.end());
+  detail::fail(path, fmt::format("unknown kind of map (known: {})", fmt::join(known, ", ")));
 }
 
 void appendBytes(const std::filesystem::path& path, std::string& bytes)
@@ -231,6 +255,17 @@ std::string warningOfMapSource(const std::filesystem::path& path)
 
 namespace detail
 {
+std::optional<MapKind> mapKindOf(const std::filesystem::path& path)
+{
+  const std::string extension = extensionOf(path);
+  for (const MapFormat& format : mapFormats())
+  {
+    const auto& own = format.extensions;
+    if (std::find(own.begin(), own.end(), extension) != own.end()) return format.kind;
+  }
+  return std::nullopt;
+}
+
 std::vector<PosedScans> readSimplemap(const std::filesystem::path& path,
                                       const ReadingOptions& reading)
 {
@@ -254,7 +289,7 @@ std::vector<PosedScans> readSimplemap(const std::filesystem::path& path,
 
 MapSource readMapSource(const std::filesystem::path& path, const ReadingOptions& reading)
 {
-  detail::requireFile(path);
+  requireMapFile(path);
   detail::checkReading(reading);
   MapSource source = readAs(kindOf(path), path, reading);
   detail::requireWithinReach(source, path);
@@ -272,7 +307,7 @@ FeatureMap buildMapFromFile(const std::filesystem::path& path, const MapBuilding
                             const FeatureExtractorOptions& extraction, const MapProgress& progress,
                             const ReadingOptions& reading)
 {
-  detail::requireFile(path);
+  requireMapFile(path);
   FeatureMap map = kindOf(path) == MapKind::sigmap
                        ? loadSigmap(path)
                        : build(path, building, extraction, reading,
@@ -303,7 +338,7 @@ CachedMap mapWithCache(const std::filesystem::path& source, const std::filesyste
                        const ReadingOptions& reading)
 {
   const auto start = std::chrono::steady_clock::now();
-  detail::requireFile(source);
+  requireMapFile(source);
   if (kindOf(source) == MapKind::sigmap)
   {
     return {buildMapFromFile(source, building, extraction), true, 0.0};

@@ -10,6 +10,7 @@
 #include "io/archive/file_fault.h"
 #include "io/archive/gzip_input.h"
 #include "io/maps/gray_image.h"
+#include "io/maps/map_formats.h"
 #include "io/maps/map_source_readers.h"
 #include "io/maps/occupancy_grid.h"
 #include "io/maps/ros_map_yaml.h"
@@ -89,6 +90,23 @@ auto ofImage(const RosMapHeader& header, const std::filesystem::path& path, Read
   }
 }
 
+/// Returns the header of a ROS map. Throws where the image that it names is not there: the first
+/// image beside it is perhaps the one, renamed.
+RosMapHeader headerWithImage(const std::filesystem::path& path)
+{
+  RosMapHeader header = readRosMapHeader(path);
+  std::error_code error;
+  const auto status = std::filesystem::status(header.image, error);
+  if (status.type() != std::filesystem::file_type::not_found) return header;
+  std::string hint = didYouMeanFile(header.image);
+  for (const std::string& name : namesIn(folderOf(header.image)))
+  {
+    if (hint.empty() && mapKindOf(name) == MapKind::image) hint = "; did you mean '" + name + "'?";
+  }
+  if (hint.empty()) hint = "; put it there, or name another in the line 'image:'";
+  fail(path, "its image " + header.image.string() + ": no such file" + hint);
+}
+
 /// Returns the raster of an image; `path` is the file to name where it makes no map.
 OccupancyRaster rasterOfImage(const GrayImage& image, const RosMapHeader& header,
                               const std::filesystem::path& path)
@@ -144,14 +162,14 @@ void requireResolution(const std::filesystem::path& path, const ReadingOptions& 
 
 std::filesystem::path imageOfRosMap(const std::filesystem::path& path)
 {
-  const RosMapHeader header = readRosMapHeader(path);
+  const RosMapHeader header = headerWithImage(path);
   ofImage(header, path, requireFile);
   return header.image;
 }
 
 std::string warningOfRosMap(const std::filesystem::path& path)
 {
-  const RosMapHeader header = readRosMapHeader(path);
+  const RosMapHeader header = headerWithImage(path);
   const GrayImage image = ofImage(header, path, readGrayImage);
   if (!takesUnknownForFree(header, !image.alphas.empty())) return {};
   const int unknown = unknownShade(header);
@@ -163,7 +181,7 @@ std::string warningOfRosMap(const std::filesystem::path& path)
 
 OccupancyRaster readRosMap(const std::filesystem::path& path)
 {
-  const RosMapHeader header = readRosMapHeader(path);
+  const RosMapHeader header = headerWithImage(path);
   return rasterOfImage(ofImage(header, path, readGrayImage), header, path);
 }
 
