@@ -31,8 +31,8 @@ void localizeFirstScan(const char* map_file, const char* rawlog_file)
   if (!step) return;
   const sigloc::RelocationResult result = matcher.localize(sigloc::observe(*step));
 
-  std::printf("%s (%.3f), elsewhere %.3f\n", sigloc::toString(result.verdict), result.probability,
-              result.elsewhere);
+  std::printf("%s (%s), elsewhere %.3f\n", sigloc::toString(result.verdict),
+              sigloc::probabilityText(result.probability).c_str(), result.elsewhere);
   for (const sigloc::Candidate& candidate : result.candidates)
   {
     const mrpt::math::TPose2D& pose = candidate.pose.mean;

@@ -21,8 +21,8 @@ namespace
 {
 void show(std::size_t step, const sigloc::Belief& belief)
 {
-  std::printf("step %3zu: %s (%.3f), %zu hypotheses", step, sigloc::toString(belief.verdict),
-              belief.probability, belief.hypotheses.size());
+  std::printf("step %3zu: %s (%s), %zu hypotheses", step, sigloc::toString(belief.verdict),
+              sigloc::probabilityText(belief.probability).c_str(), belief.hypotheses.size());
   if (!belief.hypotheses.empty())
   {
     const mrpt::math::TPose2D& pose = belief.hypotheses.front().pose.mean;

@@ -18,7 +18,7 @@ import sigloc
 
 
 def show(count: int, answer: sigloc.Answer) -> None:
-    line = f"step {count}: {answer.verdict} ({answer.probability:.3f})"
+    line = f"step {count}: {answer.verdict} ({sigloc.probability_text(answer.probability)})"
     if answer.hypotheses:
         x, y, heading = answer.hypotheses[0].pose
         line += f", best at ({x:.2f} m, {y:.2f} m, {math.degrees(heading):.1f} deg)"
@@ -37,13 +37,14 @@ def draw(map_: sigloc.Map, scan: sigloc.Scan, answer: sigloc.Answer, picture: st
         axes.plot((x1, x2), (y1, y2), color="tab:blue", linewidth=1)
     for hypothesis in answer.hypotheses:
         x, y, heading = hypothesis.pose
-        axes.quiver(x, y, math.cos(heading), math.sin(heading), color="tab:red",
+        axes.quiver(x, y, math.cos(heading), math.sin(heading), color="tab:pink",
                     alpha=0.2 + 0.8 * hypothesis.probability)  # fmt: skip
     if answer.hypotheses:
         x, y, heading = answer.hypotheses[0].pose
         turn = np.array([[math.cos(heading), -math.sin(heading)], [math.sin(heading), math.cos(heading)]])
-        axes.plot(*((x, y) + scan.points @ turn.T).T, ".", color="tab:orange", markersize=2)
-    axes.set(title=f"{answer.verdict} ({answer.probability:.3f})", xlabel="x [m]", ylabel="y [m]", aspect="equal")
+        axes.plot(*((x, y) + scan.points @ turn.T).T, ".", color="tab:red", markersize=2)
+    title = f"{answer.verdict} ({sigloc.probability_text(answer.probability)})"
+    axes.set(title=title, xlabel="x [m]", ylabel="y [m]", aspect="equal")
     figure.savefig(picture)
 
 

@@ -14,6 +14,7 @@ namespace sigloc
 inline std::string verdictText(const Belief& belief)
 {
   if (belief.hypotheses.empty()) return fmt::format("{} (no pose)", toString(belief.verdict));
-  return fmt::format("{} ({:.3f})", toString(belief.verdict), belief.probabilityOfFirst());
+  return fmt::format("{} ({})", toString(belief.verdict),
+                     probabilityText(belief.probabilityOfFirst()));
 }
 }  // namespace sigloc

@@ -28,7 +28,6 @@ constexpr std::size_t kFirstAxisText = 1000;
 const TColorf kAxisColor(0.35F, 0.35F, 0.35F);
 constexpr int kFramePixels = 8;  // of a close-up that nobody may take for an answer
 constexpr const char* kBanner = "NOT LOCALIZED";
-const TColorf kBannerColor(0.82F, 0, 0);
 constexpr unsigned kGapPixels = 4;  // between overview and close-up
 constexpr double kCharacterPixels = 15.5;  // width, about
 
@@ -43,29 +42,43 @@ struct LegendEntry
 {
   const char* text;
   TColorf color;
+
+  LegendEntry(const char* name, const mrpt::img::TColor& its_color) : text(name), color(its_color)
+  {
+  }
+  LegendEntry(const char* name, FeatureType type) : LegendEntry(name, colorOf(type)) {}
+
+  static mrpt::img::TColor colorOf(FeatureType type)
+  {
+    const auto& [red, green, blue] = traitsOf(type).color;
+    return {red, green, blue};
+  }
+};
+using Legend = std::vector<LegendEntry>;
+
+const Legend kMapLegend = {
+    {"wall", FeatureType::segment},
+    {"circle", FeatureType::circle},
+    {"corner", FeatureType::corner},
+    {"wall end", FeatureType::wall_end},
+};
+const Legend kStepLegend = {
+    {"returns", Palette::kReturns},        {"features seen", Palette::kObserved},
+    {"hypotheses", Palette::kLikely},      {"sure pose", Palette::kSurePose},
+    {"unsure pose", Palette::kUnsurePose},
+};
+const Legend kComparisonLegend = {
+    {"proposed", Palette::kProposed},   {"returns", Palette::kReturns},
+    {"candidates", Palette::kUnlikely}, {"sure", Palette::kSurePose},
+    {"unsure", Palette::kUnsurePose},   {"truth", Palette::kTruth},
 };
 
-const std::vector<LegendEntry> kMapLegend = {
-    {"wall", TColorf(0.12F, 0.31F, 0.63F)},
-    {"circle", TColorf(0.43F, 0.47F, 0)},
-    {"corner", TColorf(0, 0.55F, 0.51F)},
-    {"wall end", TColorf(0.59F, 0.35F, 0.08F)},
-};
-const std::vector<LegendEntry> kStepMapLegend = {
-    {"wall", TColorf(0.12F, 0.31F, 0.63F)}, {"circle", TColorf(0.43F, 0.47F, 0)},
-    {"corner", TColorf(0, 0.55F, 0.51F)},   {"wall end", TColorf(0.59F, 0.35F, 0.08F)},
-    {"path", TColorf(0.24F, 0.75F, 0.43F)}, {"truth", TColorf(0, 0, 0)},
-};
-const std::vector<LegendEntry> kStepLegend = {
-    {"returns", TColorf(0.88F, 0.12F, 0.12F)},     {"features seen", TColorf(1, 0.55F, 0)},
-    {"hypotheses", TColorf(0.88F, 0, 0.59F)},      {"sure pose", TColorf(0, 0.59F, 0.24F)},
-    {"unsure pose", TColorf(0.45F, 0.45F, 0.45F)},
-};
-const std::vector<LegendEntry> kComparisonLegend = {
-    {"proposed", TColorf(0.59F, 0.35F, 0.86F)}, {"returns", TColorf(0.88F, 0.12F, 0.12F)},
-    {"candidates", TColorf(0.47F, 0.78F, 1)},   {"sure", TColorf(0, 0.59F, 0.24F)},
-    {"unsure", TColorf(0.45F, 0.45F, 0.45F)},   {"truth", TColorf(0, 0, 0)},
-};
+Legend stepMapLegend()
+{
+  Legend legend = kMapLegend;
+  legend.insert(legend.end(), {{"path", Palette::kPath}, {"truth", Palette::kTruth}});
+  return legend;
+}
 
 void addText(mrpt::opengl::COpenGLViewport& viewport, double x, double y, const std::string& text,
              std::size_t index, const TColorf& color, float scale = kTextScale)
@@ -81,7 +94,7 @@ void addFrame(mrpt::img::CImage& picture)
 {
   const auto width = static_cast<int>(picture.getWidth());
   const auto height = static_cast<int>(picture.getHeight());
-  const mrpt::img::TColor color(210, 0, 0);
+  const mrpt::img::TColor& color = Palette::kNotLocalized;
   picture.filledRectangle(0, 0, width - 1, kFramePixels, color);
   picture.filledRectangle(0, height - kFramePixels, width - 1, height - 1, color);
   picture.filledRectangle(0, 0, kFramePixels, height - 1, color);
@@ -176,11 +189,11 @@ struct PictureMaker::Panel
   void writeBanner(const std::string& text)
   {
     const double y = 1 - 2 * kLinePitchPixels / size.height;
-    addText(*scene.getViewport(), kSidePixels / size.width, y, text, 0, kBannerColor, kBannerScale);
+    addText(*scene.getViewport(), kSidePixels / size.width, y, text, 0,
+            TColorf(Palette::kNotLocalized), kBannerScale);
   }
 
-  void write(const std::vector<std::string>& title,
-             const std::vector<std::vector<LegendEntry>>& legend)
+  void write(const std::vector<std::string>& title, const std::vector<Legend>& legend)
   {
     if (!legend.empty()) axis = kLegendPixels;
     auto viewport = scene.getViewport();
@@ -240,7 +253,7 @@ mrpt::img::CImage PictureMaker::stepPicture(const StepDrawing& step,
     close_up_->view.y = centre->y;
   }
   overview_->show(step);
-  overview_->write(title, {kStepMapLegend, kStepLegend});
+  overview_->write(title, {stepMapLegend(), kStepLegend});
   close_up_->show(step);
   const bool sure = step.belief != nullptr && step.belief->verdict == Verdict::localized;
   close_up_->writeBanner(sure ? "" : kBanner);

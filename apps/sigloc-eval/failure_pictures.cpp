@@ -30,7 +30,7 @@ std::vector<std::string> titleOf(const FailedQuery& failure)
   }
   std::string first =
       fmt::format("{}, query {}: {}", failure.method, failure.query.name, toString(record.verdict));
-  if (!std::isnan(record.probability)) first += fmt::format(" ({:.3f})", record.probability);
+  if (!std::isnan(record.probability)) first += " (" + probabilityText(record.probability) + ")";
   return {first, second};
 }
 

@@ -18,7 +18,7 @@ namespace
 std::vector<std::string> titleOf(const StepRecord& step)
 {
   const Belief& belief = step.belief;
-  std::string second = "truth unknown";
+  std::string second;
   if (step.error)
   {
     second = fmt::format("off by {:.2f} m, {:.1f} deg", step.error->distance,

@@ -70,11 +70,9 @@ std::string endLine(const RunSummary& summary, const Belief& belief)
   return line;
 }
 
-std::string errorLine(const RunSummary& summary)
+std::string errorText(const PoseError& error)
 {
-  if (!summary.final_error) return "truth unknown";
-  return fmt::format("{:.2f} m, {:.1f} deg", summary.final_error->distance,
-                     mrpt::RAD2DEG(summary.final_error->angle));
+  return fmt::format("{:.2f} m, {:.1f} deg", error.distance, mrpt::RAD2DEG(error.angle));
 }
 }  // namespace
 
@@ -84,8 +82,9 @@ void Progress::show(const LocalizationRun& run)
 {
   if (quiet_) return;
   const StepRecord& step = run.steps().back();
-  constexpr std::size_t kStepsBetweenLines = 50;
-  if (!line_.active() && step.number % kStepsBetweenLines != 1) return;
+  constexpr double kLines = 10;
+  if (!line_.active() && run.progress() < next_line_) return;
+  next_line_ = (std::floor(kLines * run.progress()) + 1) / kLines;
   const std::string line =
       fmt::format("{:3.0f} %  step {}  {}  {}  {}", 100 * run.progress(), step.number,
                   distanceText(step.travel_known, step.travelled), verdictText(step.belief),
@@ -127,18 +126,16 @@ std::string summaryTable(const LocalizationRun& run)
                  fmt::format(": {}, {}{}", counted(summary.steps, "step"),
                              distanceText(!std::isnan(summary.distance), summary.distance),
                              summary.truncated ? ", TRUNCATED" : ""));
-  const bool scored = !run.setup().ground_truth_file.empty();
-  row("first right hypothesis",
-      scored ? reached(summary.steps_to_first_right, summary.metres_to_first_right)
-             : "truth unknown");
+  if (!run.setup().ground_truth_file.empty())
+    row("first right hypothesis",
+        reached(summary.steps_to_first_right, summary.metres_to_first_right));
   row("localized", reached(summary.steps_to_localized, summary.metres_to_localized));
-  row("confidently wrong", summary.confidently_wrong_steps
-                               ? counted(*summary.confidently_wrong_steps, "step")
-                               : "truth unknown");
+  if (summary.confidently_wrong_steps)
+    row("confidently wrong", counted(*summary.confidently_wrong_steps, "step"));
   row("localized for", sureLine(summary));
   row("at the end", endLine(summary, run.steps().back().belief));
   if (summary.final_verdict != Verdict::localized) row("why not sure", summary.final_reason);
-  row("final error", errorLine(summary));
+  if (summary.final_error) row("final error", errorText(*summary.final_error));
   row("relocation", timing(summary.relocation));
   row("tracking step", timing(summary.tracking));
   return table.str();

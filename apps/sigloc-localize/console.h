@@ -9,7 +9,7 @@
 
 namespace sigloc
 {
-/// Shows the progress of a run: one line rewritten in place on a terminal, a line now and then
+/// Shows the progress of a run: one line rewritten in place on a terminal, a line for every tenth
 /// elsewhere, nothing when quiet.
 class Progress
 {
@@ -24,6 +24,7 @@ class Progress
  private:
   bool quiet_;
   ProgressLine line_;
+  double next_line_ = 0;  // share of the log at which one is due, where nothing is rewritten
 };
 
 /// Returns a line on what of a log was left out, empty for nothing.

@@ -18,8 +18,8 @@ namespace
 std::string describeHypothesis(const Hypothesis& hypothesis)
 {
   const mrpt::math::TPose2D& mean = hypothesis.pose.mean;
-  return fmt::format("<sigloc.Hypothesis: ({:.2f} m, {:.2f} m, {:.1f} deg), {:.3f}>", mean.x,
-                     mean.y, mrpt::RAD2DEG(mean.phi), hypothesis.probability);
+  return fmt::format("<sigloc.Hypothesis: ({:.2f} m, {:.2f} m, {:.1f} deg), {}>", mean.x, mean.y,
+                     mrpt::RAD2DEG(mean.phi), probabilityText(hypothesis.probability));
 }
 
 Numbers posesOf(const Answer& answer)
@@ -107,9 +107,8 @@ void bindAnswer(py::module_& module)
       .def("__repr__",
            [](const Answer& answer)
            {
-             return fmt::format("<sigloc.Answer: {} ({:.3f}), {} hypotheses>",
-                                toString(answer.verdict), answer.probability,
-                                answer.hypotheses.size());
+             return fmt::format("<sigloc.Answer: {} ({}), {} hypotheses>", toString(answer.verdict),
+                                probabilityText(answer.probability), answer.hypotheses.size());
            });
 }
 }  // namespace
@@ -137,6 +136,8 @@ Answer answerOf(const Belief& belief)
 void bindResults(py::module_& module)
 {
   bindVerdict(module);
+  module.def("probability_text", &probabilityText, py::arg("probability"), py::arg("digits") = 3,
+             "A probability for people, never rounded up: 0.9896 is no 0.99.");
   bindHypothesis(module);
   bindAnswer(module);
 }

@@ -12,7 +12,14 @@ A Tracker does the same over time, and a Policy says when a robot may use its po
 SI units. Poses are those of the robot in the map's frame. Same input, same answer. Bad values raise
 ValueError and files that cannot be used OSError, with the reason in one line. Nothing is printed.
 """
-from ._sigloc import (
+# What is compiled would miss it only where the first array is made.
+try:
+    import numpy as _numpy
+except ImportError as _error:
+    raise ImportError(f"sigloc needs numpy (Debian: python3-numpy): {_error}") from None
+del _numpy
+
+from ._sigloc import (  # noqa: E402
     Answer,
     Decision,
     Hypothesis,
@@ -27,6 +34,7 @@ from ._sigloc import (
     Tracker,
     Verdict,
     __version__,
+    probability_text,
     write_log,
 )
 
@@ -45,5 +53,6 @@ __all__ = [
     "Tracker",
     "Verdict",
     "__version__",
+    "probability_text",
     "write_log",
 ]

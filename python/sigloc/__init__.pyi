@@ -29,6 +29,7 @@ __all__ = [
     "Tracker",
     "Verdict",
     "__version__",
+    "probability_text",
     "write_log",
 ]
 
@@ -114,6 +115,8 @@ class Log:
 def write_log(
     path: _Path, entries: Iterable[tuple[float, Union[Scan, _Numbers], str]]
 ) -> tuple[int, int]: ...
+
+def probability_text(probability: float, digits: int = 3) -> str: ...
 
 class Verdict:
     LOCALIZED: Verdict

@@ -144,7 +144,7 @@ def _outcome(answer: sigloc.Answer, decision: sigloc.Decision) -> Outcome:
     first = answer.hypotheses[0].probability if answer.hypotheses else 0.0
     values = {
         "verdict": str(answer.verdict),
-        "probability of the first pose": f"{first:.4f}",
+        "probability of the first pose": sigloc.probability_text(first, 4),
         "probability of elsewhere": f"{answer.elsewhere:.4f}",
         "hypotheses": str(len(answer.hypotheses)),
         "reason": answer.reason,

@@ -146,7 +146,7 @@ diagnostic_msgs::DiagnosticStatus statusOf(const Belief& belief, const PolicyDec
   status.message = decision.message;
   status.values = {
       valueOf("verdict", toString(belief.verdict)),
-      valueOf("probability of the first pose", fmt::format("{:.4f}", belief.probabilityOfFirst())),
+      valueOf("probability of the first pose", probabilityText(belief.probabilityOfFirst(), 4)),
       valueOf("probability of elsewhere", fmt::format("{:.4f}", belief.elsewhere)),
       valueOf("hypotheses", std::to_string(belief.hypotheses.size())),
       valueOf("reason", belief.reason),

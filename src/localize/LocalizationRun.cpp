@@ -92,6 +92,16 @@ CachedMap makeMap(const LocalizationSetup& setup, const fs::path& cache,
   return made;
 }
 
+/// What a page shows of a scan. A run keeps it of every step.
+std::vector<mrpt::math::TPoint2Df> someReturns(const std::vector<BeamEnd>& beams)
+{
+  constexpr std::size_t kMost = 100;
+  const std::size_t every = 1 + beams.size() / (kMost + 1);
+  std::vector<mrpt::math::TPoint2Df> returns;
+  for (std::size_t i = 0; i < beams.size(); i += every) returns.emplace_back(beams[i].point);
+  return returns;
+}
+
 std::optional<double> travelOf(const StepRecord& step)
 {
   return step.travel_known ? std::optional(step.travelled) : std::nullopt;
@@ -204,6 +214,7 @@ const StepRecord* LocalizationRun::next()
   scene_ = observe(*input, setup_.features);
   step.extraction_ms = extraction.milliseconds();
   step.features = scene_.features;
+  step.returns = someReturns(scene_.beams);
   const Stopwatch tracking;
   step.belief = state_->particles ? state_->particles->step(*input)
                                   : state_->tracker->step(input->motion, scene_);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "localize/page_map.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -34,8 +36,33 @@ ordered_json shrunkRaster(const DenseField& field)
   {
     add(isWall(state) ? 2 : static_cast<std::uint32_t>(state));
   }
-  return {{"width", shrunk.width}, {"height", shrunk.height},           {"x", frame.origin.x},
-          {"y", frame.origin.y},   {"pixel", frame.resolution * block}, {"runs", runs}};
+  return {{"width", shrunk.width},
+          {"height", shrunk.height},
+          {"x", frame.origin.x},
+          {"y", frame.origin.y},
+          {"pixel", frame.resolution * block},
+          {"shades", {Palette::kUnknownShade, Palette::kFreeShade, Palette::kWallShade}},
+          {"runs", runs}};
+}
+
+std::string webColor(const mrpt::img::TColor& color)
+{
+  return fmt::format("#{:02x}{:02x}{:02x}", color.R, color.G, color.B);
+}
+
+ordered_json pageColors()
+{
+  const auto& [red, green, blue] = traitsOf(FeatureType::segment).color;
+  return {{"mapped", webColor({red, green, blue})},
+          {"returns", webColor(Palette::kReturns)},
+          {"observed", webColor(Palette::kObserved)},
+          {"unlikely", webColor(Palette::kUnlikely)},
+          {"likely", webColor(Palette::kLikely)},
+          {"sure", webColor(Palette::kSurePose)},
+          {"unsure", webColor(Palette::kUnsurePose)},
+          {"path", webColor(Palette::kPath)},
+          {"truth", webColor(Palette::kTruth)},
+          {"not_localized", webColor(Palette::kNotLocalized)}};
 }
 
 }  // namespace
@@ -80,6 +107,7 @@ ordered_json pageMap(const FeatureMap& map)
 {
   const PlanarBox box = boundsOf(map);
   ordered_json json;
+  json["colors"] = pageColors();
   json["box"] = {box.x_min, box.x_max, box.y_min, box.y_max};
   json["raster"] = map.field() ? shrunkRaster(*map.field()) : ordered_json(nullptr);
   json["marks"] = map.field() ? ordered_json::array() : pageMarks(map.features());
@@ -111,13 +139,12 @@ function rasterImage(raster) {
   image.height = raster.height;
   const context = image.getContext("2d");
   const pixels = context.createImageData(raster.width, raster.height);
-  const shades = [222, 255, 90];
   let at = 0;
   raster.runs.forEach((count, k) => {
     for (const end = at + count; at < end; ++at) {
       const row = raster.height - 1 - Math.floor(at / raster.width);
       const to = 4 * (row * raster.width + at % raster.width);
-      pixels.data.fill(shades[k % 3], to, to + 3);
+      pixels.data.fill(raster.shades[k % 3], to, to + 3);
       pixels.data[to + 3] = 255;
     }
   });
@@ -177,7 +204,7 @@ function drawBackground(canvas) {
     context.drawImage(image, 0, 0);
     context.restore();
   }
-  context.fillStyle = context.strokeStyle = "#1f4ea0";
+  context.fillStyle = context.strokeStyle = data.map.colors.mapped;
   context.lineWidth = 2 / view.scale;
   drawMarks(context, data.map.marks);
   return {context, ratio};

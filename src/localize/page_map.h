@@ -21,8 +21,8 @@ nlohmann::ordered_json pagePose(const mrpt::math::TPose2D& pose);
 /// Each segment as [x, y, x, y], anything else as [x, y], to centimetres.
 nlohmann::ordered_json pageMarks(const std::vector<Feature>& features);
 
-/// A map for the member `map` of a page's data: its box, its raster shrunk to at most 1200 pixels,
-/// and its features where it has no raster.
+/// A map for the member `map` of a page's data: what colours mean, its box, its raster shrunk to at
+/// most 1200 pixels, and its features where it has no raster.
 nlohmann::ordered_json pageMap(const FeatureMap& map);
 
 /// JSON that can stand within a script of a page.

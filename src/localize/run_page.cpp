@@ -20,9 +20,9 @@ using nlohmann::ordered_json;
 
 constexpr std::size_t kMostHypotheses = 8;  // of a step
 constexpr double kLeastWeight = 1e-4;
-constexpr std::size_t kMostSeen = 2000;  // steps with the features seen: they are the largest part
+constexpr std::size_t kMostSeen = 2000;  // steps with what was seen: it is the largest part
 
-/// The heaviest hypotheses as [x, y, phi, weight, Cxx, Cyy, Cxy, id].
+/// The heaviest hypotheses as [x, y, phi, weight as text, Cxx, Cyy, Cxy, id].
 ordered_json hypothesesOf(const Belief& belief)
 {
   ordered_json all = ordered_json::array();
@@ -31,10 +31,21 @@ ordered_json hypothesesOf(const Belief& belief)
     if (all.size() == kMostHypotheses || (hypothesis.weight < kLeastWeight && !all.empty())) break;
     ordered_json row = pagePose(hypothesis.pose.mean);
     const auto& c = hypothesis.pose.covariance;
-    row.push_back(rounded(hypothesis.weight, 4));
+    row.push_back(probabilityText(hypothesis.weight, 4));
     for (const double value : {c(0, 0), c(1, 1), c(0, 1)}) row.push_back(rounded(value, 5));
     row.push_back(hypothesis.id);
     all.push_back(std::move(row));
+  }
+  return all;
+}
+
+/// Places as x, y, x, y, ... in centimetres.
+ordered_json centimetresOf(const std::vector<mrpt::math::TPoint2Df>& places)
+{
+  ordered_json all = ordered_json::array();
+  for (const mrpt::math::TPoint2Df& place : places)
+  {
+    for (const float value : {place.x, place.y}) all.push_back(std::lround(100 * value));
   }
   return all;
 }
@@ -54,11 +65,16 @@ class StepRows
     row["r"] = reasonNumber(step.belief.reason);
     row["l"] = step.relocated ? 1 : 0;
     row["ms"] = {rounded(step.extraction_ms, 2), rounded(step.tracking_ms, 2)};
+    row["p"] = probabilityText(step.belief.probabilityOfFirst());
     row["h"] = hypothesesOf(step.belief);
     if (step.truth) row["t"] = pagePose(*step.truth);
     if (step.error)
       row["d"] = {rounded(step.error->distance, 2), rounded(mrpt::RAD2DEG(step.error->angle), 1)};
-    if (rows_.size() % seen_every_ == 0) row["f"] = pageMarks(step.features);
+    if (rows_.size() % seen_every_ == 0)
+    {
+      row["f"] = pageMarks(step.features);
+      row["b"] = centimetresOf(step.returns);
+    }
     rows_.push_back(std::move(row));
   }
 

@@ -51,16 +51,19 @@ td, th { border: 1px solid #ccc; padding: 3px 7px; text-align: right; }
 <table id="facts"></table>
 <h4>Hypotheses</h4>
 <table id="hypotheses"></table>
-<p class="small">Wheel: zoom. Drag: move. Arrows: steps. Ellipses hold 95 %. Blue: what the robot saw,
-drawn at the first hypothesis. The first strip has the verdicts, the second the times; dark bars are
-relocations.</p>
+<p class="small">On the map:<span id="meanings"></span></p>
+<p class="small">What the robot saw is drawn at the first hypothesis; of a scan's returns up to 100
+are shown. Ellipses hold 95 %.</p>
+<p class="small">Wheel: zoom. Drag: move. Arrows: steps. The first strip has the verdicts, the second
+the times; dark bars are relocations.</p>
 </aside>
 </main>
 <script id="data" type="application/json">)page";
 
 const char* const kRunPageTail = R"page(
 const steps = data.steps;
-const colors = ["#1a8f4c", "#d99000", "#c22f2f", "#777777"];
+const colors = data.map.colors;
+const verdictColors = [colors.sure, "#a98600", "#7a3fb5", "#777777"];
 let current = 0, timer = null;
 function fillTable(table, rows) {
   table.replaceChildren(...rows.map((row, k) => {
@@ -68,6 +71,18 @@ function fillTable(table, rows) {
     tr.append(...row.map(cell => element(k === 0 && table.id === "hypotheses" ? "th" : "td", cell)));
     return tr;
   }));
+}
+// Small weights remain visible.
+function weightColor(weight) {
+  const part = (color, k) => parseInt(color.slice(1 + 2 * k, 3 + 2 * k), 16);
+  const mix = k => Math.round(part(colors.unlikely, k) +
+                              Math.sqrt(weight) * (part(colors.likely, k) - part(colors.unlikely, k)));
+  return `rgb(${mix(0)}, ${mix(1)}, ${mix(2)})`;
+}
+function drawReturns(context, ends) {
+  const size = 3.5 / view.scale;
+  for (let k = 0; k < ends.length; k += 2)
+    context.fillRect(ends[k] / 100 - size / 2, ends[k + 1] / 100 - size / 2, size, size);
 }
 function drawEllipse(context, h, color) {
   const [cxx, cyy, cxy] = [h[4], h[5], h[6]];
@@ -82,7 +97,7 @@ function drawEllipse(context, h, color) {
 }
 function drawPath(context) {
   context.lineWidth = 2 / view.scale;
-  context.strokeStyle = "#3cbe6e";
+  context.strokeStyle = colors.path;
   context.beginPath();
   let before = false;
   for (let k = 0; k <= current; ++k) {
@@ -92,6 +107,7 @@ function drawPath(context) {
   }
   context.stroke();
 }
+function poseColor(step) { return step.v === 0 ? colors.sure : colors.unsure; }
 function drawMap() {
   const canvas = get("map");
   const {context, ratio} = drawBackground(canvas);
@@ -102,24 +118,26 @@ function drawMap() {
     context.save();
     context.translate(step.h[0][0], step.h[0][1]);
     context.rotate(step.h[0][2]);
-    context.strokeStyle = context.fillStyle = "#2a6fdb";
-    context.lineWidth = 2 / view.scale;
+    context.strokeStyle = context.fillStyle = colors.observed;
+    context.lineWidth = 4.5 / view.scale;  // seen below the returns
     drawMarks(context, step.f);
+    context.fillStyle = colors.returns;
+    drawReturns(context, step.b);
     context.restore();
   }
   for (let k = step.h.length - 1; k >= 0; --k) {
     const h = step.h[k];
-    const color = k > 0 ? `rgba(200, 0, 150, ${0.25 + 0.75 * h[3]})` : colors[step.v];
+    const color = weightColor(h[3]);
     drawEllipse(context, h, color);
-    drawArrow(context, h, length, color, k > 0 ? 2 : 4);
+    drawArrow(context, h, length, k > 0 ? color : poseColor(step), k > 0 ? 2 : 4);
   }
-  if (step.t) drawArrow(context, step.t, length, "#000", 1.5);
+  if (step.t) drawArrow(context, step.t, length, colors.truth, 1.5);
   drawOverlay(context, canvas, ratio, step);
 }
 function drawOverlay(context, canvas, ratio, step) {
   drawScaleBar(context, canvas, ratio);
   if (step.v === 0) return;
-  context.strokeStyle = context.fillStyle = colors[2];
+  context.strokeStyle = context.fillStyle = colors.not_localized;
   context.lineWidth = 6;
   context.strokeRect(3, 3, canvas.clientWidth - 6, canvas.clientHeight - 6);
   context.font = "bold 26px sans-serif";
@@ -139,7 +157,7 @@ function drawStrip(canvas, height, color) {
 const total = step => step.ms[0] + step.ms[1];
 const slowest = Math.max(0.01, ...steps.map(total));
 function drawStrips() {
-  drawStrip(get("strip"), () => 1, step => colors[step.v]);
+  drawStrip(get("strip"), () => 1, step => verdictColors[step.v]);
   drawStrip(get("times"), step => total(step) / slowest, step => step.l ? "#27406b" : "#9db4d8");
   const context = get("times").getContext("2d");
   context.fillStyle = "#444";
@@ -155,18 +173,18 @@ function show(k) {
   const first = step.h.length > 0 ? step.h[0] : null;
   get("slider").value = current + 1;
   get("number").textContent = `${current + 1} / ${steps.length}`;
-  const sure = first ? `(${first[3].toFixed(3)})` : "(no pose)";
+  const sure = first ? `(${step.p})` : "(no pose)";
   get("verdict").textContent = `${data.verdicts[step.v]} ${sure}`;
-  get("verdict").style.background = colors[step.v];
+  get("verdict").style.background = verdictColors[step.v];
   get("reason").textContent = data.reasons[step.r];
   const facts = [["step", step.n], ["driven", step.m === null ? "unknown" : `${step.m} m`],
                  ["elsewhere", step.e.toFixed(4)],
-                 ["features", `${step.ms[0].toFixed(2)} ms`],
-                 [step.l ? "relocation" : "tracking", `${step.ms[1].toFixed(2)} ms`],
-                 ["off the truth", step.d ? `${step.d[0]} m, ${step.d[1]} deg` : "unknown"]];
+                 ["finding features", `${step.ms[0].toFixed(2)} ms`],
+                 [step.l ? "relocation" : "tracking", `${step.ms[1].toFixed(2)} ms`]];
+  if (step.d) facts.push(["off the truth", `${step.d[0]} m, ${step.d[1]} deg`]);
   fillTable(get("facts"), facts);
   fillTable(get("hypotheses"), [["probability", "x [m]", "y [m]", "deg"],
-            ...step.h.map(h => [h[3].toFixed(4), ...pose(h)])]);
+            ...step.h.map(h => [h[3], ...pose(h)])]);
   if (get("follow").checked && first) { view.x = first[0]; view.y = first[1]; }
   drawMap();
   drawStrips();
@@ -200,12 +218,21 @@ document.addEventListener("keydown", event => {
 });
 window.addEventListener("resize", () => show(current));
 get("title").textContent = `${data.log_name} in ${data.map_name}`;
-data.verdicts.forEach((name, k) => {
-  const key = element("span", "");
+function addKey(legend, color, name) {
+  const entry = element("span", ""), key = element("span", "");
+  entry.style.display = "inline-block";
   key.className = "key";
-  key.style.background = colors[k];
-  get("legend").append(key, name);
-});
+  key.style.background = color;
+  entry.append(key, name);
+  get(legend).append(entry);
+}
+data.verdicts.forEach((name, k) => addKey("legend", verdictColors[k], name));
+const meanings = [["returns", colors.returns], ["features seen", colors.observed],
+                  ["hypotheses", colors.likely], ["sure pose", colors.sure],
+                  ["unsure pose", colors.unsure], ["path", colors.path]];
+if (steps.some(step => step.t)) meanings.push(["truth", colors.truth]);
+if (data.map.marks.length > 0) meanings.unshift(["mapped", colors.mapped]);
+for (const [name, color] of meanings) addKey("meanings", color, name);
 wholeMap();
 show(0);
 </script>

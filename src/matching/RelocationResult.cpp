@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sigloc/matching/RelocationResult.h"
 
+#include <fmt/core.h>
 #include <mrpt/math/wrap2pi.h>
 
 namespace sigloc
@@ -20,6 +21,13 @@ const char* toString(Verdict verdict)
       return "too little seen";
   }
   return "unknown";
+}
+
+std::string probabilityText(double probability, int digits)
+{
+  constexpr double kExact = 1e-9;  // 0.57 is stored as a little less
+  const double unit = std::pow(10, digits);
+  return fmt::format("{:.{}f}", std::floor(probability * unit + kExact) / unit, digits);
 }
 
 bool PoseRegion::contains(const mrpt::math::TPose2D& pose) const

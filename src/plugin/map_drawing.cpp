@@ -33,14 +33,6 @@ constexpr double kTruthHeight = 0.6;
 
 constexpr std::uint32_t kMaxTextureSide = 2048;
 
-const TColor kReturnColor(225, 30, 30);
-const TColor kObservedColor(255, 140, 0);
-const TColor kPoseColor(0, 150, 60);
-const TColor kUnsurePoseColor(115, 115, 115);
-const TColor kPathColor(60, 190, 110);
-const TColor kTruthColor(0, 0, 0);
-const TColor kProposedColor(150, 90, 220);
-
 TPoint2D unitVector(double angle)
 {
   return {std::cos(angle), std::sin(angle)};
@@ -51,14 +43,14 @@ std::uint8_t greyOf(CellState state)
   switch (state)
   {
     case CellState::free:
-      return 255;
+      return Palette::kFreeShade;
     case CellState::wall:
     case CellState::solid_wall:
-      return 120;
+      return Palette::kWallShade;
     case CellState::unknown:
       break;
   }
-  return 222;
+  return Palette::kUnknownShade;
 }
 
 /// The raster as a picture. Where the raster is large, blocks of cells shrink to one pixel. A block
@@ -131,7 +123,9 @@ TColor weightColor(double weight)
   const double w = std::sqrt(std::clamp(weight, 0.0, 1.0));  // small weights remain visible
   const auto mix = [w](double from, double to)
   { return static_cast<std::uint8_t>(std::lround(from + w * (to - from))); };
-  return {mix(120, 225), mix(200, 0), mix(255, 150)};
+  constexpr auto& from = Palette::kUnlikely;
+  constexpr auto& to = Palette::kLikely;
+  return {mix(from.R, to.R), mix(from.G, to.G), mix(from.B, to.B)};
 }
 
 /// Outline of the 3-sigma ellipse of the position, no semi-axis below `min_axis` [m].
@@ -178,11 +172,11 @@ mrpt::opengl::CSetOfObjects::Ptr drawScan(const ObservedScene& observed,
   TriangleBatch batch(kScanHeight);
   for (const Feature& feature : observed.features)
   {
-    addFeature(batch, transformed(map_from_robot, feature), 1.4 * width, false, kObservedColor);
+    addFeature(batch, transformed(map_from_robot, feature), 1.4 * width, false, Palette::kObserved);
   }
   for (const BeamEnd& beam : observed.beams)
   {
-    batch.addSquare(map_from_robot.composePoint(beam.point), 1.2 * width, kReturnColor);
+    batch.addSquare(map_from_robot.composePoint(beam.point), 1.2 * width, Palette::kReturns);
   }
   return batch.object();
 }
@@ -204,9 +198,9 @@ mrpt::opengl::CSetOfObjects::Ptr drawTruth(const TPose2D& truth, double size, do
 {
   TriangleBatch batch(kTruthHeight);
   const TPoint2D centre(truth.x, truth.y);
-  batch.addRing(centre, 2 * size, 1.2 * width, kTruthColor);
+  batch.addRing(centre, 2 * size, 1.2 * width, Palette::kTruth);
   batch.addLine(centre + unitVector(truth.phi) * (2 * size),
-                centre + unitVector(truth.phi) * (3.2 * size), 1.2 * width, kTruthColor);
+                centre + unitVector(truth.phi) * (3.2 * size), 1.2 * width, Palette::kTruth);
   return batch.object();
 }
 
@@ -219,7 +213,7 @@ mrpt::opengl::CSetOfObjects::Ptr drawPath(const std::vector<TPose2D>& path, doub
   {
     const TPoint2D a(path[i - 1].x, path[i - 1].y);
     const TPoint2D b(path[i].x, path[i].y);
-    if (std::hypot(b.x - a.x, b.y - a.y) <= kMaxLeg) batch.addLine(a, b, width, kPathColor);
+    if (std::hypot(b.x - a.x, b.y - a.y) <= kMaxLeg) batch.addLine(a, b, width, Palette::kPath);
   }
   return batch.object();
 }
@@ -228,7 +222,7 @@ mrpt::opengl::CSetOfObjects::Ptr drawProposed(const std::vector<TPose2D>& poses,
   TriangleBatch batch(kPathHeight);
   for (const TPose2D& pose : poses)
   {
-    batch.addSquare({pose.x, pose.y}, 1.2 * width, kProposedColor);
+    batch.addSquare({pose.x, pose.y}, 1.2 * width, Palette::kProposed);
   }
   return batch.object();
 }
@@ -259,7 +253,8 @@ mrpt::opengl::CSetOfObjects::Ptr drawStep(const StepDrawing& step)
     if (!observed_at) observed_at = first;
     objects->insert(drawBelief(*step.belief, step));
     const bool sure = step.belief->verdict == Verdict::localized;
-    objects->insert(drawRobot(first, step.min_mark_size, sure ? kPoseColor : kUnsurePoseColor));
+    objects->insert(
+        drawRobot(first, step.min_mark_size, sure ? Palette::kSurePose : Palette::kUnsurePose));
   }
   if (step.observed != nullptr && observed_at)
   {

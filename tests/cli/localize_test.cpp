@@ -16,6 +16,7 @@
 #include "command_line.h"
 #include "picture_pixels.h"
 #include "sigloc/io/RawlogReader.h"
+#include "sigloc/plugin/map_drawing.h"
 
 namespace sigloc
 {
@@ -293,8 +294,12 @@ TEST(Localize, runsStockConfigurationsUnchanged)
   ASSERT_TRUE(picture.loadFromFile((pictures / "step_00037_end.png").string()));
   EXPECT_GE(picture.getWidth() * picture.getHeight(), 1280U * 960U);
   EXPECT_GT(pixelsLike(picture, mrpt::img::TColor(31, 78, 160)), 500) << "walls";
-  EXPECT_GT(pixelsLike(picture, mrpt::img::TColor(225, 30, 30)), 100) << "returns";
-  EXPECT_GT(pixelsLike(picture, mrpt::img::TColor(0, 150, 60)), 50) << "chosen pose";
+  EXPECT_GT(pixelsLike(picture, Palette::kReturns), 100) << "returns";
+  EXPECT_GT(pixelsLike(picture, Palette::kSurePose), 50) << "chosen pose";
+  const std::string page = readBytes(folder / "LOG_LOCALIZATION/report.html");
+  EXPECT_NE(page.find(R"("mapped":"#1f4ea0","returns":"#e11e1e","observed":"#ff8c00")"),
+            std::string::npos)
+      << "the page has the colours of the pictures";
   EXPECT_GT(pixelsLike(picture, mrpt::img::TColor(255, 255, 255)), 10000) << "free space";
   // The first relocation and the end at least: two columns of pictures 900 pixels wide.
   mrpt::img::CImage sheet;

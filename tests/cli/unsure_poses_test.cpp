@@ -16,6 +16,7 @@
 #include <sstream>
 
 #include "command_line.h"
+#include "sigloc/matching/RelocationResult.h"
 
 namespace sigloc
 {
@@ -171,10 +172,8 @@ TEST(PoseInBrackets, isHowProbableTheFirstPoseIs)
     else
     {
       ++with_pose;
-      std::ostringstream bracket;
-      bracket << std::fixed << std::setprecision(3) << " ("
-              << summary["final_pose_probability"].get<double>() << "), first hypothesis";
-      expected += bracket.str();
+      expected += " (" + probabilityText(summary["final_pose_probability"].get<double>()) +
+                  "), first hypothesis";
     }
     EXPECT_NE(result.output.find(expected), std::string::npos)
         << expected << " in " << result.output;

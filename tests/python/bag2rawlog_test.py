@@ -269,3 +269,27 @@ def test_write_log_refuses_what_is_no_entry(tmp_path):
         sigloc.write_log(path, entries())
     assert not list(tmp_path.iterdir())
     assert sigloc.write_log(path, [(1, scan, "a"), (2, (1, 2, 3), "b")]) == (1, 1)
+
+
+def test_a_missing_numpy_is_told_at_once(tmp_path):
+    (tmp_path / "numpy.py").write_text("raise ImportError(\"No module named 'numpy'\")\n")
+    environment = {**os.environ, "PYTHONPATH": f"{tmp_path}:{os.environ['PYTHONPATH']}"}
+    program = pathlib.Path(sigloc.__file__).parents[2] / "bin/sigloc-bag2rawlog"
+    for command in ([program, "--help"], ["-c", "import sigloc; print('late')"]):
+        done = subprocess.run([sys.executable, *command], capture_output=True, text=True, check=False,
+                              env=environment)  # fmt: skip
+        assert done.returncode == 1 and done.stdout == "", done
+        told = done.stderr.splitlines()[-1]
+        assert "sigloc needs numpy (Debian: python3-numpy)" in told
+        if command[0] == program:
+            assert done.stderr.count("\n") == 1, done.stderr
+
+
+def test_out_is_the_same_as_output(tmp_path):
+    for name in ("-o", "--out", "--output"):
+        assert "no such file" in refused(tmp_path / "none.bag", name, tmp_path / "a.rawlog")
+
+
+def test_a_probability_is_never_rounded_up():
+    assert sigloc.probability_text(0.9896) == "0.989"
+    assert sigloc.probability_text(0.99996, digits=4) == "0.9999"

@@ -6,6 +6,7 @@
     run_page_test.py SIGLOC_LOCALIZE SOURCE_FOLDER [PICTURE.png]
 """
 import csv
+import math
 import pathlib
 import subprocess
 import sys
@@ -36,24 +37,59 @@ def shown(driver, part):
     return driver.find_element(By.ID, part).text
 
 
+def probability_texts(in_table):
+    """How a page may show a probability, never rounded up; that of a table is rounded to six digits."""
+    return [f"{math.floor(1000 * p) / 1000:.3f}" for p in (float(in_table) - 1e-6, float(in_table) + 1e-9)]
+
+
 def check_step(driver, row, number, count):
     """The page shows what steps.csv has of a step."""
     check(shown(driver, "number") == f"{number} / {count}", f"shows {shown(driver, 'number')}")
-    verdict = f"{row['verdict']} ({float(row['first_pose_probability']):.3f})"
-    check(shown(driver, "verdict") == verdict, f"step {number}: {shown(driver, 'verdict')}")
+    texts = probability_texts(row["first_pose_probability"])
+    verdicts = [f"{row['verdict']} ({text})" for text in texts]
+    check(shown(driver, "verdict") in verdicts, f"step {number}: {shown(driver, 'verdict')}, not {verdicts}")
     check(shown(driver, "reason") == row["reason"], f"step {number}: {shown(driver, 'reason')}")
 
 
-def red_pixels(driver):
-    """How many pixels of the map's upper left corner have the colour of the banner."""
+def pixels_like(driver, color, width=None, height=None):
+    """How many pixels of the map, or of its upper left corner, have about a colour of the page's."""
     return driver.execute_script(
-        """const canvas = document.getElementById("map");
-        const pixels = canvas.getContext("2d").getImageData(0, 0, 300, 50).data;
+        """const canvas = document.getElementById("map"), wanted = data.map.colors[arguments[0]];
+        const part = k => parseInt(wanted.slice(1 + 2 * k, 3 + 2 * k), 16);
+        const pixels = canvas.getContext("2d").getImageData(
+            0, 0, arguments[1] || canvas.width, arguments[2] || canvas.height).data;
         let count = 0;
         for (let i = 0; i < pixels.length; i += 4)
-          if (pixels[i] > 180 && pixels[i + 1] < 80 && pixels[i + 2] < 80) ++count;
-        return count;"""
+          if ([0, 1, 2].every(k => Math.abs(pixels[i + k] - part(k)) < 16)) ++count;
+        return count;""",
+        color, width, height,
+    )  # fmt: skip
+
+
+def check_scan(driver):
+    """Returns and features are drawn where the robot is sure to be: most returns are on walls."""
+    driver.execute_script("show(0)")
+    for what in ("returns", "observed"):
+        check(pixels_like(driver, what) > 200, f"few {what} are drawn")
+    meanings = shown(driver, "meanings")
+    for what in ("returns", "features seen", "sure pose"):
+        check(what in meanings, f"the legend has no {what}: {meanings}")
+    check("truth" not in meanings, "the legend has a truth that is unknown")
+    check("truth" not in shown(driver, "facts"), "the facts have a truth that is unknown")
+    share = driver.execute_script(
+        """const [x, y, phi] = steps[0].h[0], ends = steps[0].b, c = Math.cos(phi), s = Math.sin(phi);
+        let near = 0;
+        for (let k = 0; k < ends.length; k += 2) {
+          const px = (x + (c * ends[k] - s * ends[k + 1]) / 100 - raster.x) / raster.pixel;
+          const py = raster.height - (y + (s * ends[k] + c * ends[k + 1]) / 100 - raster.y) / raster.pixel;
+          const around = image.getContext("2d").getImageData(px - 3, py - 3, 7, 7).data;
+          let wall = false;
+          for (let i = 0; i < around.length; i += 4) wall = wall || around[i] === raster.shades[2];
+          if (wall) ++near;
+        }
+        return [near, ends.length / 2];"""
     )
+    check(40 < share[1] <= 100 and share[0] > 0.8 * share[1], f"{share} returns are on walls")
 
 
 def walk(driver, rows):
@@ -79,7 +115,7 @@ def walk(driver, rows):
         number = next(k for k, row in enumerate(rows, 1) if row["verdict"] == verdict)
         driver.execute_script(f"show({number - 1})")
         check_step(driver, rows[number - 1], number, count)
-        check((red_pixels(driver) > 500) == has_banner, f"{verdict}: banner is wrong")
+        check((pixels_like(driver, "not_localized", 300, 50) > 500) == has_banner, f"{verdict}: banner is wrong")
 
 
 def main():
@@ -103,6 +139,7 @@ def main():
         try:
             driver.get((out / "report.html").as_uri())
             walk(driver, rows)
+            check_scan(driver)
             if len(sys.argv) > 3:
                 driver.save_screenshot(sys.argv[3])
             log = driver.get_log("browser")

@@ -26,6 +26,17 @@ Belief beliefOf(const std::vector<double>& weights, double elsewhere, double sig
   return belief;
 }
 
+TEST(ProbabilityText, LessThanAClaimDoesNotLookLikeOne)
+{
+  EXPECT_EQ(probabilityText(0.98999), "0.989");
+  EXPECT_EQ(probabilityText(0.9896), "0.989");
+  EXPECT_EQ(probabilityText(0.99), "0.990");
+  EXPECT_EQ(probabilityText(0.57, 2), "0.57") << "stored as a little less";
+  EXPECT_EQ(probabilityText(0.99996, 4), "0.9999");
+  EXPECT_EQ(probabilityText(1), "1.000");
+  EXPECT_EQ(probabilityText(0), "0.000");
+}
+
 struct Case
 {
   const char* what;

@@ -25,6 +25,7 @@ struct StepRecord
   mrpt::math::TPose2D odometry;  ///< dead reckoning from LocalizationSetup::initial_odometry
   Belief belief;
   std::vector<Feature> features;  ///< seen in this step, in the robot frame
+  std::vector<mrpt::math::TPoint2Df> returns;  ///< some of the scan's, evenly chosen, robot frame
   bool relocated = false;
   std::optional<mrpt::math::TPose2D> truth;
   std::optional<PoseError> error;  ///< of the first hypothesis

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "sigloc/geometry/GaussianPose.h"
@@ -24,6 +25,10 @@ enum class Verdict : std::uint8_t
 
 /// Returns "localized", "ambiguous", "not here" or "too little seen".
 const char* toString(Verdict verdict);
+
+/// Returns a probability for people, with so many digits after the point. It is never rounded up:
+/// what is below the 0.99 of a claim must not look like it.
+std::string probabilityText(double probability, int digits = 3);
 
 /// Observed feature `observed` is assumed to be map feature `mapped` (indices).
 struct FeaturePairing

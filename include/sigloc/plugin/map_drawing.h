@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <mrpt/img/TColor.h>
 #include <mrpt/math/TPose2D.h>
 #include <mrpt/opengl/CSetOfObjects.h>
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -14,6 +16,26 @@
 
 namespace sigloc
 {
+/// What a colour means, in pictures, scenes and pages alike. Features of the map have the colours
+/// of their traits.
+struct Palette
+{
+  using Color = mrpt::img::TColor;
+  static constexpr Color kReturns{225, 30, 30};  ///< of the scan
+  static constexpr Color kObserved{255, 140, 0};  ///< features seen
+  static constexpr Color kUnlikely{120, 200, 255};  ///< a hypothesis of weight 0
+  static constexpr Color kLikely{225, 0, 150};  ///< a hypothesis of weight 1
+  static constexpr Color kSurePose{0, 150, 60};
+  static constexpr Color kUnsurePose{115, 115, 115};
+  static constexpr Color kPath{60, 190, 110};
+  static constexpr Color kTruth{0, 0, 0};
+  static constexpr Color kProposed{150, 90, 220};
+  static constexpr Color kNotLocalized{210, 0, 0};  ///< frame and banner
+  static constexpr std::uint8_t kUnknownShade = 222;
+  static constexpr std::uint8_t kFreeShade = 255;
+  static constexpr std::uint8_t kWallShade = 120;  ///< of the raster
+};
+
 /// What of a map is drawn. Lines are solid strips, because line widths are ignored by MRPT's core
 /// profile renderer.
 struct MapDrawing

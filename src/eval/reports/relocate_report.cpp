@@ -110,11 +110,11 @@ PagePlace pagePlace(const std::string& method, const RelocationRecord& record)
   const auto fact = [&](const std::string& name, const std::string& text)
   { place.facts.emplace_back(name, text); };
   fact("verdict", toString(record.verdict));
-  fact("probability of the verdict", fmt::format("{:.3f}", record.probability));
+  fact("probability of the verdict", probabilityText(record.probability));
   if (!record.listed.empty())
   {
     fact("probability of the first pose",
-         fmt::format("{:.3f}", record.listed.front().candidate.probability));
+         probabilityText(record.listed.front().candidate.probability));
   }
   if (record.truth && record.first)
   {
