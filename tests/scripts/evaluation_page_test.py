@@ -4,6 +4,8 @@
 """Clicks through the pages that sigloc-eval writes, in headless Chromium without a network.
 
     evaluation_page_test.py SIGLOC_EVAL SOURCE_FOLDER [PICTURE.png]
+
+docs/images/evaluation.png is such a picture.
 """
 import csv
 import pathlib
@@ -116,16 +118,18 @@ def click_a_place(driver):
 
 
 def main():
-    sigloc_eval, source = sys.argv[1], pathlib.Path(sys.argv[2])
+    sigloc_eval, source = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
     with tempfile.TemporaryDirectory() as folder:
         once, drives = pathlib.Path(folder) / "once", pathlib.Path(folder) / "drives"
+        for data in ("maps", "rawlogs"):  # the page's title is the command: it names no one's folders
+            (pathlib.Path(folder) / data).symlink_to(source / data)
         for arguments in (
             ["relocate", *OFFICE[:2], *NARROW, "--method", "signature,signature-anchors",
-             "--out", once],
+             "--out", once.name],
             ["track", *OFFICE, "--starts", "3", "--travel", "3", "--method", "signature",
-             "--out", drives],
+             "--out", drives.name],
         ):  # fmt: skip
-            subprocess.run([sigloc_eval, *arguments, "--quiet"], cwd=source, check=True)
+            subprocess.run([sigloc_eval, *arguments, "--quiet"], cwd=folder, check=True)
         driver = browser()
         try:
             for out, what in ((once, check_relocation), (drives, None)):

@@ -4,6 +4,8 @@
 """Clicks through the page that sigloc-localize writes, in headless Chromium without a network.
 
     run_page_test.py SIGLOC_LOCALIZE SOURCE_FOLDER [PICTURE.png]
+
+docs/images/run.png is such a picture.
 """
 import csv
 import math
@@ -140,6 +142,7 @@ def main():
             driver.get((out / "report.html").as_uri())
             walk(driver, rows)
             check_scan(driver)
+            driver.execute_script("show(Math.floor(steps.length / 2))")
             if len(sys.argv) > 3:
                 driver.save_screenshot(sys.argv[3])
             log = driver.get_log("browser")
