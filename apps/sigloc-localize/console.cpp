@@ -127,8 +127,10 @@ std::string summaryTable(const LocalizationRun& run)
                              distanceText(!std::isnan(summary.distance), summary.distance),
                              summary.truncated ? ", TRUNCATED" : ""));
   if (!run.setup().ground_truth_file.empty())
+  {
     row("first right hypothesis",
         reached(summary.steps_to_first_right, summary.metres_to_first_right));
+  }
   row("localized", reached(summary.steps_to_localized, summary.metres_to_localized));
   if (summary.confidently_wrong_steps)
     row("confidently wrong", counted(*summary.confidently_wrong_steps, "step"));

@@ -80,8 +80,10 @@ int main(int argc, char** argv)
       throw std::runtime_error("needs --map MAP --log LOG.rawlog, or CONFIG.ini; see --help");
     }
     if (rawlog->count() > 0 && log->count() > 0)
+    {
       throw std::runtime_error("two logs: --log " + log->as<std::string>() + " and the argument " +
                                rawlog->as<std::string>() + "; give one");
+    }
     if (arguments.output && arguments.output->empty()) throw std::runtime_error("--out is empty");
     return sigloc::loadWork<decltype(siglocLocalize)>("siglocLocalize",
                                                       picturesOf(arguments))(arguments);

@@ -123,8 +123,8 @@ TColor weightColor(double weight)
   const double w = std::sqrt(std::clamp(weight, 0.0, 1.0));  // small weights remain visible
   const auto mix = [w](double from, double to)
   { return static_cast<std::uint8_t>(std::lround(from + w * (to - from))); };
-  constexpr auto& from = Palette::kUnlikely;
-  constexpr auto& to = Palette::kLikely;
+  const TColor& from = Palette::kUnlikely;
+  const TColor& to = Palette::kLikely;
   return {mix(from.R, to.R), mix(from.G, to.G), mix(from.B, to.B)};
 }
 
