@@ -1,7 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <cstdlib>
-#include <fstream>
+#include <map>
+#include <utility>
 
 #include "fuzz/targets.h"
 
@@ -39,14 +43,39 @@ const std::filesystem::path& folder()
   static const Folder made;
   return made.path;
 }
+
+/// A file that stays open: what it holds is changed far more often than its name.
+class InputFile
+{
+ public:
+  explicit InputFile(std::filesystem::path path) : path_(std::move(path))
+  {
+    std::filesystem::create_directories(path_.parent_path());
+    fd_ = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+    if (fd_ < 0) throw Finding("no file for inputs");
+  }
+  ~InputFile() { close(fd_); }
+  InputFile(const InputFile&) = delete;
+  InputFile& operator=(const InputFile&) = delete;
+
+  const std::filesystem::path& holding(std::string_view bytes)
+  {
+    const auto size = static_cast<ssize_t>(bytes.size());
+    if (pwrite(fd_, bytes.data(), bytes.size(), 0) != size || ftruncate(fd_, size) != 0)
+      throw Finding("no room for inputs");
+    return path_;
+  }
+
+ private:
+  std::filesystem::path path_;
+  int fd_;
+};
 }  // namespace
 
-std::filesystem::path inputFile(const std::string& name, std::string_view bytes)
+const std::filesystem::path& inputFile(const std::string& name, std::string_view bytes)
 {
-  const std::filesystem::path path = folder() / name;
-  std::filesystem::create_directories(path.parent_path());
-  std::ofstream(path, std::ios::binary).write(bytes.data(), static_cast<long>(bytes.size()));
-  return path;
+  static std::map<std::string, InputFile> files;
+  return files.try_emplace(name, folder() / name).first->second.holding(bytes);
 }
 
 void requireReason(const std::string& message)

@@ -66,7 +66,7 @@ constexpr std::array<NamedTarget, 13> kTargets = {{
 
 /// Writes `bytes` to a file named so in a folder of this process, which lies in memory where there
 /// is such a place. Returns the file's path.
-std::filesystem::path inputFile(const std::string& name, std::string_view bytes);
+const std::filesystem::path& inputFile(const std::string& name, std::string_view bytes);
 
 /// Calls a reader. Returns true when it has read. Returns false when it has refused as it promises:
 /// by a std::runtime_error of one line that begins with the path of a file. Throws Finding for any

@@ -52,13 +52,14 @@ bool readsCarmenLog(std::string_view bytes)
       {
         for (const PosedScans& posed : detail::readCarmenLog(path)) observeScene(posed.scans);
       });
-  const bool drive = accepts(
+  if (!map) return false;  // as a log it is read by the same reader
+  accepts(
       [&]
       {
         RawlogReader reader(path);
         while (const auto step = reader.next()) observe(*step);
       });
-  return map || drive;
+  return true;
 }
 
 bool readsLandmarks(std::string_view bytes)
