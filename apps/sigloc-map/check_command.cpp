@@ -55,14 +55,24 @@ void runCheck(const MapArguments& arguments, const char* program)
   const MapCheck check = checkOf(arguments, map);
   std::cout << checkTable(check);
   if (arguments.output.empty()) return;
-  std::filesystem::create_directories(arguments.output);
+  const bool is_new = std::filesystem::create_directories(arguments.output);
   const std::string name = arguments.input.filename().string();
   const std::string title =
       fmt::format("{}: first pose right {:.3f}, localized {:.3f} of simulated scans", name,
                   check.recall(), check.localizedShare());
-  savePicture(checkPicture(check, *map->field(), title), arguments.output / CheckFiles::kPicture);
-  writeCheckFiles(check, name, arguments.output);
-  syncFolder(arguments.output);
+  try
+  {
+    savePicture(checkPicture(check, *map->field(), title), arguments.output / CheckFiles::kPicture);
+    writeCheckFiles(check, name, arguments.output);
+    syncFolder(arguments.output);
+  }
+  catch (const std::exception&)
+  {
+    // Half of the files are of no use, and an empty folder is of none.
+    std::error_code ignored;
+    if (is_new) std::filesystem::remove_all(arguments.output, ignored);
+    throw;
+  }
   std::cout << fmt::format("{:<24}{}\n", "written to", arguments.output.string());
 }
 }  // namespace sigloc

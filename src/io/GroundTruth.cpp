@@ -37,11 +37,11 @@ struct Row
 /// Returns the rows of numbers of a text file, all of 3, 4 or 7 columns.
 std::vector<Row> readRows(const std::filesystem::path& path)
 {
-  const std::vector<std::string> lines = detail::readLines(path);
   std::vector<Row> rows;
-  for (std::size_t i = 0; i < lines.size(); ++i)
+  for (detail::TextLines lines(path); lines.next();)
   {
-    const auto words = detail::words(lines[i]);
+    const std::size_t i = lines.index();
+    const auto words = detail::words(lines.line());
     if (words.empty() || words.front().front() == '#' || words.front().front() == '%') continue;
     Row row;
     row.starts_with_digits =
@@ -49,7 +49,7 @@ std::vector<Row> readRows(const std::filesystem::path& path)
     for (const auto word : words)
     {
       const auto number = detail::toNumber(word);
-      if (!number) detail::failAtLine(path, i, "bad number '" + std::string(word) + "'");
+      if (!number) detail::failAtLine(path, i, "bad number " + detail::quoted(word));
       row.numbers.push_back(*number);
     }
     const std::size_t columns = row.numbers.size();

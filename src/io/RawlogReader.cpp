@@ -219,7 +219,11 @@ void RawlogReader::State::takeAction(const CActionCollection::Ptr& actions)
 void RawlogReader::State::takeOdometry(const CObservationOdometry& reading)
 {
   const CPose2D& pose = reading.odometry;
-  if (!std::isfinite(pose.x()) || !std::isfinite(pose.y()) || !std::isfinite(pose.phi())) return;
+  if (!std::isfinite(pose.x()) || !std::isfinite(pose.y()) || !std::isfinite(pose.phi()))
+  {
+    ++left_out.motions;
+    return;
+  }
   const OdometryReading now{timeOf(reading), pose};
   if (group.time && !group.odometry && odometry && now.time >= *group.time)
   {

@@ -34,7 +34,7 @@ class Message
   {
     if (next_ >= words_.size()) failAtLine(path_, index_, "cut off");
     const auto value = toNumber(words_[next_]);
-    if (!value) failAtLine(path_, index_, "bad number '" + std::string(words_[next_]) + "'");
+    if (!value) failAtLine(path_, index_, "bad number " + quoted(words_[next_]));
     ++next_;
     return *value;
   }
@@ -181,15 +181,15 @@ void dropClippedReadings(std::vector<CarmenScan>& log)
 
 std::vector<CarmenScan> readCarmenScans(const std::filesystem::path& path)
 {
-  const std::vector<std::string> lines = readLines(path);
+  constexpr std::uint64_t kMostLog = std::uint64_t{1} << 30U;  // bytes
   std::vector<CarmenScan> log;
-  for (std::size_t i = 0; i < lines.size(); ++i)
+  for (TextLines lines(path, kMostLog); lines.next();)
   {
-    Message message(lines[i], path, i);
+    Message message(lines.line(), path, lines.index());
     const bool flaser = message.name() == "FLASER";
     if (!flaser && message.name() != "ROBOTLASER1") continue;
     CarmenScan seen = flaser ? readFlaser(message) : readRobotLaser(message);
-    if (!(seen.scan.angle_step > 0)) failAtLine(path, i, "angle step is not positive");
+    if (!(seen.scan.angle_step > 0)) failAtLine(path, lines.index(), "angle step is not positive");
     if (seen.scan.ranges.size() >= 2) log.push_back(std::move(seen));
   }
   if (log.empty()) throw std::runtime_error(path.string() + ": no FLASER or ROBOTLASER1 message");

@@ -87,7 +87,9 @@ ActionMotion motionOf(const mrpt::obs::CActionCollection& actions)
 {
   if (const auto movement = actions.getBestMovementEstimation()) return planarMotion(*movement);
   const auto spatial = actions.getActionByClass<mrpt::obs::CActionRobotMovement3D>();
-  if (!spatial) return {};
+  // MRPT finds no movement the best whose covariance is no number.
+  const bool unusable = actions.getActionByClass<mrpt::obs::CActionRobotMovement2D>() != nullptr;
+  if (!spatial) return {unusable, std::nullopt};
   const CPose2D mean(spatial->poseChange.mean);
   if (!isFinite(mean)) return {true, std::nullopt};
   const auto& full = spatial->poseChange.cov;

@@ -88,6 +88,11 @@ std::string oneLine(const std::string& message)
   line.erase(line.find_last_not_of('\n') + 1);
   const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7F; };
   std::replace_if(line.begin(), line.end(), is_control, '?');
+  // The file is at the beginning, and the reason at the end.
+  constexpr std::size_t kMost = 1000;
+  constexpr std::size_t kFirst = 600;
+  constexpr std::size_t kLast = 300;
+  if (line.size() > kMost) line = line.substr(0, kFirst) + "..." + line.substr(line.size() - kLast);
   return line;
 }
 }  // namespace sigloc

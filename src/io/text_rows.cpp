@@ -10,33 +10,60 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "io/archive/gzip_input.h"
+#include "io/archive/file_fault.h"
 
 namespace sigloc::detail
 {
 namespace
 {
+constexpr std::size_t kLeastChunk = 4096;  // bytes
+constexpr std::size_t kChunk = 256U * 1024U;
+constexpr std::size_t kLongestLine = 8U * 1024U * 1024U;
 constexpr std::string_view kSeparators = " \t,;\r";
 constexpr std::string_view kUtf8Mark = "\xEF\xBB\xBF";
 }  // namespace
 
-std::vector<std::string> readLines(const std::filesystem::path& path)
+TextLines::TextLines(const std::filesystem::path& path, std::uint64_t most) : input_(path)
 {
-  std::string text = unpackedBytes(path);
-  if (text.find('\0') != std::string::npos)
-  {
-    throw std::runtime_error(path.string() + ": not a text file");
-  }
+  input_.limitTo(kAlwaysUnpacked, most);
+  refill();
   // Some editors begin UTF-8 with a mark.
-  if (text.compare(0, kUtf8Mark.size(), kUtf8Mark) == 0) text.erase(0, kUtf8Mark.size());
-  std::vector<std::string> lines;
-  for (std::size_t begin = 0; begin < text.size();)
+  if (text_.compare(0, kUtf8Mark.size(), kUtf8Mark) == 0) from_ = kUtf8Mark.size();
+}
+
+bool TextLines::next()
+{
+  std::size_t end = text_.find('\n', from_);
+  while (end == std::string::npos && more_)
   {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    lines.push_back(text.substr(begin, end - begin));
-    begin = end + 1;
+    const std::size_t looked = text_.size() - from_;
+    if (looked > kLongestLine)
+      failAtLine(input_.path(), index_ + 1, fmt::format("longer than {} MB", kLongestLine >> 20U));
+    refill();
+    end = text_.find('\n', from_ + looked);
   }
-  return lines;
+  end = std::min(end, text_.size());
+  if (from_ >= text_.size()) return false;
+  line_ = std::string_view(text_).substr(from_, end - from_);
+  from_ = end + 1;
+  ++index_;
+  return true;
+}
+
+/// Reads on. Keeps what has not been handed out.
+void TextLines::refill()
+{
+  text_.erase(0, from_);
+  from_ = 0;
+  const std::size_t size = text_.size();
+  const auto chunk = static_cast<std::size_t>(
+      std::clamp<std::uint64_t>(input_.getTotalBytesCount() + 1, kLeastChunk, kChunk));
+  text_.resize(size + chunk);
+  const std::size_t got = input_.Read(text_.data() + size, chunk);
+  text_.resize(size + got);
+  more_ = got == chunk;
+  if (input_.damaged()) fail(input_.path(), "truncated or damaged");
+  if (text_.find('\0', size) != std::string::npos) fail(input_.path(), "not a text file");
 }
 
 std::vector<std::string_view> words(std::string_view line)
@@ -72,6 +99,13 @@ std::optional<double> toNumber(std::string_view word)
   const auto result = std::from_chars(word.data(), end, value);
   if (result.ec != std::errc{} || result.ptr != end || !std::isfinite(value)) return std::nullopt;
   return value;
+}
+
+std::string quoted(std::string_view text)
+{
+  constexpr std::size_t kMost = 60;
+  const bool whole = text.size() <= kMost;
+  return fmt::format("'{}'{}", text.substr(0, kMost), whole ? "" : "...");
 }
 
 void failAtLine(const std::filesystem::path& path, std::size_t index, const std::string& reason)

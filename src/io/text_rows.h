@@ -2,17 +2,44 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "io/archive/gzip_input.h"
+
 namespace sigloc::detail
 {
-/// Returns the lines of a text file, plain or gz-compressed, without their line ends.
-/// Throws std::runtime_error "path: reason" for a missing, empty, truncated or binary file.
-std::vector<std::string> readLines(const std::filesystem::path& path);
+constexpr std::uint64_t kMostText = std::uint64_t{1} << 28U;  // bytes
+
+/// The lines of a text file, plain or compressed, front to back and without their line ends.
+class TextLines
+{
+ public:
+  /// It and next() throw std::runtime_error "path: reason" for a file that is missing, empty,
+  /// truncated or binary, or holds more than `most` bytes or an endless line.
+  explicit TextLines(const std::filesystem::path& path, std::uint64_t most = kMostText);
+
+  /// Goes to the next line, at first to line 0. Returns false at the end.
+  bool next();
+  /// Valid until next().
+  std::string_view line() const { return line_; }
+  /// Counts lines from 0.
+  std::size_t index() const { return index_; }
+
+ private:
+  void refill();
+
+  GzipInput input_;
+  std::string text_;  // read from the file ...
+  std::size_t from_ = 0;  // ... and handed out up to here
+  bool more_ = true;
+  std::string_view line_;
+  std::size_t index_ = static_cast<std::size_t>(-1);
+};
 
 /// Returns the words of a line; blanks, tabs, commas and semicolons separate.
 std::vector<std::string_view> words(std::string_view line);
@@ -25,6 +52,9 @@ std::vector<std::string_view> columnsIn(std::string_view line, const std::filesy
 /// Returns the number a word spells, whatever the locale, or nullopt when it is not a finite
 /// number.
 std::optional<double> toNumber(std::string_view word);
+
+/// Returns a text in quotes, for messages; of a long one the beginning.
+std::string quoted(std::string_view text);
 
 /// Throws std::runtime_error "path: line N: reason"; `index` counts lines from 0.
 [[noreturn]] void failAtLine(const std::filesystem::path& path, std::size_t index,

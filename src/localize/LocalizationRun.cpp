@@ -59,10 +59,12 @@ RawlogStep firstStep(RawlogReader& reader, const LocalizationSetup& setup)
     if (!step)
     {
       const std::string held = reader.contents();
-      throw std::runtime_error(setup.rawlog_file.string() +
-                               (skipped > 0    ? ": fewer steps than rawlog_offset skips"
-                                : held.empty() ? ": no usable laser scan in it"
-                                               : ": no usable laser scan in it; it holds " + held));
+      throw std::runtime_error(
+          setup.rawlog_file.string() +
+          (skipped > 0 ? ": fewer steps than rawlog_offset skips"
+                       : std::string(": no usable laser scan in it") +
+                             (reader.truncated() ? ", up to where it is cut off or damaged" : "") +
+                             (held.empty() ? "" : "; it holds " + held)));
     }
     if (skipped == setup.rawlog_offset) return std::move(*step);
   }

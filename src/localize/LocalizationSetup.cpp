@@ -18,6 +18,7 @@
 #include "io/archive/gzip_input.h"
 #include "io/carmen_log.h"
 #include "io/maps/map_formats.h"
+#include "io/reading_check.h"
 #include "io/text_rows.h"
 #include "localize/ini_warnings.h"
 #include "sigloc/io/file_output.h"
@@ -46,6 +47,9 @@ constexpr std::array<const char*, 7> kSections = {kMatcher, kTracker, kParticles
 /// Returns the text of a file that exists; throws std::runtime_error where it is no file.
 std::string readText(const fs::path& path, const std::string& hint)
 {
+  constexpr std::uintmax_t kMost = 1U << 20U;  // bytes
+  if (fs::file_size(path) > kMost)
+    throw std::runtime_error("not an ini file: more than 1 MB" + hint);
   std::ifstream file(path, std::ios::binary);
   std::stringstream text;
   text << file.rdbuf();
@@ -71,6 +75,7 @@ void readSections(const CConfigFileMemory& ini, LocalizationSetup& setup)
   setup.features = loadOptions<FeatureExtractorOptions>(ini, kFeatures);
   setup.map = loadOptions<MapBuildingOptions>(ini, kMap);
   setup.reading = loadOptions<ReadingOptions>(ini, kReading);
+  detail::checkReading(setup.reading);
   setup.report = loadOptions<ReportOptions>(ini, kReport);
 }
 
@@ -84,7 +89,7 @@ double readNumber(const CConfigFileMemory& ini, const char* key, double fallback
   const std::string text = ini.read_string_first_word(kExperiment, key, "");
   if (text.empty()) return fallback;
   const std::optional<double> value = detail::toNumber(text);
-  if (!value) failInExperiment(fmt::format("bad value '{}' for '{}'", text, key));
+  if (!value) failInExperiment(fmt::format("bad value {} for '{}'", detail::quoted(text), key));
   return *value;
 }
 
@@ -92,7 +97,7 @@ bool readSwitch(const CConfigFileMemory& ini, const char* key)
 {
   const std::string text = ini.read_string_first_word(kExperiment, key, "false");
   const std::optional<bool> value = detail::parseValue<bool>(text);
-  if (!value) failInExperiment(fmt::format("bad value '{}' for '{}'", text, key));
+  if (!value) failInExperiment(fmt::format("bad value {} for '{}'", detail::quoted(text), key));
   return *value;
 }
 
@@ -173,8 +178,8 @@ std::vector<std::uint32_t> readParticleCounts(const CConfigFileMemory& ini)
     const auto count = detail::parseValue<std::uint32_t>(word);
     if (!count || *count == 0 || *count > ParticleOptions::kMostParticles)
     {
-      failInExperiment(fmt::format("bad value '{}' for 'particles_count': from 1 to {}", word,
-                                   ParticleOptions::kMostParticles));
+      failInExperiment(fmt::format("bad value {} for 'particles_count': from 1 to {}",
+                                   detail::quoted(word), ParticleOptions::kMostParticles));
     }
     counts.push_back(*count);
   }
@@ -205,7 +210,8 @@ bool readTracker(const CConfigFileMemory& ini)
   const std::string name = ini.read_string_first_word(kExperiment, "tracker", "gaussians");
   if (name != "gaussians" && name != "particles")
   {
-    failInExperiment(fmt::format("'tracker' is '{}', neither gaussians nor particles", name));
+    failInExperiment(
+        fmt::format("'tracker' is {}, neither gaussians nor particles", detail::quoted(name)));
   }
   return name == "particles";
 }

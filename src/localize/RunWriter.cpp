@@ -200,7 +200,10 @@ RunWriter::RunWriter(const fs::path& folder, const std::vector<fs::path>& inputs
     : folder_(resultsFolder(folder)), work_(workFolderBeside(folder_))
 {
   checkRunFolder(folder, inputs);
-  std::error_code error = makeWorkFolder();
+  // The folder of another user stays that user's: it is filled, not replaced.
+  std::error_code error = detail::isOfAnotherUser(folder_)
+                              ? std::make_error_code(std::errc::operation_not_permitted)
+                              : makeWorkFolder();
   if (error && fs::exists(folder_))
   {
     work_ = folder_ / detail::kInnerWork;

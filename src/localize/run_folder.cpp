@@ -109,6 +109,8 @@ bool isSame(int file, const fs::path& folder)
 bool isMissing(const fs::path& folder)
 {
   std::error_code unnameable;
+  if (fs::is_symlink(folder, unnameable) && !fs::exists(folder, unnameable))
+    throw std::runtime_error(folder.string() + ": is a link to what is not there; not overwritten");
   if (!fs::exists(folder, unnameable)) return true;
   if (!fs::is_directory(folder)) throw std::runtime_error(folder.string() + ": is not a folder");
   return false;
@@ -130,6 +132,12 @@ void requireUnfinishedRun(const fs::path& folder)
 {
   if (isMissing(folder) || !requireRunFilesOnly(folder)) return;
   if (!fs::is_directory(folder / "belief")) refuse(folder, "is not the work folder of a run");
+}
+
+bool isOfAnotherUser(const fs::path& folder)
+{
+  struct stat named = {};
+  return stat(folder.c_str(), &named) == 0 && named.st_uid != geteuid();
 }
 
 FolderLock::FolderLock(const fs::path& folder)

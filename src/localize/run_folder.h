@@ -17,6 +17,9 @@ void requireFinishedRun(const std::filesystem::path& folder);
 /// The same for the folder that a run works in, which holds no summary until it ends.
 void requireUnfinishedRun(const std::filesystem::path& folder);
 
+/// True for a folder that exists and belongs to another user than this process runs as.
+bool isOfAnotherUser(const std::filesystem::path& folder);
+
 /// Makes a run the only one that writes into a folder as long as the object exists. The folder may
 /// be renamed meanwhile. On a file system without locks the object has no effect.
 class FolderLock

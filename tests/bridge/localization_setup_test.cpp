@@ -72,6 +72,21 @@ TEST(LocalizationSetup, readsWhatPfLocalizationJudgesBy)
   EXPECT_EQ(setup.particle_counts, (std::vector<std::uint32_t>{100, 200}));
 }
 
+TEST(LocalizationSetup, hostileSettingsAreRefusedInAShortLine)
+{
+  const TemporaryFolder folder;
+  const std::string nines(900000, '9');
+  for (const std::string& more :
+       {"STATS_CONF_INTERVAL=" + nines + "\n", "[sigloc.matcher]\nmode=" + nines + "\n",
+        "tracker=" + nines + "\n", std::string(std::size_t{1} << 20U, '\n'),
+        std::string("[sigloc.reading]\nmin_height=2\nmax_height=1\n")})
+  {
+    const std::string message = messageOf<std::runtime_error>([&] { read(folder, more); });
+    EXPECT_EQ(message.rfind((folder / "run.ini").string() + ": ", 0), 0U) << message.substr(0, 200);
+    EXPECT_LT(message.size(), 1100U);
+  }
+}
+
 TEST(LocalizationSetup, widensABoxThatIsAPose)
 {
   const TemporaryFolder folder;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstring>
 #include <functional>
+#include <random>
 #include <sstream>
 #include <variant>
 
@@ -250,6 +251,20 @@ TEST(PointMaps, ARowWithoutEndIsNoPoint)
       EXPECT_NE(message.find(names.empty() ? "line 1: " : "line 2: "), std::string::npos);
     }
   }
+}
+
+// Rays from everywhere in such a map took minutes.
+TEST(PointMaps, RefusePointsThatAreScatteredOverALargePlace)
+{
+  const TemporaryFolder folder;
+  std::mt19937 generator(1);
+  std::uniform_real_distribution<float> place(-490, 490);
+  Points points;
+  for (int i = 0; i < 200000; ++i) points.push_back({place(generator), place(generator), 1});
+  writeText(folder / "m.ply", plyOf(points, "binary_little_endian"));
+  EXPECT_EQ(mapErrorOf(folder / "m.ply"),
+            (folder / "m.ply").string() +
+                ": 200000 points scattered over 981 m x 981 m, which make no walls");
 }
 
 TEST(PointMaps, RefuseHostileFilesInOneLine)

@@ -144,16 +144,27 @@ TEST(RawlogReader, ReportsNoMotionForNaNOdometry)
   ASSERT_TRUE(steps[1].motion);
   EXPECT_DOUBLE_EQ(steps[1].motion->mean.x, 0.5);
 
+  mrpt::obs::CActionRobotMovement2D measured;
+  measured.computeFromOdometry({nan, 0, 0}, {});
+  const auto actions = mrpt::obs::CActionCollection::Create();
+  actions->insert(measured);
+  writeObjects(folder / "measured.rawlog", {actions, makeFrame(makeScan(1.0))});
+  RawlogReader of_measured(folder / "measured.rawlog");
+  EXPECT_FALSE(of_measured.next()->motion);
+  EXPECT_EQ(of_measured.leftOut().motions, 1U) << "a user must be told";
+
   writeObjects(folder / "observations.rawlog",
                {makeOdometry(1.0, {0, 0, 0}), makeScan(1.0), makeOdometry(2.0, {nan, 0, 0}),
                 makeScan(2.0), makeOdometry(3.0, {1, 0, 0}), makeScan(3.0)});
   double travelled = 0;
-  for (const auto& step : readAll(folder / "observations.rawlog"))
+  RawlogReader reader(folder / "observations.rawlog");
+  while (const auto step = reader.next())
   {
-    ASSERT_TRUE(step.motion);
-    travelled += step.motion->mean.x;
+    ASSERT_TRUE(step->motion);
+    travelled += step->motion->mean.x;
   }
   EXPECT_NEAR(travelled, 1.0, 1e-9);
+  EXPECT_EQ(reader.leftOut().motions, 1U) << "a user must be told";
 }
 
 TEST(RawlogReader, DifferencesAndInterpolatesOdometryBetweenScans)

@@ -176,6 +176,24 @@ TEST(RosMap, ReadsPngWithColoursAndAlpha)
   }
 }
 
+// Its rows come in seven passes.
+TEST(RosMap, ReadsInterlacedPng)
+{
+  const TemporaryFolder folder;
+  writeText(
+      folder / "i.png",
+      std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\3\0\0\0\2\x08\0\0\0\1", 29) +
+          std::string("\317\030\011\120\000\000\000\025\111\104\101\124\170\001\001\012\000\365"
+                      "\377\000\000\000\376\000\315\000\376\376\000\017\363\003\310\245\040\311"
+                      "\022\000\000\000\000\111\105\116\104\256\102\140\202",
+                      49));
+  std::string yaml = yamlWith("");
+  yaml.replace(yaml.find("m.pgm"), 5, "i.png");
+  writeText(folder / "m.yaml", yaml);
+  EXPECT_EQ(std::get<OccupancyRaster>(readMapSource(folder / "m.yaml")).cells,
+            (std::vector<CellState>{kFree, kFree, kSolid, kSolid, kUnknown, kFree}));
+}
+
 TEST(RosMap, ReadsTheFormsOfYamlThatToolsWrite)
 {
   const auto header = detail::parseRosMapYaml(

@@ -3,6 +3,7 @@
 #include "localize/run_folder.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <memory>
 #include <stdexcept>
@@ -31,6 +32,27 @@ TEST(FolderLock, GoesWithARenamedFolder)
   std::filesystem::rename(folder / "work", folder / "results");
   EXPECT_NO_THROW(detail::FolderLock(folder / "work"));
   EXPECT_THROW(detail::requireNoOtherRun(folder / "results"), std::runtime_error);
+}
+
+TEST(RunWriter, ALinkToNowhereStaysOne)
+{
+  const TemporaryFolder folder;
+  std::filesystem::create_symlink(folder / "nowhere", folder / "out");
+  EXPECT_NE(messageOf<std::runtime_error>([&] { RunWriter(folder / "out", {}); }).find("is a link"),
+            std::string::npos);
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "out"));
+}
+
+TEST(RunWriter, TheFolderOfAnotherUserIsFilledAndNotReplaced)
+{
+  constexpr uid_t kNobody = 65534;
+  if (geteuid() != 0) GTEST_SKIP() << "only root may give a folder away";
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "out");
+  EXPECT_FALSE(detail::isOfAnotherUser(folder / "out"));
+  ASSERT_EQ(chown((folder / "out").c_str(), kNobody, kNobody), 0);
+  EXPECT_TRUE(detail::isOfAnotherUser(folder / "out"));
+  EXPECT_EQ(RunWriter(folder / "out", {}).workFolder(), folder / "out" / detail::kInnerWork);
 }
 
 TEST(RunWriter, TheSecondIsRefusedAndTheFirstStaysWhole)

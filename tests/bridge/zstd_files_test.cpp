@@ -209,10 +209,15 @@ TEST(ZstdFiles, damagedOnesAreRefused)
 TEST(ZstdFiles, numbersThatUnpackToFarMoreAreRefused)
 {
   const TemporaryFolder folder;
-  const std::string bomb = packed(std::string(detail::kAlwaysUnpacked + 1, '0'));
-  for (const char* const name : {"points.txt", "points.ply"})
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 40000000\nproperty float x\nproperty float y\n"
+      "property float z\nend_header\n";
+  for (const auto& [name, head] :
+       {std::pair<const char*, std::string>{"points.txt", ""}, {"points.ply", ply}})
   {
-    writeText(folder / name, bomb);
+    std::string rows = head;
+    while (rows.size() <= detail::kAlwaysUnpacked) rows += "1 2 0\n";
+    writeText(folder / name, packed(rows));
     EXPECT_EQ(mapErrorOf(folder / name),
               (folder / name).string() + ": unpacks to more than 50 times its size");
   }
@@ -220,16 +225,22 @@ TEST(ZstdFiles, numbersThatUnpackToFarMoreAreRefused)
 
 TEST(ZstdFiles, unpackedBytesAreLimitedByTheFilesSize)
 {
+  const auto unpackedBytes = [](const std::filesystem::path& path, std::uint64_t always)
+  {
+    detail::GzipInput input(path);
+    input.limitTo(always);
+    return detail::restOf(input);
+  };
   constexpr std::size_t kSize = 1U << 20U;
   const TemporaryFolder folder;
   const std::filesystem::path path = folder / "zeros";
   writeText(path, packed(std::string(kSize, '0')));
-  EXPECT_EQ(detail::unpackedBytes(path, kSize).size(), kSize);
-  EXPECT_THROW(detail::unpackedBytes(path, kSize / 4), std::runtime_error);
+  EXPECT_EQ(unpackedBytes(path, kSize).size(), kSize);
+  EXPECT_THROW(unpackedBytes(path, kSize / 4), std::runtime_error);
   writeText(path, std::string(kSize, '0'));
-  EXPECT_EQ(detail::unpackedBytes(path, kSize / 4).size(), kSize) << "which is not packed";
+  EXPECT_EQ(unpackedBytes(path, kSize / 4).size(), kSize) << "which is not packed";
   std::filesystem::resize_file(path, (std::uintmax_t{1} << 32U) + 1);  // takes no room on the disk
-  EXPECT_THROW(detail::unpackedBytes(path), std::runtime_error);
+  EXPECT_THROW(unpackedBytes(path, kSize), std::runtime_error);
 }
 }  // namespace
 }  // namespace sigloc

@@ -84,6 +84,9 @@ TEST(FullDisk, picturesAndMapsStayAsTheyWere)
   EXPECT_EQ(readBytes(folder / "old.png"), "old");
   EXPECT_EQ(readBytes(folder / "lab.sigmap"), map);
   EXPECT_EQ(listing(folder).size(), 2U);
+  expectOneLine(runLimited(folder, 8192, "sigloc-map", {"check", "lab.sigmap", "--out", "checked"}),
+                "checked/check.png");
+  EXPECT_FALSE(fs::exists(folder / "checked"));
   const CommandResult result =
       run(folder, "sigloc-map", {"draw", "lab.sigmap", "-o", "none/map.png"});
   EXPECT_NE(result.errors.find("none/map.png: cannot be written: No such file or directory"),

@@ -81,6 +81,7 @@ void checkOutputFolder(const std::filesystem::path& folder, const OutputFolderRu
                        const std::vector<std::filesystem::path>& inputs);
 
 /// Returns a message in one line: without the source positions and stack traces that MRPT's
-/// exceptions add, and with '?' for control characters, which a file's name may hold.
+/// exceptions add, and with '?' for control characters, which a file's name may hold. The middle of
+/// one of more than 1000 characters, such as a huge value that is quoted, is left out.
 std::string oneLine(const std::string& message);
 }  // namespace sigloc

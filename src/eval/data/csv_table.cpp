@@ -12,6 +12,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "io/text_rows.h"
+
 namespace sigloc::detail
 {
 namespace
@@ -87,7 +89,7 @@ double CsvTable::number(std::size_t row, const std::string& column) const
   const auto read = std::from_chars(cell.data(), cell.data() + cell.size(), value);
   if (read.ec != std::errc() || read.ptr != cell.data() + cell.size())
   {
-    fail(row, column + ": '" + cell + "' is no number");
+    fail(row, column + ": " + detail::quoted(cell) + " is no number");
   }
   return value;
 }

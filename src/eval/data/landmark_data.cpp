@@ -32,7 +32,7 @@ Row numbersOf(const std::vector<std::string_view>& cells, std::size_t least,
   for (const std::string_view cell : cells)
   {
     const auto number = detail::toNumber(cell);
-    if (!number) detail::failAtLine(path, line, "'" + std::string(cell) + "' is no number");
+    if (!number) detail::failAtLine(path, line, detail::quoted(cell) + " is no number");
     row.push_back(*number);
   }
   if (row.size() < least)
@@ -45,13 +45,12 @@ Row numbersOf(const std::vector<std::string_view>& cells, std::size_t least,
 /// Rows of comma-separated numbers; lines that start with '#' are skipped.
 std::vector<Row> readCsv(const std::filesystem::path& path, std::size_t columns)
 {
-  const std::vector<std::string> lines = detail::readLines(path);
   std::vector<Row> rows;
-  for (std::size_t i = 0; i < lines.size(); ++i)
+  for (detail::TextLines lines(path); lines.next();)
   {
-    const auto cells = detail::words(lines[i]);
-    if (cells.empty() || lines[i].front() == '#') continue;
-    rows.push_back(numbersOf(cells, columns, path, i));
+    const auto cells = detail::words(lines.line());
+    if (cells.empty() || lines.line().front() == '#') continue;
+    rows.push_back(numbersOf(cells, columns, path, lines.index()));
   }
   if (rows.empty()) throw std::runtime_error(path.string() + ": holds no rows");
   return rows;
@@ -154,11 +153,11 @@ MapErrorModel relativeError(const std::vector<Feature>& map, const std::vector<R
 /// ignored.
 std::vector<LandmarkStep> readCircles(const std::filesystem::path& path)
 {
-  const std::vector<std::string> lines = detail::readLines(path);
   std::vector<LandmarkStep> steps;
-  for (std::size_t i = 0; i < lines.size(); ++i)
+  for (detail::TextLines lines(path); lines.next();)
   {
-    std::vector<std::string_view> cells = detail::words(lines[i]);
+    const std::size_t i = lines.index();
+    std::vector<std::string_view> cells = detail::words(lines.line());
     if (cells.empty()) continue;
     if (cells[0] == "STEP")
     {

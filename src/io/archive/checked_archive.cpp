@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/archive/checked_archive.h"
 
+#include <mrpt/maps/COccupancyGridMap2D.h>
 #include <mrpt/serialization/CArchive.h>
 
 #include <string>
@@ -81,8 +82,6 @@ Soundness soundnessOfNext(GzipInput& input, unsigned parts)
 
 void readObjectFile(const std::filesystem::path& path, mrpt::serialization::CSerializable& object)
 {
-  requireFile(path);
-  requireIntact(path);
   GzipInput input(path);
   const std::string name = input.nextClassName();
   const auto* const expected = object.GetRuntimeClass();
@@ -92,6 +91,8 @@ void readObjectFile(const std::filesystem::path& path, mrpt::serialization::CSer
   {
     fail(path, "holds a '" + name + "', not a '" + expected->className + "'");
   }
+  const bool grid = dynamic_cast<mrpt::maps::COccupancyGridMap2D*>(&object) != nullptr;
+  requireIntact(path, grid ? kUsualGrid : kAlwaysUnpacked);
   MapReader reader = MapReader::of_mrpt;
   try
   {

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/archive/gzip_input.h"
 
+#include <fmt/core.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cstring>
-#include <fstream>
 #include <memory>
 #include <string_view>
 #include <vector>
@@ -18,13 +20,10 @@ namespace sigloc::detail
 namespace
 {
 constexpr unsigned kBufferBytes = 256U * 1024U;
-constexpr unsigned kLeastBuffer = 4096;
-
-/// How much of a file to read at a time. Small files are many, and read sooner so.
-unsigned bufferFor(std::uint64_t file_size)
-{
-  return static_cast<unsigned>(std::clamp<std::uint64_t>(file_size, kLeastBuffer, kBufferBytes));
-}
+constexpr std::uint64_t kLeastChunk = 4096;
+// Numbers are packed to a third or a tenth. A small file that holds far more is none of numbers,
+// and is refused before it takes the memory or the time.
+constexpr std::uint64_t kMostRatio = 50;
 
 bool isClassNameCharacter(char c)
 {
@@ -100,56 +99,40 @@ void requireFile(const std::filesystem::path& path)
   if (std::filesystem::is_directory(status)) fail(path, "is a folder, not a file");
   // Files are read more than once, and a device may have no end.
   if (!std::filesystem::is_regular_file(status)) fail(path, "is no regular file");
-  if (!std::ifstream(path, std::ios::binary)) fail(path, "cannot be read");
+  if (access(path.c_str(), R_OK) != 0) fail(path, "cannot be read");
   if (std::filesystem::file_size(path, error) == 0) fail(path, "is empty");
 }
 
-void requireIntact(const std::filesystem::path& path)
+void requireIntact(const std::filesystem::path& path, std::uint64_t always)
 {
-  const std::unique_ptr<PackedFile> file = openPacked(path, kBufferBytes);
-  if (!file) fail(path, "cannot be opened");
-  std::vector<char> content(kBufferBytes);
-  unsigned got = file->read(content.data(), kBufferBytes);
-  if (file->plain()) return;  // it has no checksum
-  while (got > 0) got = file->read(content.data(), kBufferBytes);
-  if (file->wrong()) fail(path, "damaged");
+  GzipInput input(path);
+  if (input.isPlain()) return;  // it has no checksum
+  input.limitTo(always);
+  input.skipToEnd(kMostUnpacked);
+  if (input.isWrong()) fail(path, "damaged");
 }
 
-std::string unpackedBytes(const std::filesystem::path& path, std::size_t always)
+std::string restOf(GzipInput& input, std::uint64_t most)
 {
-  // Numbers are packed to a third or a tenth. A small file that holds far more is none of numbers,
-  // and is refused before it takes the memory.
-  constexpr std::uint64_t kMostRatio = 50;
-  constexpr std::uint64_t kMost = std::uint64_t{1} << 32U;
-  GzipInput input(path);
-  const std::uint64_t packed = input.getTotalBytesCount();
-  constexpr const char* kTooMuch = "holds more than 4 GB";
-  if (packed > kMost) fail(path, kTooMuch);
-  const std::uint64_t by_size = std::max<std::uint64_t>(always, kMostRatio * packed);
-  const std::size_t chunk = bufferFor(packed);
+  const auto chunk = static_cast<std::size_t>(
+      std::clamp<std::uint64_t>(input.getTotalBytesCount(), kLeastChunk, kBufferBytes));
   std::string bytes;
-  for (std::size_t got = chunk; got == chunk;)
+  for (bool more = true; more && bytes.size() < most;)
   {
     const std::size_t size = bytes.size();
     bytes.resize(size + chunk);
-    got = input.Read(bytes.data() + size, chunk);
+    const std::size_t got = input.Read(bytes.data() + size, chunk);
     bytes.resize(size + got);
-    if (bytes.size() > kMost) fail(path, kTooMuch);
-    if (bytes.size() > by_size)
-      fail(path, "unpacks to more than " + std::to_string(kMostRatio) + " times its size");
+    more = got == chunk;
   }
-  if (input.damaged()) fail(path, "truncated or damaged");
+  if (input.damaged()) fail(input.path(), "truncated or damaged");
   return bytes;
 }
 
 GzipInput::GzipInput(const std::filesystem::path& path) : path_(path)
 {
   requireFile(path);
-  std::error_code error;
-  const auto size = std::filesystem::file_size(path, error);
-  file_size_ = error ? 0 : size;
-  unpacked_size_ = unpackedSize(path, file_size_);
-  file_ = openPacked(path, bufferFor(file_size_));  // zlib takes three times this
+  file_ = openPacked(path, kBufferBytes);
   if (!file_) fail(path, "cannot be opened");
   constexpr std::size_t kMagic = 4;
   if (beginsPacked(peek(kMagic)))
@@ -157,6 +140,20 @@ GzipInput::GzipInput(const std::filesystem::path& path) : path_(path)
 }
 
 GzipInput::~GzipInput() = default;
+
+void GzipInput::limitTo(std::uint64_t always, std::uint64_t most)
+{
+  most_ = most;
+  by_ratio_ = std::max(always, kMostRatio * file_->fileSize());
+  requireWithin(std::max(unpacked_, file_->plain() ? file_->fileSize() : 0));
+}
+
+void GzipInput::requireWithin(std::uint64_t bytes) const
+{
+  if (bytes > most_) fail(path_, fmt::format("holds more than {} MB", most_ >> 20U));
+  if (bytes > by_ratio_)
+    fail(path_, fmt::format("unpacks to more than {} times its size", kMostRatio));
+}
 
 std::size_t GzipInput::Read(void* buffer, std::size_t count)
 {
@@ -184,6 +181,8 @@ std::size_t GzipInput::readFile(char* buffer, std::size_t count)
     const auto chunk = static_cast<unsigned>(std::min<std::size_t>(count - done, 1U << 30U));
     const unsigned got = file_->read(buffer + done, chunk);
     done += got;
+    unpacked_ += got;
+    requireWithin(unpacked_);
     if (got == chunk) continue;
     damaged_ = damaged_ || file_->broken();
     break;
@@ -227,9 +226,9 @@ void GzipInput::skipToEnd(std::uint64_t most)
 
 double GzipInput::progress() const
 {
-  if (unpacked_size_ == 0) return 1.0;
+  if (file_->unpackedSize() == 0) return 1.0;
   // By unpacked bytes: a small packed file is read into the buffer at once.
-  return std::min(1.0, static_cast<double>(position_) / static_cast<double>(unpacked_size_));
+  return std::min(1.0, static_cast<double>(position_) / static_cast<double>(file_->unpackedSize()));
 }
 
 std::string GzipInput::nextClassName()

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "io/archive/packed_file.h"
 
@@ -17,6 +18,11 @@ namespace sigloc::detail
 {
 constexpr std::size_t kLongestClassName = 120;
 constexpr std::size_t kLongestObjectHeader = kLongestClassName + 4;
+
+constexpr std::uint64_t kAlwaysUnpacked = std::uint64_t{1} << 26U;  // bytes
+/// The same for a grid map, which may be far smaller than its cells: most are alike.
+constexpr std::uint64_t kUsualGrid = std::uint64_t{1} << 29U;
+constexpr std::uint64_t kMostUnpacked = std::uint64_t{1} << 32U;
 
 /// What an MRPT object begins with: the name of its class. Its version follows.
 struct ObjectHeader
@@ -41,6 +47,10 @@ class GzipInput final : public mrpt::io::CStream
   GzipInput(const GzipInput&) = delete;
   GzipInput& operator=(const GzipInput&) = delete;
 
+  /// From here on, reading throws std::runtime_error "path: reason" for a file that holds more than
+  /// `most` bytes, or more than both `always` bytes and 50 times its size. Of a file that is not
+  /// compressed that is known at once.
+  void limitTo(std::uint64_t always, std::uint64_t most = kMostUnpacked);
   /// Returns the bytes read, fewer than `count` at the end or where the file is damaged.
   std::size_t Read(void* buffer, std::size_t count) override;
   /// True when not one more byte can be read.
@@ -49,6 +59,9 @@ class GzipInput final : public mrpt::io::CStream
   void skipToEnd(std::uint64_t most);
   /// True when the compressed data broke off or failed its check.
   bool damaged() const { return damaged_; }
+  /// True when it failed its check; false where it merely broke off.
+  bool isWrong() const { return file_->wrong(); }
+  bool isPlain() const { return file_->plain(); }
   /// Returns what comes next without consuming it: `count` bytes or more, fewer at the end. Valid
   /// until the next call.
   std::string_view peek(std::size_t count);
@@ -65,18 +78,20 @@ class GzipInput final : public mrpt::io::CStream
 
   std::size_t Write(const void* buffer, std::size_t count) override;
   std::uint64_t Seek(std::int64_t offset, TSeekOrigin origin) override;
-  std::uint64_t getTotalBytesCount() const override { return file_size_; }
+  std::uint64_t getTotalBytesCount() const override { return file_->fileSize(); }
   std::uint64_t getPosition() const override { return position_; }
   const std::filesystem::path& path() const { return path_; }
 
  private:
   std::size_t readFile(char* buffer, std::size_t count);
+  void requireWithin(std::uint64_t bytes) const;
 
   std::filesystem::path path_;
   std::unique_ptr<PackedFile> file_;
-  std::uint64_t file_size_ = 0;
-  std::uint64_t unpacked_size_ = 0;
   std::uint64_t position_ = 0;
+  std::uint64_t unpacked_ = 0;  // so far
+  std::uint64_t most_ = UINT64_MAX;  // of it
+  std::uint64_t by_ratio_ = UINT64_MAX;
   std::string ahead_;  // read from the file ...
   std::size_t ahead_from_ = 0;  // ... and handed out up to here
   bool damaged_ = false;
@@ -84,15 +99,13 @@ class GzipInput final : public mrpt::io::CStream
 
 /// Throws std::runtime_error "path: damaged" for a compressed file whose content fails its own
 /// check; one that is merely cut off passes. MRPT's readers may crash on objects with wrong
-/// bytes in them, so this is called before them. Costs one decompression of the file.
-void requireIntact(const std::filesystem::path& path);
+/// bytes in them, so this is called before them. Costs one decompression of the file. Refuses one
+/// that unpacks to more than both `always` bytes and 50 times its size.
+void requireIntact(const std::filesystem::path& path, std::uint64_t always = kAlwaysUnpacked);
 
-constexpr std::size_t kAlwaysUnpacked = 1U << 26U;  // bytes
-
-/// Returns what a file holds, unpacked. Throws std::runtime_error "path: reason" for a file that is
-/// missing, empty or damaged, or holds too much. That is more than 4 GB, or more than both `always`
-/// bytes and 50 times its size.
-std::string unpackedBytes(const std::filesystem::path& path, std::size_t always = kAlwaysUnpacked);
+/// Returns the next bytes of a file: `most`, or a few more, or all that are left. Throws
+/// std::runtime_error "path: reason" for a file that is damaged.
+std::string restOf(GzipInput& input, std::uint64_t most = kMostUnpacked);
 
 /// Returns "; did you mean '...'?" with the entry of the path's folder whose name is nearest to
 /// that of a file that does not exist, or an empty text.

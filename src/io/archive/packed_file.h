@@ -14,6 +14,10 @@ namespace sigloc::detail
 class PackedFile
 {
  public:
+  PackedFile(std::uint64_t file_size, std::uint64_t unpacked_size)
+      : file_size_(file_size), unpacked_size_(unpacked_size)
+  {
+  }
   virtual ~PackedFile() = default;
 
   /// Returns the bytes read, fewer than `count` at the end or where the file is broken.
@@ -22,17 +26,22 @@ class PackedFile
   virtual bool broken() const = 0;
   /// True once the compressed data failed its check; false where it merely broke off.
   virtual bool wrong() const = 0;
-  /// True for a file that is not compressed, once something was read.
+  /// True for a file that is not compressed.
   virtual bool plain() const = 0;
+  /// Bytes of the file as it is.
+  std::uint64_t fileSize() const { return file_size_; }
+  /// Bytes that the file holds when unpacked; a guess for one that is truncated or does not tell.
+  std::uint64_t unpackedSize() const { return unpacked_size_; }
+
+ private:
+  std::uint64_t file_size_;
+  std::uint64_t unpacked_size_;
 };
 
 /// True for bytes that begin a file compressed by gzip or zstd: four or more of them.
 bool beginsPacked(std::string_view bytes);
 
-/// Opens a file; null where that fails. `buffer` is in bytes.
-std::unique_ptr<PackedFile> openPacked(const std::filesystem::path& path, unsigned buffer);
-
-/// Returns how many bytes a file holds when unpacked; a guess for one that is truncated or does not
-/// tell.
-std::uint64_t unpackedSize(const std::filesystem::path& path, std::uint64_t file_size);
+/// Opens a file; null where that fails. It takes a buffer of at most `most_buffer` bytes, which is
+/// 4 kB or more.
+std::unique_ptr<PackedFile> openPacked(const std::filesystem::path& path, unsigned most_buffer);
 }  // namespace sigloc::detail

@@ -5,9 +5,11 @@
 #include <fmt/core.h>
 #include <png.h>
 
+#include <algorithm>
 #include <cctype>
 #include <csetjmp>
 #include <cstdio>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -49,7 +51,17 @@ int nextNumber(std::FILE* file)
   return number <= kMost ? number : -1;
 }
 
-GrayImage readPgm(std::FILE* file, bool text, const std::filesystem::path& path)
+/// Throws for a picture of more data than its file can hold, before memory or time is taken for it.
+void requireData(const std::filesystem::path& path, double least)
+{
+  std::error_code error;
+  const auto size = static_cast<double>(std::filesystem::file_size(path, error));
+  if (error || least > size) fail(path, "its picture is cut off");
+}
+
+using TakeRow = std::function<void(const GrayRow&)>;
+
+void readPgm(std::FILE* file, bool text, const std::filesystem::path& path, const TakeRow& take)
 {
   constexpr int kWhite = 255;
   constexpr int kMostWhite = 65535;
@@ -58,22 +70,36 @@ GrayImage readPgm(std::FILE* file, bool text, const std::filesystem::path& path)
   const int white = nextNumber(file);
   if (width < 0 || height < 0 || white < 1 || white > kMostWhite) fail(path, "not a PGM picture");
   requireSize(path, width, height);
-  GrayImage image;
-  image.width = static_cast<std::uint32_t>(width);
-  image.height = static_cast<std::uint32_t>(height);
-  // Row by row, so that no more is allocated than the file holds data for.
-  for (int y = 0; y < height; ++y)
+  // Of a text, a digit and what ends it.
+  requireData(path, (text || white > kWhite ? 2.0 : 1.0) * width * height);
+  GrayRow row;
+  row.width = static_cast<std::uint32_t>(width);
+  row.height = static_cast<std::uint32_t>(height);
+  row.shades.resize(row.width);
+  const auto shade_of = [&](int value)
   {
-    for (int x = 0; x < width; ++x)
+    if (value < 0 || std::feof(file) != 0) fail(path, "its picture is cut off");
+    if (value > white) fail(path, "its picture has a pixel whiter than white");
+    return static_cast<std::uint8_t>((value * kWhite + white / 2) / white);
+  };
+  for (; row.y < row.height; ++row.y)
+  {
+    if (!text && white == kWhite)  // almost every map
     {
-      int value = text ? nextNumber(file) : std::fgetc(file);
-      if (!text && white > kWhite && value >= 0) value = 256 * value + std::fgetc(file);
-      if (value < 0 || std::feof(file) != 0) fail(path, "its picture is cut off");
-      if (value > white) fail(path, "its picture has a pixel whiter than white");
-      image.shades.push_back(static_cast<std::uint8_t>((value * kWhite + white / 2) / white));
+      if (std::fread(row.shades.data(), 1, row.width, file) < row.width)
+        fail(path, "its picture is cut off");
     }
+    else
+    {
+      for (std::uint8_t& shade : row.shades)
+      {
+        int value = text ? nextNumber(file) : std::fgetc(file);
+        if (!text && white > kWhite && value >= 0) value = 256 * value + std::fgetc(file);
+        shade = shade_of(value);
+      }
+    }
+    take(row);
   }
-  return image;
 }
 
 /// What libpng calls back; it must not return.
@@ -111,11 +137,20 @@ bool readPngHead(const PngReader& reader, std::FILE* file)
   return true;
 }
 
+/// Reads all rows of an interlaced picture, of which none is whole before.
 bool readPngRows(const PngReader& reader, png_bytepp rows)
 {
   if (setjmp(png_jmpbuf(reader.png)) != 0) return false;
   png_read_image(reader.png, rows);
   png_read_end(reader.png, nullptr);
+  return true;
+}
+
+bool readPngRow(const PngReader& reader, png_bytep row, bool last)
+{
+  if (setjmp(png_jmpbuf(reader.png)) != 0) return false;
+  png_read_row(reader.png, row, nullptr);
+  if (last) png_read_end(reader.png, nullptr);
   return true;
 }
 
@@ -127,47 +162,64 @@ bool startPngRows(const PngReader& reader)
   return true;
 }
 
-GrayImage readPng(std::FILE* file, const std::filesystem::path& path)
+/// Turns the bytes of a row into its shades, and alphas.
+void setPixels(GrayRow& row, const std::uint8_t* bytes, std::size_t channels)
+{
+  if (channels == 1)
+  {
+    std::copy_n(bytes, row.width, row.shades.begin());
+    return;
+  }
+  const bool has_alpha = channels % 2 == 0;
+  const std::size_t colours = has_alpha ? channels - 1 : channels;
+  for (std::size_t x = 0; x < row.width; ++x, bytes += channels)
+  {
+    std::size_t sum = 0;
+    for (std::size_t c = 0; c < colours; ++c) sum += bytes[c];
+    row.shades[x] = static_cast<std::uint8_t>((sum + colours / 2) / colours);
+    if (has_alpha) row.alphas[x] = bytes[colours];
+  }
+}
+
+void readPng(std::FILE* file, const std::filesystem::path& path, const TakeRow& take)
 {
   constexpr unsigned kMostChannels = 4;
   const PngReader reader;
   if (reader.info == nullptr || !readPngHead(reader, file)) fail(path, "not a PNG picture");
-  GrayImage image;
-  image.width = png_get_image_width(reader.png, reader.info);
-  image.height = png_get_image_height(reader.png, reader.info);
-  requireSize(path, image.width, image.height);
+  GrayRow row;
+  row.width = png_get_image_width(reader.png, reader.info);
+  row.height = png_get_image_height(reader.png, reader.info);
+  requireSize(path, row.width, row.height);
   if (!startPngRows(reader)) fail(path, "its picture is damaged");
   const std::size_t channels = png_get_channels(reader.png, reader.info);
   const std::size_t row_bytes = png_get_rowbytes(reader.png, reader.info);
-  if (channels < 1 || channels > kMostChannels || row_bytes != channels * image.width)
+  if (channels < 1 || channels > kMostChannels || row_bytes != channels * row.width)
   {
     fail(path, "a PNG picture of an unknown kind");
   }
-  // Packing makes no picture smaller than by this, so it is asked before memory is taken.
-  constexpr double kBestPacking = 1100;
-  const double size = static_cast<double>(row_bytes) * image.height;
-  std::error_code error;
-  const auto file_size = static_cast<double>(std::filesystem::file_size(path, error));
-  if (error || size > kBestPacking * file_size) fail(path, "its picture is cut off");
-  std::vector<std::uint8_t> bytes(row_bytes * image.height);
-  std::vector<png_bytep> rows(image.height);
-  for (std::size_t y = 0; y < rows.size(); ++y) rows[y] = &bytes[y * row_bytes];
-  if (!readPngRows(reader, rows.data())) fail(path, "its picture is cut off or damaged");
-
-  const bool has_alpha = channels % 2 == 0;
-  const std::size_t colours = has_alpha ? channels - 1 : channels;
-  for (std::size_t at = 0; at < bytes.size(); at += channels)
+  constexpr double kBestPacking = 1100;  // no picture gets smaller than by this
+  requireData(path, static_cast<double>(row_bytes) * row.height / kBestPacking);
+  row.shades.resize(row.width);
+  if (channels % 2 == 0) row.alphas.resize(row.width);
+  const bool interlaced = png_get_interlace_type(reader.png, reader.info) != PNG_INTERLACE_NONE;
+  std::vector<std::uint8_t> bytes(row_bytes * (interlaced ? row.height : 1));
+  if (interlaced)
   {
-    std::size_t sum = 0;
-    for (std::size_t c = 0; c < colours; ++c) sum += bytes[at + c];
-    image.shades.push_back(static_cast<std::uint8_t>((sum + colours / 2) / colours));
-    if (has_alpha) image.alphas.push_back(bytes[at + colours]);
+    std::vector<png_bytep> rows(row.height);
+    for (std::size_t y = 0; y < rows.size(); ++y) rows[y] = &bytes[y * row_bytes];
+    if (!readPngRows(reader, rows.data())) fail(path, "its picture is cut off or damaged");
   }
-  return image;
+  for (; row.y < row.height; ++row.y)
+  {
+    if (!interlaced && !readPngRow(reader, bytes.data(), row.y + 1 == row.height))
+      fail(path, "its picture is cut off or damaged");
+    setPixels(row, &bytes[interlaced ? row.y * row_bytes : 0], channels);
+    take(row);
+  }
 }
 }  // namespace
 
-GrayImage readGrayImage(const std::filesystem::path& path)
+void readGrayImage(const std::filesystem::path& path, const TakeRow& take)
 {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
@@ -179,9 +231,9 @@ GrayImage readGrayImage(const std::filesystem::path& path)
   const int second = std::fgetc(file.get());
   if (first == EOF) fail(path, "is empty");
   if (first == 'P' && (second == '2' || second == '5'))
-    return readPgm(file.get(), second == '2', path);
+    return readPgm(file.get(), second == '2', path, take);
   if (first != 0x89 || second != 'P') fail(path, "is no PGM or PNG picture");
   std::rewind(file.get());
-  return readPng(file.get(), path);
+  readPng(file.get(), path, take);
 }
 }  // namespace sigloc::detail

@@ -74,12 +74,12 @@ Feature toLandmark(const std::vector<std::string_view>& row, const Columns& colu
 
 FeatureMap readLandmarks(const std::filesystem::path& path)
 {
-  const std::vector<std::string> lines = readLines(path);
   std::vector<Feature> landmarks;
   Columns columns;
-  for (std::size_t i = 0; i < lines.size(); ++i)
+  for (TextLines lines(path); lines.next();)
   {
-    std::string_view line = lines[i];
+    const std::size_t i = lines.index();
+    std::string_view line = lines.line();
     const bool comment = !line.empty() && line.front() == '#';
     if (comment) line.remove_prefix(1);
     const auto row = columnsIn(line, path, i);

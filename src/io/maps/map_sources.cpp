@@ -10,7 +10,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -110,8 +109,10 @@ MapKind kindOf(const std::filesystem::path& path)
 void appendBytes(const std::filesystem::path& path, std::string& bytes)
 {
   detail::requireFile(path);
+  const std::size_t before = bytes.size();
+  bytes.resize(before + std::filesystem::file_size(path));
   std::ifstream in(path, std::ios::binary);
-  bytes.append(std::istreambuf_iterator<char>(in), {});
+  in.read(bytes.data() + before, static_cast<std::streamsize>(bytes.size() - before));
 }
 
 std::string checksumOf(const std::filesystem::path& path)
@@ -178,9 +179,11 @@ std::filesystem::path folderNamedBy(const char* variable)
 
 FeatureMap build(const std::filesystem::path& path, const MapBuildingOptions& building,
                  const FeatureExtractorOptions& extraction, const ReadingOptions& reading,
-                 const MapProvenance& provenance, const MapProgress& progress)
+                 const MapProgress& progress)
 {
   MapSource source = readMapSource(path, reading);
+  // After reading, which refuses what is far too large for its checksum.
+  const MapProvenance provenance = provenanceOf(path, building, extraction, reading);
   try
   {
     if (auto* scans = std::get_if<std::vector<PosedScans>>(&source))
@@ -310,8 +313,7 @@ FeatureMap buildMapFromFile(const std::filesystem::path& path, const MapBuilding
   requireMapFile(path);
   FeatureMap map = kindOf(path) == MapKind::sigmap
                        ? loadSigmap(path)
-                       : build(path, building, extraction, reading,
-                               provenanceOf(path, building, extraction, reading), progress);
+                       : build(path, building, extraction, reading, progress);
   if (map.empty()) detail::fail(path, "no feature found in it");
   return map;
 }
@@ -343,11 +345,11 @@ CachedMap mapWithCache(const std::filesystem::path& source, const std::filesyste
   {
     return {buildMapFromFile(source, building, extraction), true, 0.0};
   }
-  const MapProvenance wanted = provenanceOf(source, building, extraction, reading);
   try
   {
     CachedMap cached{loadSigmap(cache), true, 0.0};
     const MapProvenance& found = cached.map.provenance();
+    const MapProvenance wanted = provenanceOf(source, building, extraction, reading);
     if (found.source_checksum == wanted.source_checksum &&
         found.options_digest == wanted.options_digest && !cached.map.empty())
     {
@@ -356,7 +358,7 @@ CachedMap mapWithCache(const std::filesystem::path& source, const std::filesyste
   }
   catch (const std::runtime_error&)
   {
-    // Missing or unreadable: built and written anew below.
+    // One of the two is missing or unreadable: built and written anew, or refused, below.
   }
   CachedMap fresh;
   fresh.map = buildMapFromFile(source, building, extraction, progress, reading);

@@ -129,13 +129,9 @@ struct Found
 /// Looks for the grid map in a file, else for the first map of points, and for landmarks.
 Found lookIn(const std::filesystem::path& path)
 {
-  requireFile(path);
-  requireIntact(path);
-  // A grid map may be far smaller than its cells, most of which are alike.
-  constexpr std::size_t kUsualGrid = 1U << 29U;  // bytes
-  const std::string all = unpackedBytes(path, kUsualGrid);
-  const std::string_view bytes = all;
-  const auto header = objectHeaderIn(bytes.substr(0, kLongestObjectHeader));
+  constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30U;
+  GzipInput input(path);
+  const auto header = objectHeaderIn(input.peek(kLongestObjectHeader));
   if (!header || header->old) fail(path, "not an MRPT file");
   const std::string_view name = withoutNamespace(header->name);
   const bool single =
@@ -145,8 +141,13 @@ Found lookIn(const std::filesystem::path& path)
     fail(path, "holds a '" + std::string(header->name) + "', not a map of a grid or of points" +
                    (name == kLandmarks ? kAdvice : ""));
   }
+  const std::size_t head = header->size;
+  requireIntact(path, kUsualGrid);
+  input.limitTo(kUsualGrid, kMostBytes);
+  const std::string all = restOf(input);
+  const std::string_view bytes = all;
   if (bytes.back() != kObjectEnd) fail(path, "truncated or damaged");
-  const std::size_t from = single ? 0 : header->size + 1;
+  const std::size_t from = single ? 0 : head + 1;
   Found found;
   const auto landmarks = findObject(bytes, from, kLandmarks);
   const auto items = landmarks ? itemsAt(bytes, *landmarks) : std::nullopt;

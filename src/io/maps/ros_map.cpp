@@ -107,21 +107,43 @@ RosMapHeader headerWithImage(const std::filesystem::path& path)
   fail(path, "its image " + header.image.string() + ": no such file" + hint);
 }
 
-/// Returns the raster of an image; `path` is the file to name where it makes no map.
-OccupancyRaster rasterOfImage(const GrayImage& image, const RosMapHeader& header,
-                              const std::filesystem::path& path)
+/// Returns the raster of an image, without the turn of its origin.
+OccupancyRaster rasterOfImage(const std::filesystem::path& image, const RosMapHeader& header)
 {
   OccupancyRaster raster;
-  raster.frame = {{header.origin.x, header.origin.y}, header.resolution, image.width, image.height};
-  raster.cells.reserve(image.shades.size());
-  for (std::size_t row = image.height; row-- > 0;)  // the image's last row is the map's lowest
-  {
-    for (std::size_t i = row * image.width; i < (row + 1) * image.width; ++i)
-    {
-      const int alpha = image.alphas.empty() ? kWhiteShade : image.alphas[i];
-      raster.cells.push_back(stateOfPixel(image.shades[i], alpha, !image.alphas.empty(), header));
-    }
-  }
+  std::array<CellState, kWhiteShade + 1> states{};  // of opaque pixels, which almost all are
+  readGrayImage(
+      image,
+      [&](const GrayRow& row)
+      {
+        const bool has_alpha = !row.alphas.empty();
+        if (row.y == 0)
+        {
+          raster.frame = {
+              {header.origin.x, header.origin.y}, header.resolution, row.width, row.height};
+          raster.cells.resize(std::size_t{row.width} * row.height);
+          for (int shade = 0; shade <= kWhiteShade; ++shade)
+          {
+            states[static_cast<std::size_t>(shade)] =
+                stateOfPixel(shade, kWhiteShade, has_alpha, header);
+          }
+        }
+        // The image's last row is the map's lowest.
+        CellState* const cells = &raster.cells[std::size_t{row.height - 1 - row.y} * row.width];
+        for (std::size_t x = 0; x < row.width; ++x)
+        {
+          const bool opaque = !has_alpha || row.alphas[x] == kWhiteShade;
+          cells[x] = opaque ? states[row.shades[x]]
+                            : stateOfPixel(row.shades[x], row.alphas[x], has_alpha, header);
+        }
+      });
+  return raster;
+}
+
+/// The same turned; `path` is the file to name where it makes no map.
+OccupancyRaster placed(OccupancyRaster raster, const RosMapHeader& header,
+                       const std::filesystem::path& path)
+{
   raster = turned(std::move(raster), header.origin.phi);
   requireWallAndFree(raster, path);
   return raster;
@@ -170,10 +192,22 @@ std::filesystem::path imageOfRosMap(const std::filesystem::path& path)
 std::string warningOfRosMap(const std::filesystem::path& path)
 {
   const RosMapHeader header = headerWithImage(path);
-  const GrayImage image = ofImage(header, path, readGrayImage);
-  if (!takesUnknownForFree(header, !image.alphas.empty())) return {};
   const int unknown = unknownShade(header);
-  if (std::count(image.shades.begin(), image.shades.end(), unknown) == 0) return {};
+  bool has_alpha = false;
+  bool has_unknown = false;
+  ofImage(header, path,
+          [&](const std::filesystem::path& image)
+          {
+            readGrayImage(image,
+                          [&](const GrayRow& row)
+                          {
+                            has_alpha = !row.alphas.empty();
+                            has_unknown =
+                                has_unknown || std::find(row.shades.begin(), row.shades.end(),
+                                                         unknown) != row.shades.end();
+                          });
+          });
+  if (!has_unknown || !takesUnknownForFree(header, has_alpha)) return {};
   const std::string cause = header.mode == RosMapMode::scale ? "mode" : "free_thresh";
   return "its " + cause + " would make free what the image shows as never seen (shade " +
          std::to_string(unknown) + "); it is taken as unknown";
@@ -182,12 +216,15 @@ std::string warningOfRosMap(const std::filesystem::path& path)
 OccupancyRaster readRosMap(const std::filesystem::path& path)
 {
   const RosMapHeader header = headerWithImage(path);
-  return rasterOfImage(ofImage(header, path, readGrayImage), header, path);
+  const auto read = [&](const std::filesystem::path& image)
+  { return rasterOfImage(image, header); };
+  return placed(ofImage(header, path, read), header, path);
 }
 
 OccupancyRaster readMapImage(const std::filesystem::path& path, const ReadingOptions& reading)
 {
   requireResolution(path, reading);
-  return rasterOfImage(readGrayImage(path), headerOfImage(reading), path);
+  const RosMapHeader header = headerOfImage(reading);
+  return placed(rasterOfImage(path, header), header, path);
 }
 }  // namespace sigloc::detail

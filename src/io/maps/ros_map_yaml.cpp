@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/maps/ros_map_yaml.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -216,7 +217,9 @@ RosMapHeader parseRosMapYaml(std::string_view text, const std::filesystem::path&
 RosMapHeader readRosMapHeader(const std::filesystem::path& path)
 {
   requireFile(path);
-  std::string text(kMostBytes + 1, '\0');
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  std::string text(std::min<std::uintmax_t>(size, kMostBytes) + 1, '\0');
   std::ifstream file(path, std::ios::binary);
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(file.gcount()));

@@ -71,6 +71,14 @@ std::optional<std::size_t> countIn(std::string_view word)
   return static_cast<std::size_t>(*number);
 }
 
+std::string bytesOfPoints(GzipInput& input, const PointData& data)
+{
+  if (!input.isPlain()) return restOf(input);  // its checksum is at its end
+  const auto size = static_cast<double>(input.getTotalBytesCount());
+  if (data.least > size) fail(input.path(), "is cut off");
+  return restOf(input, static_cast<std::uint64_t>(std::min(data.most, size)) + 1);
+}
+
 std::string_view takeLine(std::string_view& text)
 {
   const std::size_t end = std::min(text.find('\n'), text.size());

@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "io/archive/file_fault.h"
+#include "io/archive/gzip_input.h"
 #include "io/points/point_files.h"
 
 // What the readers of files of points share.
@@ -34,6 +35,20 @@ const NumberKind* kindOf(std::string_view name);
 
 /// Returns the whole number from 0 to 4e9 that a word spells.
 std::optional<std::size_t> countIn(std::string_view word);
+
+constexpr std::size_t kMostHead = 65536;  // bytes of a header
+constexpr std::uint64_t kLongestRow = 4096;  // bytes of a point as text
+
+/// What a header tells of the data up to the last point.
+struct PointData
+{
+  double least = 0;  ///< bytes it takes
+  double most = 0;  ///< bytes in which it is, the header included
+};
+
+/// Reads what a file of points holds up to there. Throws std::runtime_error "path: reason" for a
+/// file that is damaged, or smaller than its data.
+std::string bytesOfPoints(GzipInput& input, const PointData& data);
 
 /// Takes the next line off a text.
 std::string_view takeLine(std::string_view& text);

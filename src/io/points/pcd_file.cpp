@@ -4,7 +4,6 @@
 #include <string_view>
 #include <vector>
 
-#include "io/archive/gzip_input.h"
 #include "io/points/number_fields.h"
 #include "io/text_rows.h"
 
@@ -193,11 +192,25 @@ std::size_t bytesOfPoint(const PcdHeader& header)
   for (const PcdField& field : header.fields) bytes += field.kind->bytes * field.count;
   return bytes;
 }
+/// Judges by the header how much of the file must be read: up to the last point.
+PointData dataOf(const PcdHeader& header)
+{
+  const auto points = static_cast<double>(header.points);
+  const auto fields = static_cast<double>(header.fields.size());
+  const double bytes = points * static_cast<double>(bytesOfPoint(header));
+  // A digit and what ends it.
+  if (header.data == "ascii") return {2 * points * fields, kMostHead + points * kLongestRow};
+  if (header.data == "binary") return {bytes, kMostHead + bytes};
+  return {0, kMostUnpacked};
+}
 }  // namespace
 
 PointList readPcd(const std::filesystem::path& path)
 {
-  const std::string bytes = unpackedBytes(path);
+  GzipInput input(path);
+  input.limitTo(kAlwaysUnpacked);
+  std::string_view begin = input.peek(kMostHead).substr(0, kMostHead);
+  const std::string bytes = bytesOfPoints(input, dataOf(takePcdHeader(begin, path)));
   std::string_view data = bytes;
   const PcdHeader header = takePcdHeader(data, path);
   const Places places = placesIn(header, path);

@@ -5,7 +5,6 @@
 #include <string_view>
 #include <vector>
 
-#include "io/archive/gzip_input.h"
 #include "io/points/number_fields.h"
 #include "io/text_rows.h"
 
@@ -110,11 +109,36 @@ void takePlyElement(std::string_view& data, const PlyElement& element, bool swap
   }
 }
 
+/// Judges by the header how much of the file must be read: up to the last vertex.
+PointData dataOf(const PlyHeader& header)
+{
+  const bool text = header.format == "ascii";
+  PointData data{0, kMostHead};
+  for (const PlyElement& element : header.elements)
+  {
+    double least = 0;
+    double most = text ? kLongestRow : 0;
+    for (const PlyProperty& property : element.properties)
+    {
+      const NumberKind& kind = property.length == nullptr ? *property.kind : *property.length;
+      least += text ? 2.0 : static_cast<double>(kind.bytes);  // a digit and what ends it
+      if (!text)
+        most += property.length == nullptr ? static_cast<double>(kind.bytes) : kMostUnpacked;
+    }
+    data.least += static_cast<double>(element.count) * least;
+    data.most += static_cast<double>(element.count) * most;
+    if (element.name == "vertex") break;
+  }
+  return data;
+}
 }  // namespace
 
 PointList readPly(const std::filesystem::path& path)
 {
-  const std::string bytes = unpackedBytes(path);
+  GzipInput input(path);
+  input.limitTo(kAlwaysUnpacked);
+  std::string_view begin = input.peek(kMostHead).substr(0, kMostHead);
+  const std::string bytes = bytesOfPoints(input, dataOf(takePlyHeader(begin, path)));
   std::string_view data = bytes;
   const PlyHeader header = takePlyHeader(data, path);
   const bool text = header.format == "ascii";

@@ -81,15 +81,15 @@ bool areDense(const PointList& points)
 
 std::optional<PointList> pointRowsOf(const std::filesystem::path& path)
 {
-  const std::vector<std::string> lines = readLines(path);
   PointList points;
   bool named = false;
   std::size_t columns = 0;  // of the first row
   std::size_t last = 0;  // line with a row
   std::optional<std::size_t> odd;  // the first line with a row that is not like the first
-  for (std::size_t i = 0; i < lines.size(); ++i)
+  for (TextLines lines(path); lines.next();)
   {
-    std::string_view line = lines[i];
+    const std::size_t i = lines.index();
+    std::string_view line = lines.line();
     const bool comment = !line.empty() && (line.front() == '#' || line.front() == '%');
     if (comment) line.remove_prefix(1);
     const Row row = columnsIn(line, path, i);

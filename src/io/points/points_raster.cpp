@@ -81,15 +81,17 @@ RasterFrame frameAround(const std::vector<TPoint2D>& points, double resolution,
   return frame;
 }
 
-/// Returns the raster with its walls; all else is unknown.
-OccupancyRaster wallsOf(const std::vector<TPoint2D>& points, const RasterFrame& frame)
+/// A point in its cell.
+struct Hit
 {
-  struct Hit
-  {
-    std::size_t cell;
-    double x;  // [cells] from its middle
-    double y;
-  };
+  std::size_t cell;
+  double x;  // [cells] from its middle
+  double y;
+};
+
+/// Returns the hits in the order of their cells.
+std::vector<Hit> hitsOf(const std::vector<TPoint2D>& points, const RasterFrame& frame)
+{
   std::vector<Hit> hits;
   hits.reserve(points.size());
   for (const TPoint2D& point : points)
@@ -101,6 +103,12 @@ OccupancyRaster wallsOf(const std::vector<TPoint2D>& points, const RasterFrame& 
   }
   std::stable_sort(hits.begin(), hits.end(),
                    [](const Hit& a, const Hit& b) { return a.cell < b.cell; });
+  return hits;
+}
+
+/// Returns the raster with its walls; all else is unknown.
+OccupancyRaster wallsOf(const std::vector<Hit>& hits, const RasterFrame& frame)
+{
   const std::size_t size = std::size_t{frame.width} * frame.height;
   OccupancyRaster raster{frame, std::vector<CellState>(size, CellState::unknown), {}};
   raster.hits.resize(size);
@@ -124,27 +132,30 @@ OccupancyRaster wallsOf(const std::vector<TPoint2D>& points, const RasterFrame& 
   return raster;
 }
 
-/// Returns whether walls are lines of cells: most wall cells have two others beside them.
-bool areLines(const OccupancyRaster& raster)
+/// Returns whether walls are lines of cells: most wall cells have two others beside them. It is
+/// asked before memory is taken for all cells.
+bool areLines(const std::vector<Hit>& hits, std::size_t width)
 {
   constexpr double kMost = 0.7;
-  const std::size_t width = raster.frame.width;
-  std::size_t walls = 0;
-  std::size_t linked = 0;
-  // No wall is at the border, because of the margin.
-  for (std::size_t i = width + 1; i + width + 1 < raster.cells.size(); ++i)
+  std::vector<std::size_t> walls;
+  for (const Hit& hit : hits)
   {
-    if (!isWall(raster.cells[i])) continue;
-    int beside = 0;
-    for (const std::size_t row : {i - width, i, i + width})
+    if (walls.empty() || walls.back() != hit.cell) walls.push_back(hit.cell);
+  }
+  std::size_t linked = 0;
+  for (const std::size_t wall : walls)
+  {
+    std::ptrdiff_t beside = 0;
+    // No wall is at the border, because of the margin.
+    for (const std::size_t middle : {wall - width, wall, wall + width})
     {
-      for (const std::size_t cell : {row - 1, row, row + 1})
-        beside += isWall(raster.cells[cell]) ? 1 : 0;
+      const auto first = std::lower_bound(walls.begin(), walls.end(), middle - 1);
+      const auto last = first + std::min<std::ptrdiff_t>(3, walls.end() - first);
+      beside += std::upper_bound(first, last, middle + 1) - first;
     }
-    ++walls;
     linked += beside >= 3 ? 1 : 0;  // with itself
   }
-  return static_cast<double>(linked) >= kMost * static_cast<double>(walls);
+  return static_cast<double>(linked) >= kMost * static_cast<double>(walls.size());
 }
 
 /// Returns whether a place is among walls: most rays from it meet one.
@@ -154,9 +165,10 @@ bool isEnclosed(const RayCaster& caster, const TPoint2D& place)
   constexpr int kMostOpen = 10;
   constexpr double kRange = 30;  // [m]
   int open = 0;
-  for (int i = 0; i < kRays && open <= kMostOpen; ++i)
+  int closed = 0;
+  for (int i = 0; open <= kMostOpen && closed < kRays - kMostOpen; ++i)
   {
-    if (!caster.cast(place, 2 * M_PI * i / kRays, kRange)) ++open;
+    ++(caster.cast(place, 2 * M_PI * i / kRays, kRange) ? closed : open);
   }
   return open <= kMostOpen;
 }
@@ -194,12 +206,25 @@ OccupancyRaster rasterOfPoints(const PointList& points, const ReadingOptions& re
                                const std::filesystem::path& path)
 {
   const std::vector<TPoint2D> kept = pointsInBand(points, reading, path);
-  OccupancyRaster raster;
+  RasterFrame frame;
+  std::vector<Hit> hits;
+  bool lines = false;
   for (const double resolution : {0.05, 0.1, 0.2})
   {
-    raster = wallsOf(kept, frameAround(kept, resolution, path));
-    if (areLines(raster)) break;
+    frame = frameAround(kept, resolution, path);
+    hits = hitsOf(kept, frame);
+    lines = areLines(hits, frame.width);
+    if (lines) break;
   }
+  // Rays from everywhere in so large a map take minutes.
+  constexpr double kMostWithoutLines = 6e6;  // cells of 0.2 m: a quarter of a square kilometre
+  if (!lines && static_cast<double>(frame.width) * frame.height > kMostWithoutLines)
+  {
+    fail(path,
+         fmt::format("{} points scattered over {:.0f} m x {:.0f} m, which make no walls",
+                     kept.size(), frame.width * frame.resolution, frame.height * frame.resolution));
+  }
+  OccupancyRaster raster = wallsOf(hits, frame);
   guessFreeSpace(raster);
   return raster;
 }

@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Files of gigabytes that are no maps, and small ones that unpack to gigabytes. They are refused by
+// their beginning or by their size, before memory or time is taken for the rest.
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include "bridge/map_error.h"
+#include "bridge/rawlog_files.h"
+#include "io/archive/gzip_input.h"
+#include "io/text_rows.h"
+#include "sigloc/io/RawlogReader.h"
+
+namespace sigloc
+{
+namespace
+{
+using namespace sigloc::test;
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t kSize = std::uintmax_t{3} << 30U;  // bytes
+const fs::path kLog = kDatasets / "localization_demo.rawlog";
+const fs::path kMap = kDatasets / "localization_demo.simplemap.gz";
+
+/// The most memory of this process so far [kB].
+long peak()
+{
+  rusage usage = {};
+  getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_maxrss;
+}
+
+/// A file that begins so and is a hole from there on. It takes no room on the disk.
+void writeLarge(const fs::path& path, const std::string& head)
+{
+  writeText(path, head);
+  fs::resize_file(path, kSize);
+}
+
+std::string unpacked(const fs::path& path, std::size_t most)
+{
+  detail::GzipInput input(path);
+  std::string bytes(most, '\0');
+  bytes.resize(input.Read(bytes.data(), most));
+  return bytes;
+}
+
+/// Writes some bytes and 600 MB of zeros, packed by gzip.
+void writeBomb(const fs::path& path, const std::string& head)
+{
+  mrpt::io::CFileGZOutputStream file(path.string(), mrpt::io::OpenMode::TRUNCATE, 1);
+  file.Write(head.data(), head.size());
+  const std::string zeros(std::size_t{1} << 20U, '\0');
+  for (int i = 0; i < 600; ++i) file.Write(zeros.data(), zeros.size());
+}
+
+TEST(LargeFiles, AreRefusedByTheirBeginningOrSize)
+{
+  const TemporaryFolder folder;
+  ReadingOptions reading;
+  reading.image_resolution = 0.05;
+  struct Case
+  {
+    const char* name;
+    std::string head;
+    const char* reason;
+  };
+  const std::vector<Case> cases = {
+      {"m.csv", "x,y\n1,2\n", "holds more than 256 MB"},
+      {"m.txt", "1 2 3\n", "holds more than 256 MB"},
+      {"m.log", "PARAM x 1\n", "holds more than 1024 MB"},
+      {"m.ply", "ply\nformat ascii 1.0\n", "header"},
+      {"m.ply", "ply\nformat ascii 1.0\nelement vertex 3\n", "header"},
+      {"m.pcd", "# .PCD\n", "not a PCD file"},
+      {"m.png", "\x89PNG\r\n\x1a\n", "not a PNG picture"},
+      {"m.pgm", "P5\n10 10\n255\n", "has no free cell"},
+      {"m.pgm", "P5\n90000 90000\n255\n", "90000 x 90000 pixels"},
+      {"m.yaml", "image: m.pgm\n", "more than 64 kB"},
+      {"m.sigmap", "(\xb5/\xfd", "not a .sigmap"},
+      {"m.sigmap", "none", "not a .sigmap"},
+      {"m.metricmap", "\x9f", "not an MRPT file"},
+      {"m.metricmap", "\x9bmrpt::maps::CMultiMetricMap\x0b", "holds more than 1024 MB"},
+      {"m.simplemap", unpacked(kMap, 200), "truncated or damaged"},
+      {"m.gridmap", "\x9fmrpt::maps::COccupancyGridMap2D\6", "truncated or damaged"},
+  };
+  const long before = peak();
+  for (const Case& large : cases)
+  {
+    writeLarge(folder / large.name, large.head);
+    const std::string message = mapErrorOf(folder / large.name, reading);
+    EXPECT_EQ(message.rfind((folder / large.name).string() + ": ", 0), 0U) << message;
+    EXPECT_NE(message.find(large.reason), std::string::npos) << large.reason << ": " << message;
+    fs::remove(folder / large.name);
+  }
+  EXPECT_LT(peak() - before, 150000) << "[kB]";
+}
+
+TEST(LargeFiles, TextWithoutEndIsRefused)
+{
+  const TemporaryFolder folder;
+  writeText(folder / "m.csv", std::string(std::size_t{9} << 20U, 'x'));
+  EXPECT_NE(mapErrorOf(folder / "m.csv").find("line 1: longer than 8 MB"), std::string::npos);
+  writeText(folder / "rows", "a\n\nb\n");
+  std::string lines;
+  for (detail::TextLines rows(folder / "rows"); rows.next();)
+    lines += std::to_string(rows.index()) + std::string(rows.line()) + " ";
+  EXPECT_EQ(lines, "0a 1 2b ");
+  EXPECT_THROW(detail::TextLines(folder / "rows", 4), std::runtime_error);
+}
+
+TEST(LargeFiles, WhatUnpacksToGigabytesIsRefusedOnTheWay)
+{
+  const TemporaryFolder folder;
+  const std::string map = unpacked(kMap, std::size_t{1} << 24U);
+  const long before = peak();
+  const std::string grid = "\x9fmrpt::maps::COccupancyGridMap2D\6";
+  for (const auto& [name, head] : {std::pair<const char*, std::string>{"m.simplemap", map},
+                                   {"m.gridmap", grid},
+                                   {"m.metricmap", grid},
+                                   {"m.csv.gz", "x,y\n"}})
+  {
+    writeBomb(folder / name, head);
+    const std::string message = mapErrorOf(folder / name);
+    const bool text = std::string(name) == "m.csv.gz";
+    EXPECT_EQ(message,
+              (folder / name).string() +
+                  (text ? ": not a text file" : ": unpacks to more than 50 times its size"));
+  }
+  writeBomb(folder / "m.rawlog", unpacked(kLog, std::size_t{1} << 20U));
+  EXPECT_EQ(messageOf<std::runtime_error>([&] { RawlogReader(folder / "m.rawlog"); }),
+            (folder / "m.rawlog").string() + ": unpacks to more than 50 times its size");
+  EXPECT_LT(peak() - before, 150000) << "[kB]";
+}
+
+TEST(LargeFiles, AHoleInPackedDataEnds)
+{
+  const TemporaryFolder folder;
+  // Zeros are blocks of nothing to zstd.
+  writeLarge(folder / "m.simplemap", std::string("(\xb5/\xfd\0X", 6));
+  EXPECT_EQ(mapErrorOf(folder / "m.simplemap"),
+            (folder / "m.simplemap").string() + ": truncated or damaged");
+}
+}  // namespace
+}  // namespace sigloc
