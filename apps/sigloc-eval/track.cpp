@@ -101,6 +101,7 @@ struct TrackFlags
     for (const std::string& name : worlds) simulated.kinds.push_back(worldKindFrom(name));
     simulated.travel = options.travel;
     simulated.kidnap = options.kidnap;
+    simulated.odometry = options.odometry;
     simulated.foreign = options.foreign;
     common.passTo(simulated, command_line);
     checkUse(simulated.methods,
@@ -152,11 +153,9 @@ void declareSimulation(CLI::App& command, TrackFlags& flags)
   addNumber(command, "--mapped-share", options.mapped_share, "share of the world that is mapped",
             1e-3, 1);
   addNumber(command, "--map-sigma", options.map_sigma, "[m] error common to all of a map", 0, 100);
-  command.add_flag("!--no-odometry", options.odometry, "scans alone");
   simulate->group(group);
-  for (const char* of_simulations :
-       {"--drives-per-world", "--worlds", "--clutter", "--moved-share", "--unmapped",
-        "--mapped-share", "--map-sigma", "--no-odometry"})
+  for (const char* of_simulations : {"--drives-per-world", "--worlds", "--clutter", "--moved-share",
+                                     "--unmapped", "--mapped-share", "--map-sigma"})
   {
     command.get_option(of_simulations)->needs(simulate)->group(group);
   }
@@ -200,6 +199,7 @@ std::function<int()> setUpTrack(CLI::App& command, const std::string& command_li
   command.add_flag("--foreign", options.foreign,
                    "the map is of another place: every claim is wrong, and no truth is read");
   command.add_flag("--kidnap", options.kidnap, "half-way, carry the robot to another start");
+  command.add_flag("!--no-odometry", options.odometry, "scans alone");
   addPoseOption(command, "--map-from-truth", flags->map_from_truth,
                 "frame of the truth in the map");
   for (const char* of_two_files : {"--start-from", "--foreign", "--map-from-truth"})

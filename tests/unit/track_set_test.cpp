@@ -110,6 +110,26 @@ TEST(TrackSetUpdate, AScanThatFitsBadlySaysLessOfThePose)
   EXPECT_NEAR(drawn_back(10), 0, 0.05) << "nothing is explained, and nothing breaks";
 }
 
+TEST(TrackSetUpdate, WithoutOdometryATrackDrivesOnAsItDidAndKeepsItsHeading)
+{
+  const DenseField field = room();
+  const DenseVerifier verifier(field);
+  TrackSet set{TrackerOptions{}};
+  set.tracks.resize(1);
+  GaussianPose& pose = set.tracks[0].hypothesis.pose;
+  pose.mean = {4.8, 4.0, 0.1};
+  pose.covariance = mrpt::math::CMatrixDouble33::Identity();
+  set.predict(std::nullopt);
+  EXPECT_NEAR(pose.mean.x, 4.8, 1e-9) << "a new track has not moved yet";
+  set.update(makeDenseScan(lookAround(0), 180), verifier);
+  ASSERT_NEAR(pose.mean.x, 5.0, 0.02);
+  const double heading = pose.mean.phi;
+  ASSERT_LT(heading, 0.05) << "it has turned back";
+  set.predict(std::nullopt);
+  EXPECT_NEAR(pose.mean.x, 5.2, 0.03);
+  EXPECT_NEAR(pose.mean.phi, heading, 1e-9) << "the turn does not go on";
+}
+
 TEST(TrackSetStanding, TheFirstTellsWhetherTheRobotIsInTheMap)
 {
   TrackSet set = setOf({newcomer(0.9, 1, 0), newcomer(0.1, 1, 0)});

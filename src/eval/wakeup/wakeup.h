@@ -42,6 +42,7 @@ struct WakeupOptions
   bool apart = false;  ///< as many starts as there are whose drives share no step, in place of that
   double travel = 20;  ///< [m] driven after a start, and again after a kidnapping
   bool kidnap = false;
+  bool odometry = true;  ///< false: the log's is left out, and scans alone tell
   bool foreign = false;
   std::vector<std::string> methods = {"signature", "mcl"};
   AccuracyGates gates;

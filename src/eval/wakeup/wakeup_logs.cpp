@@ -207,9 +207,8 @@ LoggedDrive readOwnFrames(const WakeupOptions& options)
   log.files.insert(log.files.end(), {options.rawlog, options.ground_truth});
   return log;
 }
-}  // namespace
 
-LoggedDrive readLoggedDrive(const WakeupOptions& options)
+LoggedDrive readLog(const WakeupOptions& options)
 {
   if (!options.landmarks.empty())
   {
@@ -227,6 +226,19 @@ LoggedDrive readLoggedDrive(const WakeupOptions& options)
   log.drive = readDrive(options, log.map.mapped_poses, {});
   log.files.push_back(options.ground_truth);
   if (!options.start_from.empty()) log.files.push_back(options.start_from);
+  return log;
+}
+}  // namespace
+
+LoggedDrive readLoggedDrive(const WakeupOptions& options)
+{
+  LoggedDrive log = readLog(options);
+  if (options.odometry) return log;
+  for (WakeupDriveStep& step : log.drive.steps)
+  {
+    step.step.motion.reset();
+    step.step.actions.reset();
+  }
   return log;
 }
 }  // namespace sigloc::detail

@@ -49,6 +49,8 @@ struct Track
 {
   TrackedHypothesis hypothesis;
   double score = 0;  // of the last scan
+  mrpt::math::TPose2D left;  // pose before the last prediction
+  mrpt::math::TPose2D moved;  // from there to the updated pose
   DenseEvidence evidence;  // of the last scan
   mrpt::math::TPose2D evaluated_at;  // pose at which the observed cells are evaluated
   double mean_score = 0;  // running mean

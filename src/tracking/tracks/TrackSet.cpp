@@ -70,11 +70,13 @@ double TrackSet::predict(const std::optional<MotionIncrement>& motion)
     increment.covariance(0, 0) = options_.free_motion_sigma * options_.free_motion_sigma;
     increment.covariance(1, 1) = increment.covariance(0, 0);
     increment.covariance(2, 2) = options_.free_turn_sigma * options_.free_turn_sigma;
-    if (!tracks.empty()) left_ = heaviest().hypothesis.pose.mean;
   }
   const double travel = motion ? travelOf(increment.mean, options_) : options_.lost_distance;
   for (Track& track : tracks)
   {
+    // A robot drives on more steadily than it turns.
+    if (!motion) increment.mean = {track.moved.x, track.moved.y, 0};
+    track.left = track.hypothesis.pose.mean;
     track.hypothesis.pose = composeWithMotion(track.hypothesis.pose, increment);
     ++track.hypothesis.age;
     track.found = false;
@@ -100,13 +102,12 @@ void TrackSet::score(const DenseScan& scan, const DenseVerifier& verifier)
   look(scan);
 }
 
-/// Notes which cells the scan shows. Without odometry the heaviest track tells how the robot moved.
+/// Notes which cells the scan shows, and how far each track has moved. Without odometry the
+/// heaviest track tells how the robot moved.
 void TrackSet::look(const DenseScan& scan)
 {
-  if (!has_odometry_ && !tracks.empty())
-  {
-    ground_ = ground_ + (heaviest().hypothesis.pose.mean - left_);
-  }
+  for (Track& track : tracks) track.moved = track.hypothesis.pose.mean - track.left;
+  if (!has_odometry_ && !tracks.empty()) ground_ = ground_ + heaviest().moved;
   view_ = observedCells(scan, ground_);
 }
 

@@ -35,7 +35,8 @@ class TrackSet
  public:
   explicit TrackSet(const TrackerOptions& options) : options_(options) {}
 
-  /// Moves every track by the odometry; returns the travel [m], turns included. Eq. (8.1), (8.2)
+  /// Moves every track by the odometry, and without one on as in its last step. Returns the travel
+  /// [m], turns included. Eq. (8.1), (8.2)
   double predict(const std::optional<MotionIncrement>& motion);
 
   /// Refines every track by the returns and scores it. Must be called first for every scan.
@@ -145,7 +146,6 @@ class TrackSet
   bool has_odometry_ = true;  // of the last prediction
   // The robot's pose by odometry alone; without odometry, by the heaviest track.
   mrpt::math::TPose2D ground_;
-  mrpt::math::TPose2D left_;  // pose of the heaviest track before the last prediction
   ObservedCells view_;  // of the last scan, from ground_
   double unexplained_ = 0;  // fading mean of the share that the best track leaves unexplained
 };
