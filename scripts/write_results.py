@@ -16,7 +16,7 @@ from results import data_use, drives, growth, integrity, opponents, plots, scans
 from results.page import bullets, paragraph
 from results.runs import BadInput, Bench
 
-MAX_LINES = 360
+MAX_LINES = 380
 
 
 def introduction(bench):
@@ -40,7 +40,8 @@ def introduction(bench):
 
 
 def page(bench, drawn):
-    makers = (data_use.data, scans.one_scan, opponents.opponents, opponents.cbgl, scans.foreign, drives.wake_ups, drives.particle_filter,
+    makers = (data_use.data, scans.one_scan, opponents.opponents, opponents.cbgl, scans.foreign,
+              drives.wake_ups, drives.scans_alone, drives.particle_filter,
               integrity.misleading, integrity.apart, integrity.coverage, integrity.reliability,
               drives.landmarks, simulated.wake_ups, simulated.foreign, simulated.sweeps,
               growth.growth, growth.area, growth.lost)  # fmt: skip

@@ -6,6 +6,7 @@ from results.page import Section, Table
 
 WAKE_UPS = "Wake-ups on recorded drives"
 FILTER = "MRPT's particle filter on the same drives"
+SCANS_ALONE = "Wake-ups on recorded drives without odometry"
 LANDMARKS = "Single answers from landmarks"
 
 FILTER_PLACES = ("campus", "intel")
@@ -25,6 +26,9 @@ DRIVES = (
     ("track-dlr", "dlr, landmarks", 20),
     ("track-victoria-park", "victoria-park, landmarks", 20),
 )
+# The same starts without the odometry of the log: run, name of the row, metres driven.
+DRIVES_ALONE = tuple((run.replace("track-", "alone-"), name, metres) for run, name, metres in DRIVES
+                     if name in ("campus", "intel", "fhw", "acapulco", "infinite-corridor"))  # fmt: skip
 
 
 def settle(method):
@@ -69,6 +73,21 @@ def wake_ups(bench):
             "One that was not sure before has noticed at once.",
         ]
     return Section(WAKE_UPS, table, text, "wake-ups.png")
+
+
+def scans_alone(bench):
+    table = Table("drive", "metres", "starts", "right at the end", "wrong at some step",
+                  "of them on mapped area", "metres to settle", "median ms a step")  # fmt: skip
+    for run, name, metres in DRIVES_ALONE:
+        method = bench.method(run)
+        if method is not None:
+            table.add(name, metres, method["queries"], *row(method), number(method["step_ms"]["median"], 2))
+    text = (
+        "Asked: and if the odometry of the log is left out?",
+        "Without odometry a track drives on as in its last step, with 0.3 m and 0.2 rad.",
+        "Many steps of acapulco and infinite-corridor are longer than that. No constant was chosen with these drives in view.",
+    )
+    return Section(SCANS_ALONE, table, text)
 
 
 def laser_rows(table):

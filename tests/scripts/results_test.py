@@ -114,6 +114,7 @@ class Bench:
         self.add("track-campus", {"signature": drive(19, 20)}, rows)
         self.add("track-intel-kidnapped", {"signature": {**drive(1, 2, 1), "noticed_counts": [2, 2]}},
                  ["signature,0,,1,1.5,0", "signature,1,,0,,1"])  # fmt: skip
+        self.add("alone-campus", {"signature": drive(17, 20, 1)}, rows)
         self.add("apart-campus", {"signature": drive(1, 1)}, rows[:1])
         self.add("apart-fhw", {"signature": drive(1, 1)}, rows[:1])
         self.add("apart-fhw-reversed", {"signature": drive(1, 2)}, rows)
@@ -178,6 +179,8 @@ class ResultsTest(unittest.TestCase):
         self.assertIn("| all but those trained on | 100 | 1 = 1.00 % (0.18-5.45) | 1 | 0 = 0.00 %", page)
         self.assertIn("| half of the furniture moved: all | 200 | 0.900", page)
         self.assertNotIn("furniture moved: hall", page)
+        self.assertIn("| campus | 20 | 20 | 0.850 (0.64-0.95) | 1 |", page)  # without odometry
+        self.assertIn("| the same starts without odometry, five sets | 2 |", page)
         self.assertTrue((self.docs / "images" / "wake-ups.png").read_bytes().startswith(b"\x89PNG"))
 
     def test_claims_on_training_data_and_by_features_are_told_apart(self):
