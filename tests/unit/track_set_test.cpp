@@ -128,6 +128,9 @@ TEST(TrackSetUpdate, WithoutOdometryATrackDrivesOnAsItDidAndKeepsItsHeading)
   set.predict(std::nullopt);
   EXPECT_NEAR(pose.mean.x, 5.2, 0.03);
   EXPECT_NEAR(pose.mean.phi, heading, 1e-9) << "the turn does not go on";
+  const double blind = pose.mean.x;
+  for (int step = 0; step < 100; ++step) set.predict(std::nullopt);
+  EXPECT_NEAR(pose.mean.x, blind, 1e-9) << "a robot that sees nothing is not sent through walls";
 }
 
 TEST(TrackSetStanding, TheFirstTellsWhetherTheRobotIsInTheMap)

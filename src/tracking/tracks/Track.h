@@ -50,7 +50,7 @@ struct Track
   TrackedHypothesis hypothesis;
   double score = 0;  // of the last scan
   mrpt::math::TPose2D left;  // pose before the last prediction
-  mrpt::math::TPose2D moved;  // from there to the updated pose
+  mrpt::math::TPose2D moved;  // from there to the updated pose; none before the update
   DenseEvidence evidence;  // of the last scan
   mrpt::math::TPose2D evaluated_at;  // pose at which the observed cells are evaluated
   double mean_score = 0;  // running mean

@@ -76,6 +76,7 @@ double TrackSet::predict(const std::optional<MotionIncrement>& motion)
   {
     // A robot drives on more steadily than it turns.
     if (!motion) increment.mean = {track.moved.x, track.moved.y, 0};
+    track.moved = {};
     track.left = track.hypothesis.pose.mean;
     track.hypothesis.pose = composeWithMotion(track.hypothesis.pose, increment);
     ++track.hypothesis.age;
