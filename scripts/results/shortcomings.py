@@ -67,16 +67,21 @@ def wrong_scans(tables):
     return f"**Wrong claims of one scan**: {'; '.join(parts)}." if parts else None
 
 
-def recorded(tables):
-    table = tables[drives.WAKE_UPS]
-    low = table.extreme("right at the end", drives.laser_rows(table))
-    wrong = [name for name in drives.laser_rows(table) if table.cell(name, "wrong at some step")]
-    text = f"**Recorded drives**: fewest end right on {low}: {table.cell(low, 'right at the end')}."
+def recorded_drives(table):
+    """The drive of which the fewest starts end right, and every one with a wrong start."""
+    rows = drives.laser_rows(table)
+    low = table.extreme("right at the end", rows)
+    wrong = [name for name in rows if table.cell(name, "wrong at some step")]
+    text = f"fewest end right on {low}: {table.cell(low, 'right at the end')}."
     if wrong:
         counts = ", ".join(f"{name} ({table.cell(name, 'wrong at some step')} of "
                            f"{table.cell(name, 'starts')})" for name in wrong)  # fmt: skip
         text += f" Wrong at some step: {counts}."
     return text
+
+
+def recorded(tables):
+    return f"**Recorded drives**: {recorded_drives(tables[drives.WAKE_UPS])}"
 
 
 def landmark_tracking(tables):
@@ -108,7 +113,11 @@ def half_mapped(tables):
 
 
 def no_odometry(tables):
-    return simulated_row(tables, "no odometry: all", "No odometry", "by scans alone")
+    text = simulated_row(tables, "no odometry: all", "No odometry", "simulated,")
+    table = tables[drives.SCANS_ALONE]
+    if text is None or not table.rows:
+        return text
+    return f"{text} Recorded drives: {recorded_drives(table)}"
 
 
 def foreign_row(tables, name, title):
