@@ -47,7 +47,7 @@ std::optional<Circle> circleOf(const Piece& a, const Piece& b)
   const TPoint2D between = b.middle - a.middle;
   const double from_a = cross(between, b.normal) / bend;
   const double from_b = cross(between, a.normal) / bend;
-  const double radius = 0.5 * (from_a + from_b);
+  const double radius = (from_a + from_b) / 2;
   if (std::abs(from_a - from_b) > 2 * kOnCircle) return std::nullopt;
   if (std::abs(radius) < kLeastRadius || std::abs(radius) > kMostRadius) return std::nullopt;
   return Circle{a.middle + a.normal * from_a, radius};

@@ -35,7 +35,6 @@ constexpr double kUsualScore = 0.8;  // usual score of the right pose, eq. (7.6)
 // repeat walls. Places gathered over a drive share less.
 constexpr double kWallTempering = 0.25;  // where the scan has walls
 constexpr double kPlaceTempering = 0.5;  // where it has none
-constexpr double kPriorElsewhere = 0.002;  // prior of being off the map or not proposed, eq. (7.4)
 
 /// Returns the score of the best candidate but the k-th, or that of the background without one.
 double rivalScore(const RelocationResult& result, std::size_t k)
@@ -81,14 +80,14 @@ double logLikelihoodOfScore(double score)
 
 double reliabilityOf(const DenseEvidence& evidence)
 {
-  const double explained = evidence.fine - DenseEvidence::kThroughPenalty * evidence.through_wall;
+  const double explained = evidence.fine - DenseEvidence::kPenalty * evidence.through_wall;
   return std::clamp(ofUnhidden(evidence, explained), 0.0, 1.0);
 }
 
 double scoreOfUnhidden(const DenseEvidence& evidence)
 {
-  const double explained = (evidence.fine + evidence.coarse) / 2 -
-                           DenseEvidence::kThroughPenalty * evidence.through_wall;
+  const double explained =
+      (evidence.fine + evidence.coarse) / 2 - DenseEvidence::kPenalty * evidence.through_wall;
   return std::min(1.0, ofUnhidden(evidence, explained));
 }
 
@@ -151,7 +150,7 @@ void weighCandidates(RelocationResult& result, const std::vector<Candidate>& out
 
 void weighByLogOdds(RelocationResult& result, std::optional<double> place_background, double missed)
 {
-  const double elsewhere = std::max(kPriorElsewhere, missed);
+  const double elsewhere = std::max(kLeastElsewhere, missed);
   const double tempering = place_background ? kPlaceTempering : kWallTempering;
   std::vector<Candidate>& candidates = result.candidates;
   double largest = 0;  // the clutter hypothesis itself has log-odds 0

@@ -17,7 +17,6 @@ namespace
 constexpr double kLeastProbability = 0.001;  // of a candidate that the relocation left out
 constexpr double kSameDistance = 0.75;  // [m], a mode from one step to the next
 constexpr double kSameAngle = 20.0 * M_PI / 180.0;
-constexpr double kLeastTurnSigma = 0.002;  // [rad]
 
 /// The log-odds that a relocation gives a pose of probability p, at least -2. Eq. (9.2)
 double gainOf(double p)
@@ -176,7 +175,7 @@ Belief ModeTracker::publish(const SignatureMatcher& matcher, bool blind)
   Belief belief = beliefOf(set_, matcher.map(), options_);
   for (TrackedHypothesis& hypothesis : belief.hypotheses)
   {
-    hypothesis.pose.covariance(2, 2) += kLeastTurnSigma * kLeastTurnSigma;
+    hypothesis.pose.covariance(2, 2) += kMinTurnSigma * kMinTurnSigma;
   }
   BeliefGrounds grounds;
   grounds.sees_too_little = blind;

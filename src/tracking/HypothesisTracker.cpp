@@ -187,9 +187,7 @@ bool HypothesisTracker::State::seesTooLittle(const ObservedScene& scene) const
 /// True where suspicion stops a claim.
 bool HypothesisTracker::State::doubtful() const
 {
-  if (!landmark_tracker) return set.isDoubtful();
-  const Track& first = set.tracks.front();
-  return LandmarkTracker::contradicts(first) || (!first.found && suspicious());
+  return landmark_tracker ? suspicious() : set.isDoubtful();
 }
 
 void HypothesisTracker::State::publish(const ObservedScene& scene)

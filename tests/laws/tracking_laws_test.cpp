@@ -206,6 +206,23 @@ TEST(Tracker, NoticesAKidnap)
   EXPECT_GE(right, 5);
 }
 
+TEST(Tracker, NoticesAKidnapInTheStepAfterItsFirst)
+{
+  int claimed = 0;
+  for (std::uint64_t seed = 201; seed < 221; ++seed)
+  {
+    const auto drive = driveThrough(office().world(), 12, seed);
+    HypothesisTracker tracker(office().matcher());
+    const auto seen = [&](const DriveStep& step)
+    { return tracker.step(MotionIncrement{}, observeScene({*step.scan})); };
+    claimed += seen(drive.front()).verdict == Verdict::localized;
+    if (isRight(drive.front().world_from_robot, drive.back().world_from_robot)) continue;
+    EXPECT_FALSE(confidentlyWrong(seen(drive.back()), drive.back().world_from_robot))
+        << "seed " << seed;
+  }
+  EXPECT_GE(claimed, 15);
+}
+
 /// Four people around the robot, each of whom hides a twelfth of the view.
 void crowd(LaserScan& scan)
 {

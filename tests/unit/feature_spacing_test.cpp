@@ -53,8 +53,8 @@ TEST(FeatureSpacing, OnlyWhatIsNearMarksIsMapped)
   const PreparedMap prepared(map);
   const FeatureSpacing spacing(prepared);
   EXPECT_TRUE(spacing.isMapped({2, 0.5}, FeatureType::point));
-  EXPECT_TRUE(spacing.isMapped({40.9, 1}, FeatureType::point));
-  EXPECT_FALSE(spacing.isMapped({41.1, 1}, FeatureType::point));
+  EXPECT_TRUE(spacing.isMapped({41.9, 1}, FeatureType::point));
+  EXPECT_FALSE(spacing.isMapped({42.1, 1}, FeatureType::point));
   EXPECT_FALSE(spacing.isMapped({20, 20}, FeatureType::point));
   EXPECT_FALSE(spacing.isMapped({1e7, -1e7}, FeatureType::point));
 }

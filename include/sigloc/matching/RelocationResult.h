@@ -13,6 +13,8 @@ namespace sigloc
 {
 /// A pose is claimed from this probability on. \cite algorithm section 7
 constexpr double kLocalizedProbability = 0.99;
+/// "Somewhere else" keeps this probability at least. \cite algorithm sections 7 and 8
+constexpr double kLeastElsewhere = 0.002;
 
 /// What is claimed about the robot's pose. \cite algorithm section 7, "The verdict"
 enum class Verdict : std::uint8_t

@@ -19,7 +19,7 @@ struct TrackerOptions
   double evidence_distance = 1.0;
   double evidence_turn = 3.0;
   double lost_distance = 0.3;
-  double min_elsewhere = 0.002;
+  double min_elsewhere = kLeastElsewhere;
   double relocation_distance = 0.5;
   double confirmation_distance = 2.0;
   double score_drop = 0.2;

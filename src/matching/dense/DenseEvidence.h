@@ -17,8 +17,8 @@ struct PoseProposal
 /// How the dense field explains a scan at a pose. All shares are of the returns used, in [0, 1].
 struct DenseEvidence
 {
-  static constexpr double kThroughPenalty = 0.5;  ///< score per share of beams through walls
-  static constexpr double kFreePenalty = 0.5;  ///< score per share of returns in free space
+  /// Score per share of beams through walls, and per share of returns in free space.
+  static constexpr double kPenalty = 0.5;
 
   double sharp = 0;  ///< mean likelihood by the ridges of walls, eq. (6.14), in [0, 1]
   double fine = 0;  ///< mean likelihood, sigma 0.12 m, in [0, 1]

@@ -76,8 +76,7 @@ std::vector<ExplainedReturn> DenseVerifier::explainedReturns(const DenseScan& sc
   constexpr double kOffWall = 0.25;  // [m] from any wall, from which a return is on none
   constexpr auto kOffAnyWall = static_cast<std::uint8_t>(kOffWall / DenseField::kDistanceUnit);
   constexpr float kSharpShare = 0.35F;
-  constexpr auto kFree = static_cast<float>(DenseEvidence::kFreePenalty);
-  constexpr auto kThrough = static_cast<float>(DenseEvidence::kThroughPenalty);
+  constexpr auto kPenalty = static_cast<float>(DenseEvidence::kPenalty);
   const CellView cells(field_);
   const Placement place(pose);
   const LikelihoodTable& fine = fineTable();
@@ -93,11 +92,11 @@ std::vector<ExplainedReturn> DenseVerifier::explainedReturns(const DenseScan& sc
     {
       const std::uint8_t distance = block.distance(i);
       const bool in_free = distance > kFarFromWall && block.state(i) == CellState::free;
-      const float blunt = 0.5F * (fine[distance] + coarse[distance]);
+      const float blunt = (fine[distance] + coarse[distance]) / 2;
       const float sharp = sharpLikelihood(sharp_, block, i, cells.resolution());
-      float share = blunt + kSharpShare * (sharp - blunt) - (in_free ? kFree : 0.0F);
+      float share = blunt + kSharpShare * (sharp - blunt) - (in_free ? kPenalty : 0.0F);
       const bool passes_wall = first + i < kRayBeams && (through >> (first + i) & 1U) != 0;
-      if (passes_wall) share -= kThrough;
+      if (passes_wall) share -= kPenalty;
       const bool on_no_wall = distance > kOffAnyWall;
       ExplainedReturn& at = explained[first + i];
       at.share = std::max(0.0F, share);
@@ -131,9 +130,9 @@ DenseEvidence DenseVerifier::evaluate(const DenseScan& scan, const TPose2D& pose
   evidence.unknown = static_cast<double>(sums.unknown) / n;
   const std::size_t tested = std::min(rays, scan.spaced);
   if (tested > 0) evidence.through_wall = wall_crossings_->throughShare(scan, pose, tested);
-  evidence.score = 0.5 * (evidence.sharp + evidence.coarse) -
-                   DenseEvidence::kThroughPenalty * evidence.through_wall -
-                   DenseEvidence::kFreePenalty * evidence.in_free;
+  evidence.score = (evidence.sharp + evidence.coarse) / 2 -
+                   DenseEvidence::kPenalty * evidence.through_wall -
+                   DenseEvidence::kPenalty * evidence.in_free;
   return evidence;
 }
 }  // namespace sigloc

@@ -226,8 +226,7 @@ void DenseVerifier::refineFinally(const DenseScan& scan, const DenseScan& balanc
   settled.evidence = evaluate(scan, settled.pose);
   // Beams through walls only lower a score. So the returns alone often show that the start is not
   // better.
-  const double of_ends =
-      pose.evidence.score + DenseEvidence::kThroughPenalty * pose.evidence.through_wall;
+  const double of_ends = pose.evidence.score + DenseEvidence::kPenalty * pose.evidence.through_wall;
   if (settled.evidence.score < of_ends)
   {
     pose.evidence = evaluate(scan, pose.pose);

@@ -8,6 +8,7 @@
 
 #include "matching/features/negative_information.h"
 #include "signature/location_constraint.h"
+#include "tracking/tracks/pose_update.h"
 #include "tracking/tracks/TrackSet.h"
 
 namespace sigloc
@@ -16,9 +17,6 @@ namespace
 {
 constexpr std::size_t kAnchors = 3;  // observed features that bases start from
 constexpr std::size_t kMostPartners = 6;  // mapped features tried for one observed feature
-constexpr std::size_t kMostAlternatives = 4;  // ways of pairing that are kept
-constexpr double kLeastShare = 0.05;  // of the best one's share, below which a way is dropped
-constexpr double kDistinctGate = 11.34;  // chi-square, 3 degrees of freedom, 99 %
 
 /// True for poses that two tracks may have side by side: farther apart than merging reaches, and
 /// farther than their uncertainty explains.
@@ -26,7 +24,7 @@ bool distinct(const FeatureAssociation& a, const FeatureAssociation& b)
 {
   const GaussianPose p = toGaussian(a.pose);
   const GaussianPose q = toGaussian(b.pose);
-  return !wouldMerge(p.mean, q.mean) && squaredMahalanobisDistance(p, q) > kDistinctGate;
+  return !wouldMerge(p.mean, q.mean) && squaredMahalanobisDistance(p, q) > kUpdateGate;
 }
 
 /// Returns ln of the Gaussian density of an innovation. A residual that is not `fresh` repeats the
@@ -262,7 +260,7 @@ std::vector<FeatureAssociation> FeatureAssociator::associate(
     std::move(more.begin(), more.end(), std::back_inserter(all));
   }
 
-  // 2. The best at each pose, as far as it holds a share. Eq. (8.15)
+  // 2. The best at each pose. Eq. (8.15)
   std::stable_sort(all.begin(), all.end(),
                    [](const auto& a, const auto& b) { return a.log_odds > b.log_odds; });
   std::vector<FeatureAssociation> kept;
@@ -270,7 +268,6 @@ std::vector<FeatureAssociation> FeatureAssociator::associate(
   for (FeatureAssociation& association : all)
   {
     association.share = std::exp(kFeatureTempering * (association.log_odds - all.front().log_odds));
-    if (association.share < kLeastShare || kept.size() == kMostAlternatives) break;
     const bool apart =
         std::all_of(kept.begin(), kept.end(),
                     [&](const FeatureAssociation& other) { return distinct(other, association); });

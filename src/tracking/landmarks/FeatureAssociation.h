@@ -38,8 +38,8 @@ class FeatureAssociator
   FeatureAssociator(const FeatureVerifier& verifier, const FeatureSpacing& spacing,
                     const std::vector<Feature>& observed, double travelled);
 
-  /// Returns the ways of pairing that have at least a twentieth of the best one's share, at
-  /// distinct poses, best first. Never empty; one way where nothing is ambiguous. Eq. (8.15)
+  /// Returns the ways of pairing at distinct poses, best first. Never empty; one way where nothing
+  /// is ambiguous. Eq. (8.15)
   std::vector<FeatureAssociation> associate(const GaussianPose& predicted,
                                             const SchmidtKalmanFilter& correlation) const;
 

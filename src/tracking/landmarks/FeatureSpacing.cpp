@@ -13,8 +13,6 @@ using mrpt::math::TPoint2D;
 
 namespace
 {
-constexpr double kUsualShare = 0.95;  // of the mapped features, whose neighbour is in reach
-
 bool isPlace(FeatureType type)
 {
   return isPointLike(type) && !hasBearing(type);
@@ -55,27 +53,22 @@ FeatureSpacing::FeatureSpacing(const PreparedMap& map) : map_(map)
   }
   for (std::size_t t = 0; t < kFeatureTypes; ++t)
   {
-    std::vector<double>& all = distances[t];
+    const std::vector<double>& all = distances[t];
     if (all.empty()) continue;
-    spacing_[t].mean =
-        std::accumulate(all.begin(), all.end(), 0.0) / static_cast<double>(all.size());
-    const auto usual = all.begin() + static_cast<std::ptrdiff_t>(
-                                         kUsualShare * static_cast<double>(all.size() - 1));
-    std::nth_element(all.begin(), usual, all.end());
-    spacing_[t].wide = *usual;
+    spacing_[t] = std::accumulate(all.begin(), all.end(), 0.0) / static_cast<double>(all.size());
   }
 }
 
 double FeatureSpacing::clutterDensity(FeatureType type) const
 {
-  const double mean = spacing_[typeIndex(type)].mean;
+  const double wide = 2 * spacing_[typeIndex(type)];
   const double whole = map_.clutterDensity(type);
-  return mean > 0 ? std::max(whole, 1.0 / (4.0 * mean * mean)) : whole;
+  return wide > 0 ? std::max(whole, 1.0 / (wide * wide)) : whole;
 }
 
 bool FeatureSpacing::isMapped(const TPoint2D& place, FeatureType type) const
 {
-  const double wide = spacing_[typeIndex(type)].wide;
+  const double wide = 2 * spacing_[typeIndex(type)];
   if (wide <= 0) return true;
   bool found = false;
   map_.grid().visitNear(place, wide, type,

@@ -24,17 +24,14 @@ class FeatureSpacing
   /// that of the whole map. Eq. (8.14)
   double clutterDensity(FeatureType type) const;
 
-  /// True where a feature of the map would likely have another mapped one near it: as near as 95 %
-  /// of the mapped ones have. Elsewhere nothing is mapped. Always true for other types.
+  /// True where a mapped feature is within twice the mean distance of the nearest neighbours.
+  /// Features spread at random have one there with a probability of 1 - exp(-pi), 96 %. Elsewhere
+  /// nothing is mapped. Always true for other types.
   bool isMapped(const mrpt::math::TPoint2D& place, FeatureType type) const;
 
  private:
-  struct Spacing
-  {
-    double mean = 0;  // [m] to the nearest neighbour; 0: no neighbours
-    double wide = 0;  // [m] that 95 % do not exceed
-  };
   const PreparedMap& map_;
-  std::array<Spacing, kFeatureTypes> spacing_{};
+  // [m], mean distance of the nearest neighbours; 0: no neighbours
+  std::array<double, kFeatureTypes> spacing_{};
 };
 }  // namespace sigloc

@@ -7,16 +7,13 @@
 
 #include "features/LocalMap.h"
 #include "tracking/landmarks/FeatureAssociation.h"
+#include "tracking/tracks/pose_update.h"
 #include "tracking/tracks/travel.h"
 
 namespace sigloc
 {
 namespace
 {
-constexpr double kSuspicious =
-    -3.0;  // log-odds lost, below which a track is suspicious, eq. (8.20)
-constexpr double kContradicted = -1.0;  // log-odds lost, below which it is not claimed, eq. (8.20)
-constexpr double kSharedErrors = 4.0;  // factor of the covariance of a candidate, see startAt
 constexpr std::size_t kRecentSteps = 20;  // that a local map holds
 constexpr double kStepTravel = 0.1;  // [m] of travel between two steps of a local map
 constexpr std::size_t kMinFeatures = 4;  // fewer are too little seen
@@ -239,12 +236,7 @@ Track LandmarkTracker::startAt(const Candidate& candidate, std::uint64_t id) con
 
 bool LandmarkTracker::doubts(const Track& track)
 {
-  return track.features.doubt < kSuspicious;
-}
-
-bool LandmarkTracker::contradicts(const Track& track)
-{
-  return track.features.doubt < kContradicted;
+  return track.features.doubt < -kMaxAgainst;
 }
 
 bool LandmarkTracker::seesEnoughToTell() const

@@ -49,10 +49,6 @@ class LandmarkTracker
   /// True when clutter has lately explained the features much better than the track. Eq. (8.20)
   static bool doubts(const Track& track);
 
-  /// True when clutter has lately explained them better, which is enough to stop a claim. Eq.
-  /// (8.20)
-  static bool contradicts(const Track& track);
-
   /// True when the present step has enough features for the verdict *not here*.
   bool seesEnoughToTell() const;
 

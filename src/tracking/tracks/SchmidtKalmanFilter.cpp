@@ -9,7 +9,7 @@ namespace sigloc
 {
 namespace
 {
-using Cross = std::array<std::array<double, 2>, 3>;
+using Cross = SchmidtKalmanFilter::Cross;
 
 /// P J', a row for each of (x, y, heading).
 Cross timesJacobian(const Symmetric3& p, const PlanarMeasurement& m)
@@ -33,7 +33,7 @@ std::array<std::array<double, 2>, 2> jacobianTimes(const PlanarMeasurement& m, c
   {
     for (std::size_t k = 0; k < 2; ++k)
     {
-      for (std::size_t i = 0; i < 3; ++i) out[r][k] += m.jacobian[r][i] * c[i][k];
+      for (std::size_t i = 0; i < c.size(); ++i) out[r][k] += m.jacobian[r][i] * c[i][k];
     }
   }
   return out;
@@ -44,7 +44,7 @@ Cross gainOf(const Cross& b, const Symmetric2& s)
 {
   const double scale = 1 / determinant(s);
   Cross gain;
-  for (std::size_t i = 0; i < 3; ++i)
+  for (std::size_t i = 0; i < b.size(); ++i)
   {
     gain[i] = {(b[i][0] * s.yy - b[i][1] * s.xy) * scale,
                (b[i][1] * s.xx - b[i][0] * s.xy) * scale};
@@ -119,7 +119,7 @@ void SchmidtKalmanFilter::apply(PoseEstimate& estimate, const PlanarMeasurement&
   for (Known& known : known_)
   {
     const auto jc = jacobianTimes(m, known.cross);
-    for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t i = 0; i < gain.size(); ++i)
     {
       for (std::size_t k = 0; k < 2; ++k)
       {
@@ -139,14 +139,14 @@ void SchmidtKalmanFilter::update(PoseEstimate& estimate, const PlanarMeasurement
   const Symmetric2 s = innovation(estimate, m, &known_[at], map_noise);
   // The residual is J dx - dm - v. Its covariance with the pose lacks the feature's own error dm.
   Cross b = timesJacobian(estimate.covariance, m);
-  for (std::size_t i = 0; i < 3; ++i)
+  for (std::size_t i = 0; i < b.size(); ++i)
   {
     for (std::size_t k = 0; k < 2; ++k) b[i][k] -= known_[at].cross[i][k];
   }
   const Cross gain = gainOf(b, s);
   apply(estimate, m, gain, s);
   const Symmetric2& own = known_[at].noise;
-  for (std::size_t i = 0; i < 3; ++i)
+  for (std::size_t i = 0; i < gain.size(); ++i)
   {
     known_[at].cross[i][0] += gain[i][0] * own.xx + gain[i][1] * own.xy;
     known_[at].cross[i][1] += gain[i][0] * own.xy + gain[i][1] * own.yy;

@@ -24,6 +24,8 @@ namespace sigloc
 class SchmidtKalmanFilter
 {
  public:
+  using Cross = std::array<std::array<double, 2>, 3>;  ///< a row for each of (x, y, heading)
+
   /// Moves the covariances with the pose, from `map_from_previous` by an odometry increment.
   /// Eq. (8.12)
   void predict(const mrpt::math::TPose2D& map_from_previous, const mrpt::math::TPose2D& increment);
@@ -51,7 +53,6 @@ class SchmidtKalmanFilter
   std::size_t size() const { return known_.size(); }
 
  private:
-  using Cross = std::array<std::array<double, 2>, 3>;  // a row for each of (x, y, heading)
   struct Known
   {
     std::uint32_t feature;

@@ -94,9 +94,6 @@ struct Track
   bool retained(double sure) const { return std::max(confirmed, inMapLogOdds()) >= sure; }
 
   /// True when the score `now` of the last scan is lower than the running mean by more than `drop`.
-  bool hasFallenTo(double now, double drop) const
-  {
-    return hypothesis.age > 1 && now < mean_score - drop;
-  }
+  bool hasFallenTo(double now, double drop) const { return now < mean_score - drop; }
 };
 }  // namespace sigloc

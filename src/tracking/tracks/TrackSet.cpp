@@ -27,7 +27,6 @@ constexpr double kCellIndependence = 0.7;  // neighbouring cells share their evi
 constexpr double kSure = 0.9;  // probability of a candidate that overrules all tracks, section 8
 constexpr double kScoreMemory = 0.9;  // of the running mean of the score, per step
 constexpr double kMinSigma = 0.005;  // [m] added to the motion of a step, eq. (8.1)
-constexpr double kMinTurnSigma = 0.002;  // [rad] added to the turn of a step, eq. (8.1)
 
 bool heavier(const Track& a, const Track& b)
 {
@@ -375,8 +374,9 @@ bool TrackSet::isSuspicious() const
 bool TrackSet::isDoubtful() const
 {
   const Track& first = heaviest();
-  return !first.found && isSuspicious() &&
-         first.hasFallenTo(scoreOfUnhidden(first.evidence), options_.score_drop);
+  if (first.found || !isSuspicious()) return false;
+  // Without odometry nothing but the scan says that the robot is still there.
+  return !has_odometry_ || first.hasFallenTo(scoreOfUnhidden(first.evidence), options_.score_drop);
 }
 
 const Track& TrackSet::heaviest() const

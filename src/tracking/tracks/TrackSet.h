@@ -16,6 +16,7 @@
 namespace sigloc
 {
 constexpr std::size_t kUpdateBeams = 180;  // returns that update or score a track
+constexpr double kMinTurnSigma = 0.002;  // [rad] added to a turn, eq. (8.1)
 
 /// Returns how far the score of a scan counts between rivals, in [0, 1], `travel` [m] after the
 /// scan before. \cite algorithm eq. (8.5)

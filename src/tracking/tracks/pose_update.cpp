@@ -15,8 +15,6 @@ using mrpt::math::TPose2D;
 
 namespace
 {
-constexpr double kUpdateGate = 16.27;  // chi-square, 3 degrees of freedom, 99.9 %, eq. (8.3)
-constexpr double kCorrelation = 4.0;  // scans of neighbouring steps share their errors
 constexpr double kLeastFit = 0.2;  // score below which the covariance grows no more
 
 /// Returns the refined pose of a step without odometry. The robot may have turned or driven farther
@@ -39,12 +37,12 @@ TPose2D searchedPose(const TPose2D& predicted, const DenseScan& scan, const Dens
     best = pose;
     best_score = score;
   };
-  const int turns = static_cast<int>(3.0 * options.free_turn_sigma / kTurn);
+  const int turns = static_cast<int>(std::lround(3.0 * options.free_turn_sigma / kTurn));
   for (int k = -turns; k <= turns; ++k)
   {
     if (k != 0) attempt(0, k * kTurn);
   }
-  const int drives = static_cast<int>(2.0 * options.free_motion_sigma / kDrive);
+  const int drives = static_cast<int>(std::lround(2.0 * options.free_motion_sigma / kDrive));
   for (int k = -drives; k <= drives; ++k)
   {
     if (k != 0) attempt(k * kDrive, 0);
@@ -68,7 +66,7 @@ void updatePose(Track& track, const DenseScan& scan, const DenseVerifier& verifi
   // What the map does not explain has moved since, and draws the pose towards its old position.
   // Odometry is better there, where there is any.
   const double fit = has_odometry ? std::max(kLeastFit, found.score) : 1.0;
-  measured.covariance *= kCorrelation / fit;
+  measured.covariance *= kSharedErrors / fit;
   const bool agrees = squaredMahalanobisDistance(pose, measured) < kUpdateGate;
   const bool slipped = !agrees && found.score > predicted.score + kClearlyBetter;
   if (agrees) pose = fusePoses(pose, measured);
