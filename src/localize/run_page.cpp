@@ -10,6 +10,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "localize/kept_scans.h"
 #include "localize/page_map.h"
 
 namespace sigloc::detail
@@ -20,7 +21,6 @@ using nlohmann::ordered_json;
 
 constexpr std::size_t kMostHypotheses = 8;  // of a step
 constexpr double kLeastWeight = 1e-4;
-constexpr std::size_t kMostSeen = 2000;  // steps with what was seen: it is the largest part
 
 /// The heaviest hypotheses as [x, y, phi, weight as text, Cxx, Cyy, Cxy, id].
 ordered_json hypothesesOf(const Belief& belief)
@@ -53,9 +53,7 @@ ordered_json centimetresOf(const std::vector<mrpt::math::TPoint2Df>& places)
 class StepRows
 {
  public:
-  explicit StepRows(std::size_t steps) : seen_every_(1 + (steps - 1) / kMostSeen) {}
-
-  void add(const StepRecord& step)
+  void add(const StepRecord& step, bool with_scan)
   {
     ordered_json row;
     row["n"] = step.number;
@@ -70,7 +68,7 @@ class StepRows
     if (step.truth) row["t"] = pagePose(*step.truth);
     if (step.error)
       row["d"] = {rounded(step.error->distance, 2), rounded(mrpt::RAD2DEG(step.error->angle), 1)};
-    if (rows_.size() % seen_every_ == 0)
+    if (with_scan)
     {
       row["f"] = pageMarks(step.features);
       row["b"] = centimetresOf(step.returns);
@@ -89,7 +87,6 @@ class StepRows
     return known->second;
   }
 
-  std::size_t seen_every_;
   ordered_json rows_ = ordered_json::array();
   ordered_json reasons_ = ordered_json::array();
   std::map<std::string, std::size_t> numbers_;
@@ -99,8 +96,9 @@ class StepRows
 
 std::string runPage(const LocalizationRun& run)
 {
-  StepRows steps(std::max<std::size_t>(1, run.steps().size()));
-  for (const StepRecord& step : run.steps()) steps.add(step);
+  const KeptScans scans = keptScans(run.steps());
+  StepRows steps;
+  for (std::size_t k = 0; k < run.steps().size(); ++k) steps.add(run.steps()[k], scans.kept[k]);
   ordered_json data;
   data["map_name"] = run.setup().map_file.filename().string();
   data["log_name"] = run.setup().rawlog_file.filename().string();
@@ -109,6 +107,7 @@ std::string runPage(const LocalizationRun& run)
        {Verdict::localized, Verdict::ambiguous, Verdict::not_here, Verdict::too_little_seen})
     data["verdicts"].push_back(toString(verdict));
   data["map"] = pageMap(run.map());
+  data["scans_every"] = scans.every;
   data["steps"] = steps.rows();
   data["reasons"] = steps.reasons();
   return kRunPageHead + textForScript(data) + kPageMapScript + kRunPageTail;

@@ -26,6 +26,7 @@ td, th { border: 1px solid #ccc; padding: 3px 7px; text-align: right; }
 #reason { background: #fff; border: 1px solid #ccc; padding: 6px 10px; min-height: 2.8em; }
 .key { display: inline-block; width: 12px; height: 12px; margin: 0 4px 0 12px; }
 .small { color: #555; font-size: 13px; }
+#scan { min-height: 2.8em; }
 </style>
 </head>
 <body>
@@ -52,8 +53,8 @@ td, th { border: 1px solid #ccc; padding: 3px 7px; text-align: right; }
 <h4>Hypotheses</h4>
 <table id="hypotheses"></table>
 <p class="small">On the map:<span id="meanings"></span></p>
-<p class="small">What the robot saw is drawn at the first hypothesis; of a scan's returns up to 100
-are shown. Ellipses hold 95 %.</p>
+<p id="scan" class="small"><span id="drawn"></span> <button id="nearest"></button></p>
+<p class="small"><span id="kept"></span>Ellipses hold 95 %.</p>
 <p class="small">Wheel: zoom. Drag: move. Arrows: steps. The first strip has the verdicts, the second
 the times; dark bars are relocations.</p>
 </aside>
@@ -167,6 +168,19 @@ function drawStrips() {
 function pose(p) {
   return [p[0].toFixed(2), p[1].toFixed(2), (p[2] * 180 / Math.PI).toFixed(1)];
 }
+// The step nearest to a step without a scan that has one: the first always has.
+function nearestScan(k) {
+  for (let off = 1; ; ++off)
+    for (const at of [k - off, k + off]) if (steps[at] && steps[at].f) return at;
+}
+function tellOfScan(step) {
+  get("nearest").hidden = Boolean(step.f);
+  if (!step.f) get("nearest").textContent = `go to step ${nearestScan(current) + 1}`;
+  get("drawn").textContent =
+    !step.f ? "No scan is drawn, because the page does not have that of this step. The nearest:" :
+    step.h.length === 0 ? "What the robot saw is not drawn, because there is no pose to draw it at." :
+    "What the robot saw is drawn at the first hypothesis; of a scan's returns up to 100 are shown.";
+}
 function show(k) {
   current = Math.min(Math.max(0, k), steps.length - 1);
   const step = steps[current];
@@ -185,6 +199,7 @@ function show(k) {
   fillTable(get("facts"), facts);
   fillTable(get("hypotheses"), [["probability", "x [m]", "y [m]", "deg"],
             ...step.h.map(h => [h[3], ...pose(h)])]);
+  tellOfScan(step);
   if (get("follow").checked && first) { view.x = first[0]; view.y = first[1]; }
   drawMap();
   drawStrips();
@@ -206,6 +221,7 @@ get("slider").addEventListener("input", () => show(get("slider").value - 1));
 get("previous").addEventListener("click", () => show(current - 1));
 get("next").addEventListener("click", () => show(current + 1));
 get("play").addEventListener("click", play);
+get("nearest").addEventListener("click", () => show(nearestScan(current)));
 get("whole").addEventListener("click", () => { get("follow").checked = false; wholeMap(); drawMap(); });
 get("follow").addEventListener("change", () => {
   if (get("follow").checked) view.scale = Math.max(view.scale, 24);
@@ -217,6 +233,9 @@ document.addEventListener("keydown", event => {
   if (event.key === "ArrowLeft") show(current - 1);
 });
 window.addEventListener("resize", () => show(current));
+if (data.scans_every > 1)
+  get("kept").textContent = `So that the page stays small, it has the scans of one step in ${data.scans_every} ` +
+                            "and of those where the verdict changes. ";
 get("title").textContent = `${data.log_name} in ${data.map_name}`;
 function addKey(legend, color, name) {
   const entry = element("span", ""), key = element("span", "");

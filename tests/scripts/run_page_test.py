@@ -94,6 +94,20 @@ def check_scan(driver):
     check(40 < share[1] <= 100 and share[0] > 0.8 * share[1], f"{share} returns are on walls")
 
 
+def check_left_out_scan(driver):
+    """A long log's page has some of the scans: elsewhere it says so, and goes to the nearest."""
+    driver.execute_script("show(5)")
+    check("drawn at the first hypothesis" in shown(driver, "drawn"), f"of a scan: {shown(driver, 'drawn')}")
+    nearest = driver.find_element(By.ID, "nearest")
+    check(not nearest.is_displayed(), "a step with a scan shows the way to another")
+    driver.execute_script("for (const k of [3, 4, 5]) { delete steps[k].f; delete steps[k].b; } show(4)")
+    check("No scan is drawn" in shown(driver, "drawn"), f"without a scan: {shown(driver, 'drawn')}")
+    check(pixels_like(driver, "returns") == 0, "a scan that is left out is drawn")
+    nearest.click()
+    check(shown(driver, "number").startswith("3 /"), f"the nearest scan is at {shown(driver, 'number')}")
+    check(pixels_like(driver, "returns") > 200, "the nearest scan is not drawn")
+
+
 def walk(driver, rows):
     count = len(rows)
     check_step(driver, rows[0], 1, count)
@@ -142,6 +156,7 @@ def main():
             driver.get((out / "report.html").as_uri())
             walk(driver, rows)
             check_scan(driver)
+            check_left_out_scan(driver)
             driver.execute_script("show(Math.floor(steps.length / 2))")
             if len(sys.argv) > 3:
                 driver.save_screenshot(sys.argv[3])
