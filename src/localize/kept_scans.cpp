@@ -39,13 +39,13 @@ KeptScans keptScans(const std::vector<StepRecord>& steps)
   const std::vector<std::size_t> changes = changesOfVerdict(steps);
   const std::size_t stride = intervalFor(changes.size(), kMostChanges);
   for (std::size_t i = 0; i < changes.size(); i += stride) scans.kept[changes[i]] = true;
-  const auto keepFirst = [&](auto is_one)
+  const auto keep_first = [&](auto is_one)
   {
     const auto first = std::find_if(steps.begin(), steps.end(), is_one);
     if (first != steps.end()) scans.kept[static_cast<std::size_t>(first - steps.begin())] = true;
   };
-  keepFirst([](const StepRecord& step) { return step.truth && step.any_right; });
-  keepFirst([](const StepRecord& step) { return step.belief.verdict == Verdict::localized; });
+  keep_first([](const StepRecord& step) { return step.truth && step.any_right; });
+  keep_first([](const StepRecord& step) { return step.belief.verdict == Verdict::localized; });
   scans.kept.back() = true;
   return scans;
 }

@@ -65,6 +65,7 @@ class StepRows
     row["ms"] = {rounded(step.extraction_ms, 2), rounded(step.tracking_ms, 2)};
     row["p"] = probabilityText(step.belief.probabilityOfFirst());
     row["h"] = hypothesesOf(step.belief);
+    row["a"] = step.belief.hypotheses.size();
     if (step.truth) row["t"] = pagePose(*step.truth);
     if (step.error)
       row["d"] = {rounded(step.error->distance, 2), rounded(mrpt::RAD2DEG(step.error->angle), 1)};

@@ -50,7 +50,7 @@ td, th { border: 1px solid #ccc; padding: 3px 7px; text-align: right; }
 <div id="verdict"></div>
 <p id="reason"></p>
 <table id="facts"></table>
-<h4>Hypotheses</h4>
+<h4 id="listed"></h4>
 <table id="hypotheses"></table>
 <p class="small">On the map:<span id="meanings"></span></p>
 <p id="scan" class="small"><span id="drawn"></span> <button id="nearest"></button></p>
@@ -200,6 +200,8 @@ function show(k) {
   fillTable(get("hypotheses"), [["probability", "x [m]", "y [m]", "deg"],
             ...step.h.map(h => [h[3], ...pose(h)])]);
   tellOfScan(step);
+  get("listed").textContent = step.a > step.h.length ?
+    `The ${step.h.length === 1 ? "heaviest" : `${step.h.length} heaviest`} of ${step.a} hypotheses` : "Hypotheses";
   if (get("follow").checked && first) { view.x = first[0]; view.y = first[1]; }
   drawMap();
   drawStrips();

@@ -94,6 +94,16 @@ def check_scan(driver):
     check(40 < share[1] <= 100 and share[0] > 0.8 * share[1], f"{share} returns are on walls")
 
 
+def check_listed(driver, rows):
+    """Above a table that lacks hypotheses stands how many there are."""
+    held = driver.execute_script("return steps.map(step => step.a)")
+    check(held == [int(row["hypotheses"]) for row in rows], f"numbers of hypotheses: {held}")
+    driver.execute_script("show(0)")
+    check(shown(driver, "listed") == "Hypotheses", f"of all: {shown(driver, 'listed')}")
+    driver.execute_script("steps[0].a = 10; steps[0].h = Array(8).fill(steps[0].h[0]); show(0)")
+    check(shown(driver, "listed") == "The 8 heaviest of 10 hypotheses", f"of some: {shown(driver, 'listed')}")
+
+
 def check_left_out_scan(driver):
     """A long log's page has some of the scans: elsewhere it says so, and goes to the nearest."""
     driver.execute_script("show(5)")
@@ -157,6 +167,7 @@ def main():
             walk(driver, rows)
             check_scan(driver)
             check_left_out_scan(driver)
+            check_listed(driver, rows)
             driver.execute_script("show(Math.floor(steps.length / 2))")
             if len(sys.argv) > 3:
                 driver.save_screenshot(sys.argv[3])
