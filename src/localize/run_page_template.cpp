@@ -19,14 +19,19 @@ canvas { display: block; width: 100%; background: #fff; border: 1px solid #bbb; 
 #strip { height: 34px; cursor: pointer; margin-top: 8px; }
 #times { height: 90px; cursor: pointer; margin-top: 8px; }
 #verdict { font-size: 22px; font-weight: bold; padding: 6px 10px; color: #fff; }
-#controls { display: flex; gap: 6px; align-items: center; margin: 8px 0; }
-#slider { flex: 1; }
+#controls { display: flex; flex-wrap: wrap; gap: 6px; align-items: center; margin: 8px 0; }
+#slider { flex: 1 1 160px; min-width: 0; }
+aside { overflow-wrap: anywhere; }
 table { border-collapse: collapse; width: 100%; background: #fff; }
 td, th { border: 1px solid #ccc; padding: 3px 7px; text-align: right; }
 #reason { background: #fff; border: 1px solid #ccc; padding: 6px 10px; min-height: 2.8em; }
 .key { display: inline-block; width: 12px; height: 12px; margin: 0 4px 0 12px; }
 .small { color: #555; font-size: 13px; }
 #scan { min-height: 2.8em; }
+@media (max-width: 760px) {
+  main { grid-template-columns: minmax(0, 1fr); padding: 8px; }
+  #map { height: 55vh; }
+}
 </style>
 </head>
 <body>

@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Clicks through the page that sigloc-localize writes, in headless Chromium without a network.
 
-    run_page_test.py SIGLOC_LOCALIZE SOURCE_FOLDER [PICTURE.png]
+    run_page_test.py SIGLOC_LOCALIZE SOURCE_FOLDER [PICTURE.png [PICTURE_OF_A_NARROW_WINDOW.png]]
 
 docs/images/run.png is such a picture.
 """
@@ -144,6 +144,29 @@ def walk(driver, rows):
         check((pixels_like(driver, "not_localized", 300, 50) > 500) == has_banner, f"{verdict}: banner is wrong")
 
 
+def check_narrow(driver, picture):
+    """In a narrow window the parts are one below the other, and none is over another or cut."""
+    driver.set_window_size(520, 900)
+    overlaps = driver.execute_script(
+        """const boxes = [...document.querySelectorAll("canvas, #controls > *, aside > *")]
+             .filter(part => part.textContent || part.clientHeight > 0);
+           const box = part => part.getBoundingClientRect();
+           return boxes.flatMap((a, k) => boxes.slice(k + 1).filter(b =>
+             box(a).right > box(b).left + 1 && box(b).right > box(a).left + 1 &&
+             box(a).bottom > box(b).top + 1 && box(b).bottom > box(a).top + 1)
+             .map(b => `${a.id || a.tagName} and ${b.id || b.tagName}`));"""
+    )
+    check(not overlaps, f"parts overlap: {overlaps}")
+    inner, whole, wide = driver.execute_script(
+        "return [window.innerWidth, document.documentElement.scrollWidth, get('map').clientWidth]"
+    )
+    check(inner < 700, f"the window is not narrow: {inner}")
+    check(whole <= inner, f"the page is {whole} wide in a window of {inner}")
+    check(wide > 0.9 * inner, f"the map is {wide} wide in a window of {inner}")
+    if picture:
+        driver.save_screenshot(picture)
+
+
 def main():
     localize, source = sys.argv[1], pathlib.Path(sys.argv[2])
     with tempfile.TemporaryDirectory() as folder:
@@ -171,6 +194,7 @@ def main():
             driver.execute_script("show(Math.floor(steps.length / 2))")
             if len(sys.argv) > 3:
                 driver.save_screenshot(sys.argv[3])
+            check_narrow(driver, sys.argv[4] if len(sys.argv) > 4 else None)
             log = driver.get_log("browser")
             errors = [entry["message"] for entry in log if entry["level"] == "SEVERE"]
             check(not errors, f"the browser reports {errors}")
