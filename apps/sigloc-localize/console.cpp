@@ -58,6 +58,22 @@ std::string sureLine(const RunSummary& summary)
   return line + "; lost " + counted(summary.times_lost, "time");
 }
 
+/// Returns what may be wrong where poses and odometry differ much, else an empty text.
+std::string doubtOfOdometry(const OdometryMatch& match)
+{
+  constexpr double kMostTurn = 5;  // [deg]
+  constexpr double kMostStretch = 1.25;  // and its inverse
+  const double turn = mrpt::RAD2DEG(match.turn);
+  if (match.stretch < 1 / kMostStretch || match.stretch > kMostStretch)
+  {
+    return fmt::format("poses drive {:.2f} times as far: does the laser stand still?",
+                       match.stretch);
+  }
+  if (std::abs(turn) <= kMostTurn) return {};
+  return fmt::format("poses drive {:.1f} deg to the {}: is the yaw of the laser's mount right?",
+                     std::abs(turn), turn > 0 ? "left" : "right");
+}
+
 std::string endLine(const RunSummary& summary, const Belief& belief)
 {
   std::string line = summary.final_verdict == Verdict::localized ? "" : "NOT LOCALIZED: ";
@@ -135,6 +151,11 @@ std::string summaryTable(const LocalizationRun& run)
   if (summary.confidently_wrong_steps)
     row("confidently wrong", counted(*summary.confidently_wrong_steps, "step"));
   row("localized for", sureLine(summary));
+  if (summary.odometry)
+  {
+    const std::string doubt = doubtOfOdometry(*summary.odometry);
+    if (!doubt.empty()) row("against odometry", doubt);
+  }
   row("at the end", endLine(summary, run.steps().back().belief));
   if (summary.final_verdict != Verdict::localized) row("why not sure", summary.final_reason);
   if (summary.final_error) row("final error", errorText(*summary.final_error));

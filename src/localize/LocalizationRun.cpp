@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "io/GroundTruth.h"
+#include "localize/motion_check.h"
 #include "localize/particle_library.h"
 #include "sigloc/io/map_files.h"
 #include "sigloc/plugin/pose_pdf.h"
@@ -269,6 +270,7 @@ RunSummary LocalizationRun::summary() const
   summary.truncated = state_->reader.truncated();
   summary.steps = steps_.size();
   countLocalized(steps_, summary);
+  summary.odometry = detail::matchOfOdometry(steps_);
   if (state_->truth)
   {
     summary.confidently_wrong_steps = static_cast<std::size_t>(

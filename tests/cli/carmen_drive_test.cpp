@@ -22,8 +22,8 @@ using nlohmann::json;
 
 const std::filesystem::path kDrive = kSources / "rawlogs/office.rawlog";
 
-/// A step as a ROBOTLASER1 message; its robot is at `odometry`.
-std::string robotLaser(const RawlogStep& step, const TPose2D& odometry)
+/// A step as a ROBOTLASER1 message; its robot is at `odometry`, its laser turned by `turn` [rad].
+std::string robotLaser(const RawlogStep& step, const TPose2D& odometry, double turn)
 {
   const LaserScan& scan = step.scans.front();
   std::ostringstream line;
@@ -31,7 +31,8 @@ std::string robotLaser(const RawlogStep& step, const TPose2D& odometry)
        << " " << scan.max_range << " " << scan.range_sigma << " 0 " << scan.ranges.size();
   for (std::size_t i = 0; i < scan.ranges.size(); ++i)
     line << " " << (scan.valid[i] != 0 ? scan.ranges[i] : 0.0F);
-  const TPose2D laser = odometry + scan.robot_from_sensor;
+  TPose2D laser = odometry + scan.robot_from_sensor;
+  laser.phi += turn;
   line << " 0";
   for (const TPose2D& pose : {laser, odometry})
     line << " " << pose.x << " " << pose.y << " " << pose.phi;
@@ -39,8 +40,8 @@ std::string robotLaser(const RawlogStep& step, const TPose2D& odometry)
   return line.str();
 }
 
-/// The office's drive as a CARMEN log.
-std::string carmenDrive()
+/// The office's drive as a CARMEN log, with a mount that tells a wrong `turn` [rad].
+std::string carmenDrive(double turn = 0)
 {
   std::string log = "# a comment, and a message that is no scan\nODOM 0 0 0 0 0 0 1 host 1\n";
   RawlogReader reader(kDrive);
@@ -48,7 +49,7 @@ std::string carmenDrive()
   while (const auto step = reader.next())
   {
     if (step->motion) odometry = odometry + step->motion->mean;
-    log += robotLaser(*step, odometry);
+    log += robotLaser(*step, odometry, turn);
   }
   return log;
 }
@@ -60,6 +61,23 @@ json localize(const TemporaryFolder& folder, const std::string& log, const std::
           {"--map", kOffice.string(), "--log", log, "--out", out, "--quiet"});
   EXPECT_EQ(result.exit_code, 0) << result.errors;
   return json::parse(readBytes(folder / (out + "/summary.json")));
+}
+
+TEST(CarmenDrive, aMountThatIsTurnedIsTold)
+{
+  constexpr double kTurn = 0.5;
+  const TemporaryFolder folder;
+  writeText(folder / "drive.clf", carmenDrive(kTurn));
+  const CommandResult result = run(
+      folder, "sigloc-localize", {"--map", kOffice.string(), "--log", "drive.clf", "--out", "out"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const json summary = json::parse(readBytes(folder / "out/summary.json"));
+  ASSERT_GT(summary["localized_steps"], 10);
+  EXPECT_NEAR(summary["odometry_turn_deg"], kTurn * 180 / M_PI, 6);
+  EXPECT_NEAR(summary["odometry_stretch"], 1, 0.1);
+  EXPECT_NE(result.output.find("to the left: is the yaw of the laser's mount right?"),
+            std::string::npos)
+      << result.output;
 }
 
 TEST(CarmenDrive, isLocalizedAsItsRawlogIs)

@@ -43,6 +43,13 @@ struct StepTimes
   double p95 = 0;
 };
 
+/// How the poses of localized steps moved, against what odometry says.
+struct OdometryMatch
+{
+  double turn = 0;  ///< [rad] to the left of odometry's direction; a mount's yaw too large by it
+  double stretch = 1;  ///< metres a metre of odometry
+};
+
 /// What a run comes to; the figures of `summary.json`.
 struct RunSummary
 {
@@ -60,6 +67,7 @@ struct RunSummary
   std::size_t localized_steps = 0;
   std::optional<double> localized_metres;  ///< driven to these steps; none without odometry
   std::size_t times_lost = 0;  ///< how often a localized step was followed by one that is not
+  std::optional<OdometryMatch> odometry;  ///< none with less than 2 m of both
   std::optional<bool> converged;  ///< at the step where that was to be tested; none: not tested
   std::optional<std::size_t> confidently_wrong_steps;  ///< none where the path's truth is unknown
   StepTimes relocation;  ///< of the steps that relocated
