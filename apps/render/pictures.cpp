@@ -62,21 +62,31 @@ const Legend kMapLegend = {
     {"corner", FeatureType::corner},
     {"wall end", FeatureType::wall_end},
 };
+/// In a tall map's picture both rows fill what the scale bar leaves: "unsure", "likely" and
+/// "unlikely" are poses, too.
 const Legend kStepLegend = {
-    {"returns", Palette::kReturns},        {"features seen", Palette::kObserved},
-    {"hypotheses", Palette::kLikely},      {"sure pose", Palette::kSurePose},
-    {"unsure pose", Palette::kUnsurePose},
+    {"returns", Palette::kReturns},    {"features seen", Palette::kObserved},
+    {"sure pose", Palette::kSurePose}, {"unsure", Palette::kUnsurePose},
+    {"likely", Palette::kLikely},      {"unlikely", Palette::kUnlikely},
 };
 const Legend kComparisonLegend = {
     {"proposed", Palette::kProposed},   {"returns", Palette::kReturns},
     {"candidates", Palette::kUnlikely}, {"sure", Palette::kSurePose},
-    {"unsure", Palette::kUnsurePose},   {"truth", Palette::kTruth},
+    {"unsure", Palette::kUnsurePose},
 };
+
+/// The legend with the truth where it is drawn. A text is replaced by index: the empty one takes
+/// the place of an earlier picture's.
+Legend withTruth(Legend legend, const StepDrawing& step)
+{
+  legend.emplace_back(step.truth ? "truth" : "", Palette::kTruth);
+  return legend;
+}
 
 Legend stepMapLegend()
 {
   Legend legend = kMapLegend;
-  legend.insert(legend.end(), {{"path", Palette::kPath}, {"truth", Palette::kTruth}});
+  legend.emplace_back("path", Palette::kPath);
   return legend;
 }
 
@@ -253,7 +263,7 @@ mrpt::img::CImage PictureMaker::stepPicture(const StepDrawing& step,
     close_up_->view.y = centre->y;
   }
   overview_->show(step);
-  overview_->write(title, {stepMapLegend(), kStepLegend});
+  overview_->write(title, {withTruth(stepMapLegend(), step), kStepLegend});
   close_up_->show(step);
   const bool sure = step.belief != nullptr && step.belief->verdict == Verdict::localized;
   close_up_->writeBanner(sure ? "" : kBanner);
@@ -269,7 +279,7 @@ mrpt::img::CImage PictureMaker::comparison(const StepDrawing& step,
   StepDrawing whole = step;
   whole.observed = nullptr;
   overview_->show(whole);
-  overview_->write(title, {kMapLegend, kComparisonLegend});
+  overview_->write(title, {kMapLegend, withTruth(kComparisonLegend, step)});
   std::vector<mrpt::img::CImage> pictures = {picture(*overview_)};
   for (const CloseUp& place : places)
   {

@@ -26,6 +26,7 @@ table { border-collapse: collapse; width: 100%; background: #fff; }
 td, th { border: 1px solid #ccc; padding: 3px 7px; text-align: right; }
 #reason { background: #fff; border: 1px solid #ccc; padding: 6px 10px; min-height: 2.8em; }
 .key { display: inline-block; width: 12px; height: 12px; margin: 0 4px 0 12px; }
+.key.range { width: 48px; }
 .small { color: #555; font-size: 13px; }
 #scan { min-height: 2.8em; }
 @media (max-width: 760px) {
@@ -244,17 +245,18 @@ if (data.scans_every > 1)
   get("kept").textContent = `So that the page stays small, it has the scans of one step in ${data.scans_every} ` +
                             "and of those where the verdict changes. ";
 get("title").textContent = `${data.log_name} in ${data.map_name}`;
+const likelihoods = `linear-gradient(to right, ${weightColor(0)}, ${weightColor(1)})`;
 function addKey(legend, color, name) {
   const entry = element("span", ""), key = element("span", "");
   entry.style.display = "inline-block";
-  key.className = "key";
+  key.className = color === likelihoods ? "key range" : "key";
   key.style.background = color;
   entry.append(key, name);
   get(legend).append(entry);
 }
 data.verdicts.forEach((name, k) => addKey("legend", verdictColors[k], name));
 const meanings = [["returns", colors.returns], ["features seen", colors.observed],
-                  ["hypotheses", colors.likely], ["sure pose", colors.sure],
+                  ["hypotheses, unlikely to likely", likelihoods], ["sure pose", colors.sure],
                   ["unsure pose", colors.unsure], ["path", colors.path]];
 if (steps.some(step => step.t)) meanings.push(["truth", colors.truth]);
 if (data.map.marks.length > 0) meanings.unshift(["mapped", colors.mapped]);

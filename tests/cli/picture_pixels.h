@@ -4,18 +4,21 @@
 
 #include <mrpt/img/CImage.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 
 namespace sigloc::test
 {
-/// How many pixels have about this colour.
-inline int pixelsLike(const mrpt::img::CImage& picture, const mrpt::img::TColor& color)
+/// How many pixels have about this colour, in the rows from `first_row` to before `end_row`.
+inline int pixelsLike(const mrpt::img::CImage& picture, const mrpt::img::TColor& color,
+                      unsigned first_row = 0, std::size_t end_row = SIZE_MAX)
 {
   constexpr int kTolerance = 12;
   const bool bgr = picture.getChannelsOrder() == "BGR";
   int count = 0;
-  for (unsigned row = 0; row < picture.getHeight(); ++row)
+  const std::size_t last = std::min(end_row, picture.getHeight());
+  for (unsigned row = first_row; row < last; ++row)
   {
     for (unsigned column = 0; column < picture.getWidth(); ++column)
     {

@@ -76,6 +76,10 @@ def check_scan(driver):
     meanings = shown(driver, "meanings")
     for what in ("returns", "features seen", "sure pose"):
         check(what in meanings, f"the legend has no {what}: {meanings}")
+    # A hypothesis of weight w is sqrt(w) of the way along the legend's range of colours.
+    range_of_colors = driver.find_element(By.CSS_SELECTOR, ".key.range").value_of_css_property("background-image")
+    ends = driver.execute_script("return [weightColor(0), weightColor(1)]")
+    check(range_of_colors == f"linear-gradient(to right, {ends[0]}, {ends[1]})", f"the legend has {range_of_colors}")
     check("truth" not in meanings, "the legend has a truth that is unknown")
     check("truth" not in shown(driver, "facts"), "the facts have a truth that is unknown")
     share = driver.execute_script(
