@@ -88,6 +88,7 @@ struct StepFile
 {
   const char* name;
   std::string (*row)(const StepRecord& step, const GaussianPose& anywhere);
+  bool of_truth = false;  ///< empty where no step has a truth, as pf-localization's
 };
 
 constexpr StepFile kStepFiles[] = {
@@ -95,9 +96,12 @@ constexpr StepFile kStepFiles[] = {
      { return numberRow(volumeOf(s, anywhere)); }},
     {"odo_est.txt", odometryRow},
     {"GT_error.txt",
-     [](const StepRecord& s, const GaussianPose& /*anywhere*/) { return numberRow(errorOf(s)); }},
-    {"ODO_error.txt", [](const StepRecord& s, const GaussianPose& /*anywhere*/)
-     { return numberRow(s.truth ? errorBetween(s.odometry, *s.truth).distance : kUnknown); }},
+     [](const StepRecord& s, const GaussianPose& /*anywhere*/) { return numberRow(errorOf(s)); },
+     true},
+    {"ODO_error.txt",
+     [](const StepRecord& s, const GaussianPose& /*anywhere*/)
+     { return numberRow(s.truth ? errorBetween(s.odometry, *s.truth).distance : kUnknown); },
+     true},
     {"exec_times.txt", timesRow},
     {"PF_stats.txt", statisticsRow},
 };
@@ -133,10 +137,16 @@ void writeParticles(const LocalizationRun& run, const std::filesystem::path& fol
 
 void writePfLocalizationFiles(const LocalizationRun& run, const std::filesystem::path& folder)
 {
+  const std::vector<StepRecord>& steps = run.steps();
+  const bool has_truth = std::any_of(steps.begin(), steps.end(),
+                                     [](const StepRecord& step) { return step.truth.has_value(); });
   for (const StepFile& kind : kStepFiles)
   {
     std::string rows;
-    for (const StepRecord& step : run.steps()) rows += kind.row(step, run.anywhere()) + "\n";
+    if (has_truth || !kind.of_truth)
+    {
+      for (const StepRecord& step : steps) rows += kind.row(step, run.anywhere()) + "\n";
+    }
     writeFile(folder / kind.name, rows);
   }
   writeParticles(run, folder / "particles");

@@ -12,6 +12,7 @@ namespace sigloc
 {
 /// Writes the text files of pf-localization's log folder, for scripts that read those. Each has one
 /// row for each step, pf-localization's some fewer. A value that is not known at a step is `nan`.
+/// Where no step has a truth, the files of errors are empty, as pf-localization's are.
 ///
 /// * `cov_est.txt`: square root of the determinant of the belief's covariance; unless localized,
 ///   with "somewhere else" in it, see withElsewhere()

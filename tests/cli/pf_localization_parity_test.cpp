@@ -80,6 +80,18 @@ TEST(PfLocalizationParity, writesTheFilesOfItsLogFolder)
   EXPECT_NEAR(summary[0][3], errors[36][0], 1e-5);
 }
 
+TEST(PfLocalizationParity, writesNoErrorsWithoutATruth)
+{
+  const TemporaryFolder folder;
+  ASSERT_EQ(localize(folder, "").exit_code, 0);
+  for (const char* const name : {"GT_error.txt", "ODO_error.txt"})
+  {
+    const auto file = folder / ("out/" + std::string(name));
+    EXPECT_TRUE(std::filesystem::exists(file)) << name << ": pf-localization has it, too";
+    EXPECT_EQ(readBytes(file), "") << name;
+  }
+}
+
 TEST(PfLocalizationParity, testsConvergenceWhereItIsTold)
 {
   const TemporaryFolder folder;
