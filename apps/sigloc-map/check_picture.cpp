@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 
+#include "metres_text.h"
 #include "RasterPicture.h"
 
 namespace sigloc
@@ -130,9 +131,7 @@ void drawPlace(RasterPicture& picture, const CheckedPlace& place)
   const auto [column, row] = picture.pixelOf({place.pose.x, place.pose.y});
   if (place.fooled > 0) drawCross(picture, column, row);
   if (!place.drive) return;
-  const std::string metres = std::isfinite(*place.drive) ? fmt::format("{:.0f}", *place.drive)
-                                                         : fmt::format(">{:.0f}", MapCheck::kDrive);
-  picture.put(column - 6, row - 10, metres, kText);
+  picture.put(column - 6, row - 10, metresText(*place.drive), kText);
 }
 
 void drawTexts(RasterPicture& picture, const std::string& title)

@@ -16,6 +16,7 @@
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 
 #include "command_line.h"
+#include "metres_text.h"
 #include "picture_pixels.h"
 
 namespace sigloc
@@ -90,6 +91,16 @@ TEST(MapCheck, anOfficeIsToldToBeEasyInFilesThatAgree)
   mrpt::img::CImage picture;
   ASSERT_TRUE(picture.loadFromFile((folder / "answer/check.png").string()));
   EXPECT_GT(pixelsLike(picture, mrpt::img::TColor(90, 186, 110)), 5000) << "always localized";
+}
+
+// A number stands where one scan is not enough.
+TEST(MapCheck, noDriveIsOfZeroMetres)
+{
+  EXPECT_EQ(metresText(0), "<1");
+  EXPECT_EQ(metresText(0.99), "<1");
+  EXPECT_EQ(metresText(1), "1");
+  EXPECT_EQ(metresText(2.6), "3");
+  EXPECT_EQ(metresText(INFINITY), ">20");
 }
 
 TEST(MapCheck, asksAtAsManyPlacesAsItIsTold)
