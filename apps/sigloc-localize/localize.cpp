@@ -25,7 +25,9 @@ constexpr const char* kDefaultsHeader =
     "# SPDX-FileCopyrightText: 2026 the sigloc authors\n"
     "# SPDX-License-Identifier: BSD-3-Clause\n"
     "#\n"
-    "# Every option of sigloc with its default, made with: sigloc-localize --print-defaults\n";
+    "# Every option of sigloc with its default, made with: sigloc-localize --print-defaults\n"
+    "# The tracker is chosen in pf-localization's section [LocalizationExperiment]:\n"
+    "# tracker = gaussians ([sigloc.tracker]), or particles ([sigloc.particles])\n";
 
 /// Runs once, adding to `outcomes`; returns the exit code.
 int localize(const sigloc::LocalizationSetup& setup, bool quiet,

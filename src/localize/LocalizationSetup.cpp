@@ -59,6 +59,19 @@ std::string readText(const fs::path& path, const std::string& hint)
   return text.str();
 }
 
+/// Throws for a key of [LocalizationExperiment] in a section of ours, such as `tracker`.
+void refuseExperimentKeys(const CConfigFileMemory& ini, const std::string& section)
+{
+  std::vector<std::string> keys;
+  ini.getAllKeys(section, keys);
+  for (const std::string& key : keys)
+  {
+    if (!detail::isExperimentKey(key)) continue;
+    throw std::runtime_error(
+        fmt::format("section {}: '{}' belongs in [{}]", section, key, kExperiment));
+  }
+}
+
 void readSections(const CConfigFileMemory& ini, LocalizationSetup& setup)
 {
   std::vector<std::string> sections;
@@ -68,6 +81,7 @@ void readSections(const CConfigFileMemory& ini, LocalizationSetup& setup)
     const bool ours = section.rfind(kPrefix, 0) == 0;
     const bool known = std::find(kSections.begin(), kSections.end(), section) != kSections.end();
     if (ours && !known) throw std::runtime_error("unknown section [" + section + "]");
+    if (known) refuseExperimentKeys(ini, section);
   }
   setup.matcher = loadOptions<MatcherOptions>(ini, kMatcher);
   setup.tracker = loadOptions<TrackerOptions>(ini, kTracker);

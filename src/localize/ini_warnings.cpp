@@ -71,6 +71,11 @@ bool isComment(const std::string& line)
 }
 }  // namespace
 
+bool isExperimentKey(const std::string& key)
+{
+  return readKeys().count(key) > 0;
+}
+
 std::string warningOfUnreadKeys(const mrpt::config::CConfigFileBase& ini,
                                 const std::string& section)
 {
@@ -79,7 +84,7 @@ std::string warningOfUnreadKeys(const mrpt::config::CConfigFileBase& ini,
   std::string unread;
   for (const std::string& key : present)
   {
-    if (readKeys().count(key) > 0) continue;
+    if (isExperimentKey(key)) continue;
     unread += (unread.empty() ? "'" : ", '") + key + "'";
   }
   return unread.empty() ? "" : "[" + section + "]: nothing reads " + unread;

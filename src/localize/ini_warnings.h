@@ -9,6 +9,9 @@
 
 namespace sigloc::detail
 {
+/// Whether sigloc or pf-localization reads such a key from [LocalizationExperiment].
+bool isExperimentKey(const std::string& key);
+
 /// Returns a line on the keys of a section that neither sigloc nor pf-localization reads from
 /// [LocalizationExperiment]; empty for none. They are no error: pf-localization ignores them.
 std::string warningOfUnreadKeys(const mrpt::config::CConfigFileBase& ini,

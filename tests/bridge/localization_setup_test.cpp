@@ -172,6 +172,8 @@ std::vector<HostileIni> hostileInis()
       {"[sigloc.localize]\npictures = 7\n", "pictures"},
       {"[sigloc.matcher]\nmod = 5\n", "mod"},
       {"[sigloc.match]\nmode = 5\n", "sigloc.match"},
+      {"[sigloc.tracker]\ntracker = particles\n",
+       "section sigloc.tracker: 'tracker' belongs in [LocalizationExperiment]"},
   };
 }
 

@@ -21,6 +21,19 @@ TEST(ShippedConfigurations, defaultsEqualTheCode)
       << "made with: sigloc-localize --print-defaults >share/sigloc/sigloc-defaults.ini";
 }
 
+TEST(ShippedConfigurations, defaultsTellOfTheTracker)
+{
+  const TemporaryFolder folder;
+  const std::string defaults = run(folder, "sigloc-localize", {"--print-defaults"}).output;
+  EXPECT_NE(defaults.find("[LocalizationExperiment]:\n# tracker = gaussians"), std::string::npos);
+  writeText(folder / "run.ini", defaults +
+                                    "[LocalizationExperiment]\ntracker = particles\nmap_file = " +
+                                    kLabMap.string() + "\nrawlog_file = " + kLabLog.string());
+  const LocalizationSetup setup = readLocalizationSetup(folder / "run.ini");
+  EXPECT_TRUE(setup.use_particles);
+  EXPECT_TRUE(setup.warnings.empty());
+}
+
 TEST(ShippedConfigurations, allAreRead)
 {
   std::size_t count = 0;
