@@ -4,6 +4,7 @@
 #include <cctype>
 #include <numeric>
 
+#include "config/nearest_word.h"
 #include "sigloc/config/option_fields.h"
 
 namespace sigloc
@@ -38,7 +39,7 @@ std::size_t lettersBetween(const std::string& a, const std::string& b)
 }
 }  // namespace
 
-std::string didYouMean(const std::string& word, const std::vector<std::string>& known)
+std::string detail::nearestWord(const std::string& word, const std::vector<std::string>& known)
 {
   constexpr std::size_t kLongest = 255;  // of a file's name
   constexpr std::size_t kLettersPerSlip = 3;
@@ -53,6 +54,12 @@ std::string didYouMean(const std::string& word, const std::vector<std::string>& 
     least = distance;
     nearest = candidate;
   }
+  return nearest;
+}
+
+std::string didYouMean(const std::string& word, const std::vector<std::string>& known)
+{
+  const std::string nearest = detail::nearestWord(word, known);
   return nearest.empty() ? "" : "; did you mean '" + nearest + "'?";
 }
 }  // namespace sigloc

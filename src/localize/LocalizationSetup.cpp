@@ -15,6 +15,7 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "config/nearest_word.h"
 #include "io/archive/gzip_input.h"
 #include "io/carmen_log.h"
 #include "io/maps/map_formats.h"
@@ -80,7 +81,11 @@ void readSections(const CConfigFileMemory& ini, LocalizationSetup& setup)
   {
     const bool ours = section.rfind(kPrefix, 0) == 0;
     const bool known = std::find(kSections.begin(), kSections.end(), section) != kSections.end();
-    if (ours && !known) throw std::runtime_error("unknown section [" + section + "]");
+    if (ours && !known)
+    {
+      throw std::runtime_error("unknown section [" + section + "]" +
+                               didYouMean(section, {kSections.begin(), kSections.end()}));
+    }
     if (known) refuseExperimentKeys(ini, section);
   }
   setup.matcher = loadOptions<MatcherOptions>(ini, kMatcher);
@@ -240,7 +245,6 @@ bool mayExist(const fs::path& path)
 /// Finds a file that an ini names: in the folder of the ini, then from the current folder.
 fs::path findFile(const fs::path& named, const fs::path& ini, const char* key)
 {
-  if (named.empty()) throw std::runtime_error(fmt::format("'{}' is missing", key));
   const fs::path beside = ini.parent_path() / named;  // `named` itself where it is absolute
   if (mayExist(beside)) return beside.lexically_normal();
   if (mayExist(named)) return named;
@@ -248,21 +252,42 @@ fs::path findFile(const fs::path& named, const fs::path& ini, const char* key)
                                        detail::didYouMeanFile(beside)));
 }
 
+/// Returns "; did you mean it by '...'?" with the one of `present` that is nearest to what is
+/// missing.
+std::string didYouMeanItBy(const std::string& missing, const std::vector<std::string>& present)
+{
+  const std::string nearest = detail::nearestWord(missing, present);
+  return nearest.empty() ? "" : "; did you mean it by '" + nearest + "'?";
+}
+
+/// Finds a file without which there is no run.
+fs::path findInput(const CConfigFileMemory& ini, const fs::path& path, const char* key)
+{
+  const fs::path named = ini.read_string(kExperiment, key, "");
+  if (!named.empty()) return findFile(named, path, key);
+  const std::vector<std::string> unread = detail::unreadKeys(ini, kExperiment);
+  throw std::runtime_error(fmt::format("'{}' is missing{}", key, didYouMeanItBy(key, unread)));
+}
+
 void readExperiment(const CConfigFileMemory& ini, const fs::path& path, const fs::path& rawlog,
                     const fs::path& map, LocalizationSetup& setup)
 {
   if (!ini.sectionExists(kExperiment))
   {
-    throw std::runtime_error(fmt::format("no section [{}]{}", kExperiment, kMapAndLog));
+    std::vector<std::string> sections;
+    ini.getAllSections(sections);
+    const std::string meant = didYouMeanItBy(kExperiment, sections);
+    throw std::runtime_error(
+        fmt::format("no section [{}]{}", kExperiment, meant.empty() ? kMapAndLog : meant));
   }
-  const std::string unread = detail::warningOfUnreadKeys(ini, kExperiment);
-  if (!unread.empty()) setup.warnings.push_back(unread);
+  for (const std::string& unread : detail::warningsOfUnreadKeys(ini, kExperiment))
+    setup.warnings.push_back(unread);
   setup.use_particles = readTracker(ini);
   const std::string ignored = detail::warningOfIgnoredKeys(ini, kExperiment, setup.use_particles);
   if (!ignored.empty()) setup.warnings.push_back(ignored);
   const auto named = [&](const char* key) { return ini.read_string(kExperiment, key, ""); };
-  setup.map_file = map.empty() ? findFile(named("map_file"), path, "map_file") : map;
-  setup.rawlog_file = rawlog.empty() ? findFile(named("rawlog_file"), path, "rawlog_file") : rawlog;
+  setup.map_file = map.empty() ? findInput(ini, path, "map_file") : map;
+  setup.rawlog_file = rawlog.empty() ? findInput(ini, path, "rawlog_file") : rawlog;
   const std::string truth = named("ground_truth_path_file");
   if (!truth.empty()) setup.ground_truth_file = findFile(truth, path, "ground_truth_path_file");
   setup.output_folder = named("logOutput_dir");

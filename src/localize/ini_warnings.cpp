@@ -10,6 +10,8 @@
 #include <sstream>
 #include <utility>
 
+#include "sigloc/config/option_fields.h"
+
 namespace sigloc::detail
 {
 namespace
@@ -76,18 +78,30 @@ bool isExperimentKey(const std::string& key)
   return readKeys().count(key) > 0;
 }
 
-std::string warningOfUnreadKeys(const mrpt::config::CConfigFileBase& ini,
-                                const std::string& section)
+std::vector<std::string> unreadKeys(const mrpt::config::CConfigFileBase& ini,
+                                    const std::string& section)
 {
-  std::vector<std::string> present;
-  ini.getAllKeys(section, present);
-  std::string unread;
-  for (const std::string& key : present)
+  std::vector<std::string> keys;
+  ini.getAllKeys(section, keys);
+  keys.erase(std::remove_if(keys.begin(), keys.end(), isExperimentKey), keys.end());
+  return keys;
+}
+
+std::vector<std::string> warningsOfUnreadKeys(const mrpt::config::CConfigFileBase& ini,
+                                              const std::string& section)
+{
+  const std::vector<std::string> known(readKeys().begin(), readKeys().end());
+  const std::string start = "[" + section + "]: nothing reads ";
+  std::vector<std::string> warnings;
+  std::string others;
+  for (const std::string& key : unreadKeys(ini, section))
   {
-    if (isExperimentKey(key)) continue;
-    unread += (unread.empty() ? "'" : ", '") + key + "'";
+    const std::string hint = didYouMean(key, known);
+    if (!hint.empty()) warnings.push_back(fmt::format("{}'{}'{}", start, key, hint));
+    if (hint.empty()) others += (others.empty() ? "'" : ", '") + key + "'";
   }
-  return unread.empty() ? "" : "[" + section + "]: nothing reads " + unread;
+  if (!others.empty()) warnings.push_back(start + others);
+  return warnings;
 }
 
 std::string warningOfIgnoredKeys(const mrpt::config::CConfigFileBase& ini,

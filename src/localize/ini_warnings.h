@@ -12,10 +12,15 @@ namespace sigloc::detail
 /// Whether sigloc or pf-localization reads such a key from [LocalizationExperiment].
 bool isExperimentKey(const std::string& key);
 
-/// Returns a line on the keys of a section that neither sigloc nor pf-localization reads from
-/// [LocalizationExperiment]; empty for none. They are no error: pf-localization ignores them.
-std::string warningOfUnreadKeys(const mrpt::config::CConfigFileBase& ini,
-                                const std::string& section);
+/// Returns the keys of a section that neither sigloc nor pf-localization reads from
+/// [LocalizationExperiment].
+std::vector<std::string> unreadKeys(const mrpt::config::CConfigFileBase& ini,
+                                    const std::string& section);
+
+/// Returns a line for each of these that looks misspelt, and one for the others. They are no
+/// error: pf-localization ignores them.
+std::vector<std::string> warningsOfUnreadKeys(const mrpt::config::CConfigFileBase& ini,
+                                              const std::string& section);
 
 /// Returns a line on what the ini asks of pf-localization's particle filter and window, and sigloc
 /// does not do; empty for nothing. Switches that are off ask for nothing.

@@ -195,12 +195,14 @@ TEST(LocalizationSetup, warnsOfKeysThatNothingReads)
   const TemporaryFolder folder;
   EXPECT_TRUE(read(folder, "use_3D_poses=false\n# trackr=1\n[other]\ntrackr=1\ntrackr=2\n")
                   .warnings.empty());
-  const auto warnings = read(folder, "trackr = particles\nTracker=particles\nmap_fil=x\n").warnings;
-  ASSERT_EQ(warnings.size(), 1U);
-  for (const char* key : {"[LocalizationExperiment]", "'trackr'", "'Tracker'", "'map_fil'"})
-  {
-    EXPECT_NE(warnings[0].find(key), std::string::npos) << warnings[0];
-  }
+  const auto warnings =
+      read(folder, "colour = red\ntrackr = particles\nlogOutput_Dir2=x\nsmell=y\n").warnings;
+  const std::string start = "[LocalizationExperiment]: nothing reads ";
+  EXPECT_EQ(warnings, (std::vector<std::string>{
+                          start + "'logOutput_Dir2'; did you mean 'logOutput_dir'?",
+                          start + "'trackr'; did you mean 'tracker'?",
+                          start + "'colour', 'smell'",
+                      }));
   const char* const stock = "/usr/share/mrpt/config_files/pf-localization/localization_demo.ini";
   const auto ignored = readLocalizationSetup(stock).warnings;
   ASSERT_EQ(ignored.size(), 1U) << "what pf-localization does and sigloc does not";
@@ -208,6 +210,28 @@ TEST(LocalizationSetup, warnsOfKeysThatNothingReads)
   {
     EXPECT_NE(ignored[0].find(key), std::string::npos) << ignored[0];
   }
+}
+
+TEST(LocalizationSetup, namesTheKeyThatIsMeantByAMisspeltOne)
+{
+  const TemporaryFolder folder;
+  const auto reasonOf = [&](const std::string& ini)
+  {
+    writeText(folder / "run.ini", ini);
+    const std::string reason =
+        messageOf<std::runtime_error>([&] { readLocalizationSetup(folder / "run.ini"); });
+    return reason.substr(reason.find(": ") + 2);
+  };
+  writeText(folder / "a.map", "m");
+  EXPECT_EQ(reasonOf("[LocalizationExperiment]\nmap_fiel = a.map\nrawlog_file = a.rawlog\n"),
+            "'map_file' is missing; did you mean it by 'map_fiel'?");
+  EXPECT_EQ(reasonOf("[LocalizationExperiment]\nmap_file = a.map\nrawlogfile = a.rawlog\n"),
+            "'rawlog_file' is missing; did you mean it by 'rawlogfile'?");
+  EXPECT_EQ(reasonOf("[LocalizationExperiment]\nmap_file = a.map\n"), "'rawlog_file' is missing");
+  EXPECT_EQ(reasonOf("[LocalisationExperiment]\nmap_file = a.map\n"),
+            "no section [LocalizationExperiment]; did you mean it by 'LocalisationExperiment'?");
+  EXPECT_EQ(reasonOf("[sigloc.traker]\n"),
+            "unknown section [sigloc.traker]; did you mean 'sigloc.tracker'?");
 }
 
 TEST(LocalizationSetup, warnsOfKeysThatAreThereTwice)

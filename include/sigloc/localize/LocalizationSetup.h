@@ -92,7 +92,7 @@ struct LocalizationSetup
 /// ground_truth_path_file, logOutput_dir, SAVE_STATS_ONLY, 3DSceneFrequency, experimentRepetitions,
 /// experimentTestConvergenceAtStep, STATS_CONF_INTERVAL, initial_odo_* and init_PDF_*. It also
 /// reads `tracker`, gaussians or particles; with particles, particles_count too. Other keys of the
-/// particle filter and of its window are ignored: one warning names those that are set, another the
+/// particle filter and of its window are ignored: one warning names those that are set, others the
 /// keys that no program reads.
 ///
 /// A file name is looked up in the ini's folder, then in the current one. logOutput_dir is relative
