@@ -3,6 +3,7 @@
 #include "localize/ini_warnings.h"
 
 #include <fmt/core.h>
+#include <mrpt/system/string_utils.h>
 
 #include <algorithm>
 #include <map>
@@ -18,10 +19,20 @@ namespace
 {
 constexpr const char* kSpaces = " \t\r";
 
-// pf-localization 2.5.8 reads all of them but `tracker`.
-const std::set<std::string>& readKeys()
+/// The order of keys for MRPT, which takes upper and lower case alike.
+struct LessInLowerCase
 {
-  static const std::set<std::string> kKeys = {
+  bool operator()(const std::string& a, const std::string& b) const
+  {
+    return mrpt::system::lowerCase(a) < mrpt::system::lowerCase(b);
+  }
+};
+using KeySet = std::set<std::string, LessInLowerCase>;
+
+// pf-localization 2.5.8 reads all of them but `tracker`.
+const KeySet& readKeys()
+{
+  static const KeySet kKeys = {
       "3DSceneFollowRobot",
       "3DSceneFrequency",
       "DO_RELIABILITY_ESTIMATE",

@@ -212,6 +212,15 @@ TEST(LocalizationSetup, warnsOfKeysThatNothingReads)
   }
 }
 
+TEST(LocalizationSetup, takesUpperAndLowerCaseAlikeWithoutAWarning)
+{
+  const TemporaryFolder folder;
+  const auto setup = read(folder, "logoutput_dir = x\nTracker = particles\n");
+  EXPECT_EQ(setup.output_folder, "x");
+  EXPECT_TRUE(setup.use_particles);
+  EXPECT_TRUE(setup.warnings.empty());
+}
+
 TEST(LocalizationSetup, namesTheKeyThatIsMeantByAMisspeltOne)
 {
   const TemporaryFolder folder;
