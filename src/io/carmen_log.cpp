@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/carmen_log.h"
 
+#include <mrpt/system/string_utils.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -32,18 +34,21 @@ class Message
 
   double number()
   {
-    if (next_ >= words_.size()) failAtLine(path_, index_, "cut off");
-    const auto value = toNumber(words_[next_]);
-    if (!value) failAtLine(path_, index_, "bad number " + quoted(words_[next_]));
-    ++next_;
+    const std::string_view word = next();
+    const auto value = toNumber(word);
+    if (!value) failAtLine(path_, index_, "bad number " + quoted(word));
     return *value;
   }
 
-  /// A range reading. A word that is no number counts as "no return".
+  /// A range reading; 0 for "no return", which some logs write as nan or inf.
   double range()
   {
-    if (next_ >= words_.size()) failAtLine(path_, index_, "cut off");
-    return toNumber(words_[next_++]).value_or(0.0);
+    const std::string_view word = next();
+    const auto value = toNumber(word);
+    if (!value && isNoReturn(word)) return 0;
+    if (!value) failAtLine(path_, index_, "bad number " + quoted(word));
+    if (*value < 0) failAtLine(path_, index_, "negative range " + quoted(word));
+    return *value;
   }
 
   std::size_t count()
@@ -61,6 +66,18 @@ class Message
   std::size_t left() const { return words_.size() - std::min(next_, words_.size()); }
 
  private:
+  static bool isNoReturn(std::string_view word)
+  {
+    const std::string text = mrpt::system::lowerCase(std::string(word));
+    return text == "nan" || text == "-nan" || text == "inf";
+  }
+
+  std::string_view next()
+  {
+    if (next_ >= words_.size()) failAtLine(path_, index_, "cut off");
+    return words_[next_++];
+  }
+
   std::vector<std::string_view> words_;
   const std::filesystem::path& path_;
   std::size_t index_;
