@@ -2,11 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <optional>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "number_option.h"
+#include "sigloc/io/map_files.h"
 #include "sigloc/io/RawlogReader.h"
 
 namespace sigloc
@@ -34,12 +39,21 @@ struct ReadingArguments
         ->check(numberFrom(-kHighest, kHighest));
   }
 
-  /// Returns `reading` with what was given in place of its own.
-  ReadingOptions in(ReadingOptions reading = {}) const
+  /// Returns `reading` with what was given in place of its own. Throws std::runtime_error for a
+  /// resolution that none of the maps needs, and for heights with nothing between them.
+  ReadingOptions in(const std::vector<std::filesystem::path>& maps,
+                    ReadingOptions reading = {}) const
   {
+    if (resolution && std::none_of(maps.begin(), maps.end(), isMapImage))
+    {
+      throw std::runtime_error(maps.front().string() +
+                               ": has its own resolution, or needs none; leave --resolution out");
+    }
     if (resolution) reading.image_resolution = *resolution;
     if (!heights.empty())
     {
+      if (!(heights[0] < heights[1]))
+        throw std::runtime_error("--heights LOW,HIGH: LOW is not below HIGH");
       reading.min_height = heights[0];
       reading.max_height = heights[1];
     }

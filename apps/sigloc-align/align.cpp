@@ -96,8 +96,9 @@ int siglocAlign(const sigloc::AlignArguments& given)
     if (given.picture.empty()) arguments.picture = given.output / "align.png";
   }
   checkOutputs(arguments);
-  const auto a = readMap(arguments.a, arguments.reading.in());
-  const auto b = readMap(arguments.b, arguments.reading.in());
+  const sigloc::ReadingOptions reading = arguments.reading.in({arguments.a, arguments.b});
+  const auto a = readMap(arguments.a, reading);
+  const auto b = readMap(arguments.b, reading);
   std::vector<sigloc::MapPose> poses;
   try
   {

@@ -26,7 +26,7 @@ struct ReferenceFlags
     checkWritableFolder(out.has_parent_path() ? out.parent_path() : ".");
     refuseToReplaceInputs(out, inputFiles(map, {rawlog}));
     checkReferenceFile(out);
-    const ReferencePath reference = referencePath(map, rawlog, poseOfFlag(last), reading.in());
+    const ReferencePath reference = referencePath(map, rawlog, poseOfFlag(last), reading.in({map}));
     writeReferencePath(reference, out);
     std::cout << reference.poses.size() << " poses; the worst scan has "
               << static_cast<int>(100 * reference.worst_goodness) << " % of its points paired\n";

@@ -29,7 +29,7 @@ struct RelocateFlags
                                                            sources.ground_truth}));
     RelocateOptions options;
     options.sources = sources;
-    options.sources.reading = reading.in();
+    options.sources.reading = reading.in({sources.map});
     options.sources.map_from_queries = poseOfFlag(map_from_queries);
     options.sources.max_queries = common.max_queries;
     options.scans_in_map = scans_in_map;

@@ -86,7 +86,7 @@ struct TrackFlags
         throw std::invalid_argument(std::string(name) + " is required");
       }
     }
-    options.reading = reading.in();
+    options.reading = reading.in({own_frames ? options.frames : options.map});
     options.map_from_truth = poseOfFlag(map_from_truth);
     if (landmarks) options.methods = {"signature"};
     common.passTo(options, command_line);

@@ -138,7 +138,7 @@ int runAll(const sigloc::LocalizeArguments& arguments)
   for (const std::string& warning : setup.warnings)
     sigloc::warn(kProgram, arguments.config, warning);
   if (arguments.output) setup.output_folder = *arguments.output;
-  setup.reading = arguments.reading.in(setup.reading);
+  setup.reading = arguments.reading.in({setup.map_file}, setup.reading);
   if (arguments.seed) setup.matcher.seed = *arguments.seed;
   const std::vector<Experiment> experiments = experimentsOf(setup);
   checkOutputs(setup, experiments);

@@ -24,7 +24,8 @@ MapCheck checkOf(const MapArguments& arguments, const std::shared_ptr<const Feat
 {
   CheckOptions options = arguments.options;
   if (!arguments.at.empty()) options.poses = readPoses(arguments.at);
-  SimulatedLaserOptions laser = laserOfMap(readMapSource(arguments.input, arguments.reading.in()));
+  SimulatedLaserOptions laser =
+      laserOfMap(readMapSource(arguments.input, arguments.reading.in({arguments.input})));
   if (!arguments.laser.empty()) laser = readLaser(arguments.laser, laser);
   ProgressLine progress;
   try
@@ -48,7 +49,7 @@ void runCheck(const MapArguments& arguments, const char* program)
   ProgressLine progress;
   const auto map = std::make_shared<const FeatureMap>(buildMapFromFile(
       arguments.input, {}, {}, [&](double share) { progress.showBar("building the map", share); },
-      arguments.reading.in()));
+      arguments.reading.in({arguments.input})));
   progress.finish();
   warn(program, arguments.input, warningOfMapSource(arguments.input));
   warn(program, arguments.input, warningOfMap(*map));

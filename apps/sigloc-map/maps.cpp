@@ -69,10 +69,10 @@ sigloc::FeatureMap anyMap(const std::filesystem::path& path, const sigloc::Local
   return map;
 }
 
-sigloc::LocalizationSetup setupWith(const sigloc::ReadingArguments& reading)
+sigloc::LocalizationSetup setupOf(const sigloc::MapArguments& arguments)
 {
   sigloc::LocalizationSetup setup;
-  setup.reading = reading.in();
+  setup.reading = arguments.reading.in({arguments.input});
   return setup;
 }
 
@@ -99,7 +99,7 @@ void build(const sigloc::MapArguments& arguments)
   checkBuildOutput(input, output, config);
   sigloc::LocalizationSetup setup;
   if (!config.empty()) setup = sigloc::readOptionSections(config);
-  setup.reading = arguments.reading.in(setup.reading);
+  setup.reading = arguments.reading.in({input}, setup.reading);
   for (const std::string& warning : setup.warnings) sigloc::warn(kProgram, config, warning);
   const sigloc::FeatureMap map = anyMap(input, setup);
   sigloc::saveSigmap(map, output);
@@ -124,7 +124,7 @@ std::string textOf(const ordered_json& value)
 void info(const sigloc::MapArguments& arguments)
 {
   const ordered_json description =
-      describe(anyMap(arguments.input, setupWith(arguments.reading)), arguments.input);
+      describe(anyMap(arguments.input, setupOf(arguments)), arguments.input);
   if (arguments.as_json)
   {
     std::cout << description.dump(2) << '\n';
@@ -164,7 +164,7 @@ void draw(const sigloc::MapArguments& arguments)
   {
     throw std::runtime_error(output.string() + ": the name of a picture ends in .png");
   }
-  const sigloc::FeatureMap map = anyMap(path, setupWith(arguments.reading));
+  const sigloc::FeatureMap map = anyMap(path, setupOf(arguments));
   sigloc::refuseToReplaceInputs(output, filesBehind(path, map));
   sigloc::PictureMaker pictures(map);
   const std::string title =

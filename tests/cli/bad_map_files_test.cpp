@@ -287,10 +287,15 @@ class BadMapFile : public ::testing::TestWithParam<NamedKind>
     writeText(folder_ / "good.yaml", with(kYaml, "good.pgm", "bad.pgm"));
   }
 
+  CommandResult runWith(const std::string& program, Arguments arguments) const
+  {
+    if (isMapImage(kind_.map)) arguments.insert(arguments.end(), {"--resolution", "0.05"});
+    return run(folder_, program, arguments);
+  }
+
   CommandResult build() const
   {
-    return run(folder_, "sigloc-map",
-               {"build", "-i", kind_.map, "-o", "m.sigmap", "--resolution", "0.05"});
+    return runWith("sigloc-map", {"build", "-i", kind_.map, "-o", "m.sigmap"});
   }
 
   /// Exit code 1, one line on stderr that names the file, and no file that was not there before.
@@ -298,9 +303,8 @@ class BadMapFile : public ::testing::TestWithParam<NamedKind>
   {
     const auto before = listing(folder_);
     for (const CommandResult& result :
-         {build(), run(folder_, "sigloc-localize",
-                       {"--map", kind_.map, "--log", kLabLog.string(), "--out", "new/out",
-                        "--resolution", "0.05", "--quiet"})})
+         {build(), runWith("sigloc-localize", {"--map", kind_.map, "--log", kLabLog.string(),
+                                               "--out", "new/out", "--quiet"})})
     {
       EXPECT_EQ(result.exit_code, 1) << what;
       EXPECT_EQ(countLines(result.errors), 1) << what << ": " << result.errors;

@@ -83,6 +83,36 @@ TEST(ImageMap, withoutItsResolutionIsRefusedByEveryProgram)
   }
 }
 
+TEST(ImageMap, resolutionIsRefusedForMapsThatNeedNone)
+{
+  const TemporaryFolder folder;
+  writeImage(folder);
+  const std::string log = (kSources / "rawlogs/office.rawlog").string();
+  const auto before = listing(folder);
+  for (const std::string& map : {std::string("office.yaml"), kOffice.string()})
+  {
+    for (auto& [program, arguments] : std::vector<std::pair<std::string, Arguments>>{
+             {"sigloc-map", {"build", "-i", map, "-o", "a.sigmap"}},
+             {"sigloc-map", {"draw", map, "-o", "a.png"}},
+             {"sigloc-map", {"info", map}},
+             {"sigloc-map", {"check", map, "--out", "checked"}},
+             {"sigloc-align", {map, map, "--picture", "a.png"}},
+             {"sigloc-localize", {"--map", map, "--log", log, "--out", "out"}},
+             {"sigloc-eval",
+              {"relocate", "--map", map, "--rawlog", log, "--foreign", "--out", "eval"}}})
+    {
+      arguments.insert(arguments.end(), {"--resolution", "0.5"});
+      const CommandResult result = run(folder, program, arguments);
+      EXPECT_EQ(result.exit_code, 1) << program;
+      EXPECT_EQ(result.errors,
+                program + ": " + map +
+                    ": has its own resolution, or needs none; leave --resolution out\n");
+      EXPECT_EQ(result.output, "");
+      EXPECT_EQ(listing(folder), before) << program;
+    }
+  }
+}
+
 TEST(PointMap, ofNoUseIsRefusedAndNothingIsWritten)
 {
   for (const char* const name : {"bad.ply", "bad.pcd"})

@@ -31,6 +31,9 @@ MapSource readMapSource(const std::filesystem::path& path, const ReadingOptions&
 /// ...".
 std::string mapFormatNames();
 
+/// Whether a file is named as an image alone, whose resolution only `ReadingOptions` tells.
+bool isMapImage(const std::filesystem::path& path);
+
 /// Returns a line on the key frames of a simplemap that are left out, or that are taken to be on
 /// one floor. For a ROS map the line is on thresholds that would make free what was never seen. It
 /// is empty when there is nothing to tell. The same errors.

@@ -221,6 +221,11 @@ std::vector<PosedScans> posedScansOf(const mrpt::maps::CSimpleMap& simplemap)
   return posed_scans;
 }
 
+bool isMapImage(const std::filesystem::path& path)
+{
+  return detail::mapKindOf(path) == MapKind::image;
+}
+
 std::string warningOfMapSource(const std::filesystem::path& path)
 {
   constexpr double kOneFloor = 0.5;  // [m]
