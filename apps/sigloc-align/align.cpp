@@ -9,6 +9,7 @@
 #include <iostream>
 #include <memory>
 #include <stdexcept>
+#include <system_error>
 
 #include "alignment_picture.h"
 #include "arguments.h"
@@ -38,7 +39,8 @@ std::shared_ptr<const sigloc::FeatureMap> readMap(const fs::path& path,
   return map;
 }
 
-/// Throws std::runtime_error where an output would replace an input, or has a wrong name.
+/// Throws std::runtime_error where an output would replace an input, has a wrong name, or cannot be
+/// written.
 void checkOutputs(const sigloc::AlignArguments& arguments)
 {
   std::vector<fs::path> inputs = sigloc::filesOfMapSource(arguments.a);
@@ -51,7 +53,14 @@ void checkOutputs(const sigloc::AlignArguments& arguments)
       throw std::runtime_error(output.string() + ": the name must end in " + ending);
     sigloc::refuseToReplaceInputs(output, inputs);
     if (output == other) throw std::runtime_error(output.string() + ": named twice");
+    const auto folder = [](const fs::path& path) { return (path / "").lexically_normal(); };
+    std::error_code unnameable;
+    const bool in_new_folder = !arguments.output.empty() &&
+                               !fs::exists(arguments.output, unnameable) &&
+                               folder(output.parent_path()) == folder(arguments.output);
+    if (!in_new_folder) sigloc::checkWritableFile(output);
   };
+  if (!arguments.output.empty()) sigloc::checkWritableFolder(arguments.output);
   check(arguments.poses, ".CPosePDFSOG", arguments.picture);
   check(arguments.picture, ".png", arguments.poses);
 }

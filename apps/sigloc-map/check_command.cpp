@@ -45,7 +45,11 @@ void runCheck(const MapArguments& arguments, const char* program)
   std::vector<std::filesystem::path> inputs = filesOfMapSource(arguments.input);
   inputs.push_back(arguments.laser);
   inputs.push_back(arguments.at);
-  if (!arguments.output.empty()) checkCheckFolder(arguments.output, inputs);
+  if (!arguments.output.empty())
+  {
+    checkCheckFolder(arguments.output, inputs);
+    checkWritableFolder(arguments.output);
+  }
   ProgressLine progress;
   const auto map = std::make_shared<const FeatureMap>(buildMapFromFile(
       arguments.input, {}, {}, [&](double share) { progress.showBar("building the map", share); },

@@ -90,6 +90,7 @@ void checkBuildOutput(const std::filesystem::path& input, const std::filesystem:
     throw std::runtime_error(output.string() + ": a map's name must end in .sigmap" +
                              (exists ? "; not overwritten" : ""));
   }
+  sigloc::checkWritableFile(output);
 }
 
 void build(const sigloc::MapArguments& arguments)
@@ -164,6 +165,7 @@ void draw(const sigloc::MapArguments& arguments)
   {
     throw std::runtime_error(output.string() + ": the name of a picture ends in .png");
   }
+  sigloc::checkWritableFile(output);
   const sigloc::FeatureMap map = anyMap(path, setupOf(arguments));
   sigloc::refuseToReplaceInputs(output, filesBehind(path, map));
   sigloc::PictureMaker pictures(map);

@@ -5,6 +5,8 @@
 // MRPT's libraries.
 #include "sigloc/io/file_output.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <ostream>
@@ -40,6 +42,37 @@ void refuseToReplaceInputs(const fs::path& output, const std::vector<fs::path>& 
                              (fs::is_directory(output) ? "holds the input " : "is the input ") +
                              input.string() + "; not overwritten");
   }
+}
+
+void checkWritableFolder(const fs::path& folder)
+{
+  if (folder.empty()) throw std::runtime_error("the name of the folder to write to is empty");
+  const fs::path whole = fs::absolute(folder).lexically_normal();
+  fs::path existing = whole;
+  std::error_code error;
+  while (existing.has_relative_path() && !fs::exists(existing, error))
+  {
+    existing = existing.parent_path();
+  }
+  if (!fs::is_directory(existing, error))
+  {
+    const std::string part = existing == whole ? "" : existing.string() + " ";
+    throw std::runtime_error(folder.string() + ": " + part + "is no folder");
+  }
+  if (access(existing.c_str(), W_OK | X_OK) != 0)
+  {
+    throw std::runtime_error(folder.string() + ": no right to write into " + existing.string());
+  }
+}
+
+void checkWritableFile(const fs::path& file)
+{
+  std::error_code error;
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  if (fs::is_directory(file, error)) throw std::runtime_error(file.string() + ": is a folder");
+  if (!fs::is_directory(folder, error))
+    throw std::runtime_error(file.string() + ": there is no folder " + folder.string());
+  checkWritableFolder(folder);
 }
 
 void checkOutputFolder(const fs::path& folder, const OutputFolderRule& rule,

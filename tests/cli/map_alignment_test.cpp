@@ -88,6 +88,35 @@ TEST(MapAlignment, aFolderTakesPosesAndPicture)
   EXPECT_TRUE(picture.loadFromFile((folder / "answer/align.png").string()));
 }
 
+TEST(MapAlignment, outputsThatCannotBeWrittenAreToldFirst)
+{
+  const TemporaryFolder folder;
+  const std::string lab = kLabMap.string();
+  writeText(folder / "my_map.yaml", "image: x\n");
+  std::filesystem::create_directory(folder / "folder.png");
+  const auto before = listing(folder);
+  for (const auto& [arguments, reason] : std::vector<std::pair<Arguments, std::string>>{
+           {{"--poses", "p.CPosePDFSOG", "--picture", "no/a.png"},
+            "no/a.png: there is no folder no"},
+           {{"--poses", "no/p.CPosePDFSOG"}, "no/p.CPosePDFSOG: there is no folder no"},
+           {{"--picture", "folder.png"}, "folder.png: is a folder"},
+           {{"--out", "new", "--picture", "no/a.png"}, "no/a.png: there is no folder no"},
+           {{"--out", "my_map.yaml"}, "my_map.yaml: is no folder"}})
+  {
+    Arguments all = {lab, lab};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    const CommandResult result = run(folder, "sigloc-align", all);
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_EQ(result.output, "") << "nothing is computed";
+    EXPECT_EQ(result.errors, "sigloc-align: " + reason + "\n");
+    EXPECT_EQ(listing(folder), before);
+  }
+  EXPECT_EQ(run(folder, "sigloc-align",
+                {lab, lab, "-o", "new/", "--poses", "new/p.CPosePDFSOG", "--places", "20"})
+                .exit_code,
+            0);
+}
+
 TEST(MapAlignment, aMapOfOtherScansOfThePlaceIsFound)
 {
   const TemporaryFolder folder;

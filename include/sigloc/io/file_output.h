@@ -54,8 +54,14 @@ std::string withoutTemporaryEnding(const std::string& name);
 /// Throws std::runtime_error when anything printed to `out`, the standard output, got lost.
 void finishOutput(std::ostream& out);
 
-// Checks that a program makes before it writes. They ensure that it replaces only what an earlier
-// run of it left.
+// Checks that a program makes before its work, which may take hours. They leave nothing behind.
+// They ensure that it can write, and replaces only what an earlier run of it left.
+
+/// Throws std::runtime_error ("folder: reason") unless a folder can be written into, or be made.
+void checkWritableFolder(const std::filesystem::path& folder);
+
+/// Throws std::runtime_error ("file: reason") unless a file can be written. Its folder must exist.
+void checkWritableFile(const std::filesystem::path& file);
 
 /// Throws std::runtime_error ("output: reason") when writing `output` would destroy one of
 /// `inputs`. `output` is a file, or a folder that is replaced with all it holds. An input is

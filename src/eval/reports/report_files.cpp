@@ -3,7 +3,6 @@
 #include "eval/reports/report_files.h"
 
 #include <fmt/core.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <fstream>
@@ -77,25 +76,6 @@ bool isReportFolder(const std::filesystem::path& folder)
   return line.is_string() && line.get<std::string>().rfind(kReportTool, 0) == 0;
 }
 }  // namespace
-
-void checkWritableFolder(const std::filesystem::path& folder)
-{
-  if (folder.empty()) throw std::runtime_error("the name of the folder to write to is empty");
-  auto existing = std::filesystem::absolute(folder).lexically_normal();
-  std::error_code error;
-  while (existing.has_relative_path() && !std::filesystem::exists(existing, error))
-  {
-    existing = existing.parent_path();
-  }
-  if (!std::filesystem::is_directory(existing, error))
-  {
-    throw std::runtime_error(folder.string() + ": " + existing.string() + " is no folder");
-  }
-  if (access(existing.c_str(), W_OK | X_OK) != 0)
-  {
-    throw std::runtime_error(folder.string() + ": no right to write into " + existing.string());
-  }
-}
 
 void checkReportFolder(const std::filesystem::path& folder,
                        const std::vector<std::filesystem::path>& inputs)

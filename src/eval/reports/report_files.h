@@ -30,14 +30,10 @@ struct RunReport
   Provenance provenance;
 };
 
-/// Throws std::runtime_error ("path: reason") unless a folder can be written into, or be made.
-/// Leaves nothing behind: to be asked before hours of work.
-void checkWritableFolder(const std::filesystem::path& folder);
-
 /// Throws std::runtime_error ("path: reason") unless a report can be written into a folder. It must
 /// replace none of `inputs`, and no file that no earlier run wrote. Such files have the name of one
 /// of a report's files, or are PNG, in a folder without a summary.json. Other files may be there.
-/// To be asked before hours of work, too.
+/// To be asked before hours of work.
 void checkReportFolder(const std::filesystem::path& folder,
                        const std::vector<std::filesystem::path>& inputs);
 
