@@ -5,12 +5,17 @@
 #include <mrpt/config/CConfigFileMemory.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
+#include <filesystem>
 #include <fstream>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
+#include <system_error>
 
 #include "arguments.h"
 #include "load_work.h"
+#include "number_option.h"
 #include "out_option.h"
 #include "run_app.h"
 #include "sigloc/io/map_files.h"
@@ -68,7 +73,8 @@ int main(int argc, char** argv)
   auto* const log = app.add_option("--log", arguments.rawlog, "the same as DATASET.rawlog");
   arguments.reading.declare(app);
   app.add_option(sigloc::kOut, arguments.output, "output folder instead of logOutput_dir");
-  app.add_option("--seed", arguments.seed, "seed instead of the one in [sigloc.matcher]");
+  app.add_option("--seed", arguments.seed, "seed instead of the one in [sigloc.matcher]")
+      ->check(sigloc::numberFrom<std::uint32_t>(0, std::numeric_limits<std::uint32_t>::max()));
   app.add_flag("--quiet", arguments.quiet, "no progress");
   app.add_flag("--print-defaults", arguments.print_defaults,
                "print all [sigloc.*] sections and exit");
@@ -83,6 +89,13 @@ int main(int argc, char** argv)
     {
       throw std::runtime_error("two logs: --log " + log->as<std::string>() + " and the argument " +
                                rawlog->as<std::string>() + "; give one");
+    }
+    std::error_code ignored;
+    if (config->count() > 0 && map->count() > 0 && log->count() > 0 &&
+        !std::filesystem::exists(arguments.config, ignored))
+    {
+      throw std::runtime_error("one argument too many: " + arguments.config.string() +
+                               ", which is no ini; --map and --log are enough");
     }
     if (arguments.output && arguments.output->empty()) throw std::runtime_error("--out is empty");
     return sigloc::loadWork<decltype(siglocLocalize)>("siglocLocalize",

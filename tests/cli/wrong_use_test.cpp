@@ -135,6 +135,35 @@ TEST(CommandLine, misspeltOptionsAndCommandsAreTold)
                 "no such option: --jsno; did you mean '--json'?");
 }
 
+TEST(CommandLine, whatIsMissingOrTooManyIsToldByName)
+{
+  const TemporaryFolder folder;
+  expectOneLine(folder, "sigloc-map", {}, "no command given: build, info, draw, check; see --help");
+  expectOneLine(folder, "sigloc-align", {"A"}, "B is required; type: sigloc-align [OPTIONS] A B");
+  expectOneLine(folder, "sigloc-map", {"build", "-i", "x"},
+                "--out is required; see sigloc-map build --help");
+  const auto refused = [&](Arguments more, const std::string& ending)
+  {
+    more.insert(more.begin(), {"--log", "y"});
+    expectOneLine(folder, "sigloc-localize", more, ending);
+  };
+  const std::string heights =
+      ": LOW,HIGH [m] above the robot's base, or the map's origin: which 3D "
+      "points count as walls (default: 0.2,1.5)";
+  refused({"--map", "x", "--heights", "2"}, "--heights needs 2 values, not 1" + heights);
+  refused({"--map", "x", "--heights", "1,2,3"}, "--heights needs 2 values, not 3" + heights);
+  refused({"--map", kLabMap.string(), "--heights", "2,1"},
+          "--heights LOW,HIGH: LOW is not below HIGH");
+  refused({"--map", "x", "--seed", "-1"}, "--seed: -1: not a number from 0 to 4294967295");
+  refused({"--map", "x", "--map", "z"}, "--map is given 2 times; give one");
+  refused({"--map", "x", "--quiet=loud"}, "--quiet takes no value");
+  refused({"--map", "x", "extra"},
+          "one argument too many: extra, which is no ini; --map and --log are enough");
+  refused({"--map", "x", "--out"}, "--out needs a value; see --help");
+  expectOneLine(folder, "sigloc-map", {"check", "x", "--places", "1.5"},
+                "--places: bad value '1.5'");
+}
+
 TEST(CommandLine, aMapAndALogThatAreSwappedAreTold)
 {
   const TemporaryFolder folder;
