@@ -8,8 +8,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "geometry/plane_products.h"
 #include "io/GroundTruth.h"
-#include "localize/motion_check.h"
 #include "localize/particle_library.h"
 #include "sigloc/io/map_files.h"
 #include "sigloc/plugin/pose_pdf.h"
@@ -21,6 +21,8 @@ namespace sigloc
 namespace
 {
 namespace fs = std::filesystem;
+using mrpt::math::TPoint2D;
+using mrpt::math::TPose2D;
 
 // What counts as right and as wrong is fixed, so that runs compare.
 constexpr double kRightDistance = 0.5;  // [m]
@@ -130,6 +132,43 @@ void countLocalized(const std::vector<StepRecord>& steps, RunSummary& summary)
     }
   }
   if (!steps.empty() && steps.back().travel_known) summary.localized_metres = metres;
+}
+
+bool isLocalized(const StepRecord& step)
+{
+  return step.belief.verdict == Verdict::localized && step.travel_known;
+}
+
+TPoint2D drivenBetween(const TPose2D& from, const TPose2D& to)
+{
+  const TPose2D motion = to - from;
+  return {motion.x, motion.y};
+}
+
+/// Compares how the poses of localized steps moved with what odometry says, in the robot's frame.
+/// None where both are known for less than 2 m.
+std::optional<OdometryMatch> matchOfOdometry(const std::vector<StepRecord>& steps)
+{
+  constexpr double kLeastWay = 2.0;  // [m], below which noise decides
+  double way = 0;
+  double squares = 0;
+  double along = 0;
+  double across = 0;
+  for (std::size_t i = 1; i < steps.size(); ++i)
+  {
+    if (!isLocalized(steps[i - 1]) || !isLocalized(steps[i])) continue;
+    const TrackedHypothesis& before = steps[i - 1].belief.hypotheses.front();
+    const TrackedHypothesis& after = steps[i].belief.hypotheses.front();
+    if (before.id != after.id) continue;
+    const TPoint2D told = drivenBetween(steps[i - 1].odometry, steps[i].odometry);
+    const TPoint2D found = drivenBetween(before.pose.mean, after.pose.mean);
+    way += told.norm();
+    squares += dot(told, told);
+    along += dot(told, found);
+    across += cross(told, found);
+  }
+  if (way < kLeastWay) return std::nullopt;
+  return OdometryMatch{std::atan2(across, along), std::hypot(along, across) / squares};
 }
 
 /// pf-localization's test: one pose, not far from the truth.
@@ -270,7 +309,7 @@ RunSummary LocalizationRun::summary() const
   summary.truncated = state_->reader.truncated();
   summary.steps = steps_.size();
   countLocalized(steps_, summary);
-  summary.odometry = detail::matchOfOdometry(steps_);
+  summary.odometry = matchOfOdometry(steps_);
   if (state_->truth)
   {
     summary.confidently_wrong_steps = static_cast<std::size_t>(
