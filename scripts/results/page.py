@@ -105,3 +105,12 @@ class Page:
             if cells[0] == row:
                 return cells[table[0].index(column)]
         raise BadInput(f"{self.name}: '{title}' has no row '{row}'")
+
+    def least(self, title, column, without):
+        """The row whose cell begins with the smallest number, and that number; none that ends in `without`."""
+        names = [cells[0] for cells in self.tables.get(title, [])[1:] if not cells[0].endswith(without)]
+        numbers = {name: self.cell(title, name, column).split()[0] for name in names}
+        if not numbers:
+            raise BadInput(f"{self.name}: no row in '{title}'")
+        name = min(numbers, key=lambda key: float(numbers[key]))
+        return name, numbers[name]

@@ -1,14 +1,14 @@
 # SPDX-FileCopyrightText: 2026 the sigloc authors
 # SPDX-License-Identifier: BSD-3-Clause
 """Where the figures fall short: a sentence or two each, from the tables that are there."""
-from results import drives, opponents, scans, simulated
+from results import drives, integrity, opponents, scans, simulated
 from results.numbers import NONE
 
 
 def shortcomings(tables):
     """Bullets from the page's tables by title."""
-    makers = (one_scan, others_ahead, features, wrong_scans, filter_ahead, recorded, landmark_tracking, moved, half_mapped, no_odometry,
-              foreign_kind, foreign_size, sweep)  # fmt: skip
+    makers = (one_scan, others_ahead, features, wrong_scans, filter_ahead, recorded, apart, landmark_tracking, moved, cluttered, half_mapped,
+              no_odometry, foreign_kind, foreign_size, sweep)  # fmt: skip
     return [text for text in (maker(tables) for maker in makers) if text]
 
 
@@ -84,6 +84,14 @@ def recorded(tables):
     return f"**Recorded drives**: {recorded_drives(tables[drives.WAKE_UPS])}"
 
 
+def apart(tables):
+    table = tables[integrity.APART]
+    logs = [name for _, name, *_ in integrity.LOGS_APART + integrity.LANDMARKS_APART if name in table.rows]
+    misled = [f"{name} ({table.cell(name, 'misled')} of {table.cell(name, 'wake-ups')})" for name in logs
+              if table.cell(name, "misled")]  # fmt: skip
+    return f"**Recorded drives that do not overlap**: misled are {', '.join(misled)}." if misled else None
+
+
 def landmark_tracking(tables):
     table = tables[drives.WAKE_UPS]
     name = "dlr, landmarks"
@@ -107,6 +115,10 @@ def moved(tables):
     return simulated_row(tables, name, "Moved furniture", "in corridors")
 
 
+def cluttered(tables):
+    return simulated_row(tables, "30 % of the beams end early: all", "Clutter", "with 30 % of the beams lost")
+
+
 def half_mapped(tables):
     name = "half of the world mapped: all"
     return simulated_row(tables, name, "Unmapped copies", "with half a map")
@@ -121,14 +133,14 @@ def no_odometry(tables):
 
 
 def foreign_row(tables, name, title):
-    """The kind with the largest share of claims."""
+    """The kinds of world with claims, in clear view and among clutter."""
     table = tables[simulated.FOREIGN]
-    if name not in table.rows:
-        return None
-    claims = {kind: table.cell(name, kind) for kind in simulated.KINDS}
-    claims = {kind: text for kind, text in claims.items() if text != NONE}
-    kind = max(claims, key=lambda kind: float(claims[kind].split(" = ")[1].split()[0]))
-    return f"**{title}**: claimed at some step are, in {kind}s, {claims[kind]}."
+    claims = []
+    for row, among in ((name, ""), (f"{name}, {simulated.CLUTTER}", " under clutter")):
+        cells = {kind: table.cell(row, kind) for kind in simulated.KINDS} if row in table.rows else {}
+        claims += [f"in {kind}s{among} {cell}" for kind, cell in cells.items()
+                   if cell != NONE and not cell.startswith("0 ")]  # fmt: skip
+    return f"**{title}**: claimed at some step are, {'; '.join(claims)}." if claims else None
 
 
 def foreign_kind(tables):
@@ -148,4 +160,4 @@ def sweep(tables):
     wrong = [f"{table.cell(name, 'wrong claims of all')} over {name}" for name in table.rows
              if not table.cell(name, "wrong claims of all").startswith("0 ")]  # fmt: skip
     claims = f" Wrong claims: {'; '.join(wrong)}." if wrong else ""
-    return f"**Harder worlds**: at {value}, {low}, the first answer is right in {rest}.{claims}"
+    return f"**Harder worlds**: over {low}, at {value}, the first answer is right in {rest}.{claims}"

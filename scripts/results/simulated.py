@@ -134,7 +134,7 @@ def foreign(bench):
         "Asked: is any step of a drive claimed in the map of another world? Every claim is wrong.",
         f"Claimed are {', '.join(said)}.",
         "Maps of another kind are easy: no row pools them with maps of the same kind.",
-        "Two drives share a world; of the same outer size, ten starts share a drive of 120 m and a map.",
+        "Two drives share a world; of the same outer size, four starts share a drive of 120 m and a map.",
         "The intervals treat drives as independent; only the worlds of the last column are.",
     )
     return Section(FOREIGN, table, text)
