@@ -86,7 +86,8 @@ def scans_alone(bench):
         "Asked: and if the odometry of the log is left out?",
         "Without odometry a track drives on as in its last step, with 0.3 m and 0.2 rad.",
         "Most steps of infinite-corridor and orebro are longer than that, and what such a step finds may be another place.",
-        "That a track can be doubted from its first step on, and by free space as well, was chosen with these drives in view.",
+        "Chosen with these drives in view: a track is doubted from its first step on, "
+        "and returns in free space do not excuse a low score.",
     )
     return Section(SCANS_ALONE, table, text)
 

@@ -112,16 +112,19 @@ std::optional<double> travelOf(const StepRecord& step)
   return step.travel_known ? std::optional(step.travelled) : std::nullopt;
 }
 
+bool isLocalized(const StepRecord& step)
+{
+  return step.belief.verdict == Verdict::localized;
+}
+
 /// For how much of the drive the robot was localized, and how often that was lost.
 void countLocalized(const std::vector<StepRecord>& steps, RunSummary& summary)
 {
-  const auto localized = [](const StepRecord& step)
-  { return step.belief.verdict == Verdict::localized; };
   double metres = 0;
   for (std::size_t i = 0; i < steps.size(); ++i)
   {
-    const bool was_localized = i > 0 && localized(steps[i - 1]);
-    if (localized(steps[i]))
+    const bool was_localized = i > 0 && isLocalized(steps[i - 1]);
+    if (isLocalized(steps[i]))
     {
       ++summary.localized_steps;
       if (i > 0) metres += steps[i].travelled - steps[i - 1].travelled;
@@ -132,11 +135,6 @@ void countLocalized(const std::vector<StepRecord>& steps, RunSummary& summary)
     }
   }
   if (!steps.empty() && steps.back().travel_known) summary.localized_metres = metres;
-}
-
-bool isLocalized(const StepRecord& step)
-{
-  return step.belief.verdict == Verdict::localized && step.travel_known;
 }
 
 TPoint2D drivenBetween(const TPose2D& from, const TPose2D& to)
@@ -157,6 +155,7 @@ std::optional<OdometryMatch> matchOfOdometry(const std::vector<StepRecord>& step
   for (std::size_t i = 1; i < steps.size(); ++i)
   {
     if (!isLocalized(steps[i - 1]) || !isLocalized(steps[i])) continue;
+    if (!steps[i - 1].travel_known || !steps[i].travel_known) continue;
     const TrackedHypothesis& before = steps[i - 1].belief.hypotheses.front();
     const TrackedHypothesis& after = steps[i].belief.hypotheses.front();
     if (before.id != after.id) continue;
@@ -278,9 +277,8 @@ void LocalizationRun::score(StepRecord& step) const
 {
   if (!step.truth || step.belief.hypotheses.empty()) return;
   step.error = errorBetween(step.belief.hypotheses.front().pose.mean, *step.truth);
-  step.confidently_wrong =
-      step.belief.verdict == Verdict::localized &&
-      (step.error->distance > kWrongDistance || step.error->angle > kWrongAngle);
+  step.confidently_wrong = isLocalized(step) && (step.error->distance > kWrongDistance ||
+                                                 step.error->angle > kWrongAngle);
   step.any_right =
       std::any_of(step.belief.hypotheses.begin(), step.belief.hypotheses.end(),
                   [&](const TrackedHypothesis& hypothesis)
@@ -326,7 +324,7 @@ RunSummary LocalizationRun::summary() const
       summary.steps_to_first_right = step.number;
       summary.metres_to_first_right = travelOf(step);
     }
-    if (step.belief.verdict == Verdict::localized && !summary.steps_to_localized)
+    if (isLocalized(step) && !summary.steps_to_localized)
     {
       summary.steps_to_localized = step.number;
       summary.metres_to_localized = travelOf(step);

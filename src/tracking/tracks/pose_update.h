@@ -10,7 +10,7 @@ namespace sigloc
 {
 constexpr int kUpdateSteps = 6;  // of the refinement of a tracked pose
 constexpr double kUpdateGate = 16.27;  // chi-square, 3 degrees of freedom, 99.9 %, eq. (8.3)
-constexpr double kSharedErrors = 4;  // of scans of neighbouring steps: factor of the covariance
+constexpr double kSharedErrors = 4;  // factor of a covariance: neighbouring scans share errors
 
 /// Refines the predicted pose of a track by the returns and fuses both. A refinement that does not
 /// agree with the prediction replaces it only when it explains the scan clearly better, because
