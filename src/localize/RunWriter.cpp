@@ -302,14 +302,16 @@ void RunWriter::writeScene(const FeatureMap& map, const StepRecord& step,
 
 void RunWriter::finish(const LocalizationRun& run)
 {
-  writeFile(work_ / "path.tum", pathRows(run.steps(), true));
-  writeFile(work_ / "path_unsure.tum", pathRows(run.steps(), false));
-  writeFile(work_ / "steps.csv", csvFile(stepColumns(), run.steps()));
-  writeAnnotatedRawlog(run, work_ / "annotated.rawlog");
+  const auto write = [&](const char* name, const std::string& bytes)
+  { writeFile(work_ / name, bytes, Durability::with_folder); };
+  write("path.tum", pathRows(run.steps(), true));
+  write("path_unsure.tum", pathRows(run.steps(), false));
+  write("steps.csv", csvFile(stepColumns(), run.steps()));
+  writeAnnotatedRawlog(run, work_ / "annotated.rawlog", Durability::with_folder);
   writePfLocalizationFiles(run, work_);
-  if (!run.setup().stats_only) writeFile(work_ / detail::kRunPageFile, detail::runPage(run));
-  writeFile(work_ / detail::kRunSummaryFile,
-            toJson(summaryColumns(), Figures{run.summary(), run}).dump(2) + "\n");
+  if (!run.setup().stats_only) write(detail::kRunPageFile, detail::runPage(run));
+  write(detail::kRunSummaryFile,
+        toJson(summaryColumns(), Figures{run.summary(), run}).dump(2) + "\n");
   syncFolder(work_);
   replaceFolder();
   finished_ = true;

@@ -103,9 +103,12 @@ void annotate(detail::LogObjects& log, const LocalizationRun& run, CArchive& arc
 }
 }  // namespace
 
-void writeAnnotatedRawlog(const LocalizationRun& run, const std::filesystem::path& output)
+void writeAnnotatedRawlog(const LocalizationRun& run, const std::filesystem::path& output,
+                          Durability durability)
 {
   detail::LogObjects log(run.setup().rawlog_file);
-  writeObjects(output, [&](CArchive& archive) { annotate(log, run, archive); });
+  writeObjects(
+      output, [&](CArchive& archive) { annotate(log, run, archive); }, Packing::quick_gzip,
+      durability);
 }
 }  // namespace sigloc

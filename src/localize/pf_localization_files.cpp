@@ -147,7 +147,7 @@ void writePfLocalizationFiles(const LocalizationRun& run, const std::filesystem:
     {
       for (const StepRecord& step : steps) rows += kind.row(step, run.anywhere()) + "\n";
     }
-    writeFile(folder / kind.name, rows);
+    writeFile(folder / kind.name, rows, Durability::with_folder);
   }
   writeParticles(run, folder / "particles");
 }

@@ -9,6 +9,7 @@
 #include <system_error>
 #include <vector>
 
+#include "sigloc/io/file_output.h"
 #include "sigloc/localize/LocalizationRun.h"
 #include "sigloc/plugin/map_drawing.h"
 
@@ -83,7 +84,8 @@ std::string stepName(const StepRecord& step);
 /// The object has `source`, "sigloc", `verdict`, `first_pose_probability`, `elsewhere`, `reason`,
 /// `hypotheses` and, in the robot frame, `features`. A hypothesis has `probability`, `x`, `y`,
 /// `phi_deg` and `covariance`, row by row [m^2, m rad, rad^2].
-void writeAnnotatedRawlog(const LocalizationRun& run, const std::filesystem::path& output);
+void writeAnnotatedRawlog(const LocalizationRun& run, const std::filesystem::path& output,
+                          Durability durability = Durability::at_once);
 
 /// What one run adds to `<prefix>_SUMMARY.txt`.
 struct ExperimentOutcome
