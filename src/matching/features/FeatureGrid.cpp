@@ -47,7 +47,9 @@ FeatureGrid::FeatureGrid(const std::vector<Feature>& features)
       TPoint2D at = feature.position - origin_;
       if (wall)
       {
-        const double share = static_cast<double>(piece) / static_cast<double>(pieces - 1);
+        // A wall without length is one piece.
+        const std::size_t gaps = std::max<std::size_t>(1, pieces - 1);
+        const double share = static_cast<double>(piece) / static_cast<double>(gaps);
         at = at + tangentVector(feature) * ((share - 0.5) * feature.size);
       }
       samples.push_back({slotOf(cellOf(at.x), cellOf(at.y)),
