@@ -24,8 +24,8 @@ namespace sigloc
 ///   reliability, and what `cov_est.txt` holds
 /// * `particles/particles_00001.txt`: 500 samples of that belief, where a scene is written as well
 ///
-/// They are on the disk once syncFolder() is called. Throws std::runtime_error for a file that cannot
-/// be written.
+/// They are on the disk once syncFolder() is called. Throws std::runtime_error for a file that
+/// cannot be written.
 void writePfLocalizationFiles(const LocalizationRun& run, const std::filesystem::path& folder);
 
 /// The names that these functions use in a folder.

@@ -5,7 +5,9 @@
 #include <mrpt/math/wrap2pi.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <future>
 #include <numeric>
 
 #include "matching/keypoints/NeighbouringKeyPoints.h"
@@ -79,6 +81,14 @@ double along(const Symmetric2& covariance, double x, double y)
   return covariance.xx * x * x + 2 * covariance.xy * x * y + covariance.yy * y * y;
 }
 
+/// A table to be filled with the pairs of two kinds of key points.
+struct TableWork
+{
+  std::size_t a, b;  // kinds
+  std::uint32_t before;  // pairs of earlier tables
+  std::uint32_t pairs;
+};
+
 /// Returns the range [m] of the index. In a sparse map it is longer, because near partners are few,
 /// and the pairs that tell most are those of far ones.
 double chosenRange(const std::vector<KeyPoint>& points, const NeighbouringKeyPoints& neighbours)
@@ -146,34 +156,47 @@ KeyPairIndex::KeyPairIndex(const std::vector<KeyPoint>& points, const MapErrorMo
   layOutTables();
   const NeighbouringKeyPoints neighbours(points);
   range_ = chosenRange(points, neighbours);
-  std::size_t pairs = 0;
-  neighbours.forEachPair({kMinDistance, range_}, 1,
-                         [&](const KeyPoint&, const KeyPoint&) { ++pairs; });
-  distance_bins_ = static_cast<std::uint32_t>(std::clamp<std::size_t>(
-      pairs / (rows_ * kEntriesPerCell), kMinDistanceBins, kMaxDistanceBins));
-  cells_.assign(std::size_t{rows_} * distance_bins_ + 1, 0);
-  entries_.resize(pairs);
-  // One table after the other, so that what waits to be sorted takes little memory.
-  std::vector<Placed> placed;
-  placed.reserve(pairs);  // what is not written to takes no memory
-  std::uint32_t done = 0;
+  std::vector<TableWork> work;
+  std::uint32_t pairs = 0;
   for (std::size_t a = 0; a < kKeyPointKinds; ++a)
   {
     for (std::size_t b = a; b < kKeyPointKinds; ++b)
     {
-      placed.clear();
+      TableWork one{a, b, pairs, 0};
       neighbours.forEachPair(a, b, {kMinDistance, range_},
-                             [&](const KeyPoint& first, const KeyPoint& second)
-                             { placed.push_back(placedEntry(keyPair(first, second), error)); });
-      sortInto(tables_[a * kKeyPointKinds + b], placed, done);
-      done += static_cast<std::uint32_t>(placed.size());
+                             [&](const KeyPoint&, const KeyPoint&) { ++one.pairs; });
+      pairs += one.pairs;
+      work.push_back(one);
     }
   }
+  distance_bins_ = static_cast<std::uint32_t>(std::clamp<std::size_t>(
+      pairs / (rows_ * kEntriesPerCell), kMinDistanceBins, kMaxDistanceBins));
+  cells_.assign(std::size_t{rows_} * distance_bins_ + 1, 0);
+  entries_.resize(pairs);
+  // Two threads, each of which takes one table after the other. What waits to be sorted takes
+  // little memory that way, and no two tables share a cell.
+  std::atomic<std::size_t> next = 0;
+  const auto fill = [&]
+  {
+    std::vector<Placed> placed;
+    for (std::size_t k = next++; k < work.size(); k = next++)
+    {
+      placed.clear();
+      placed.reserve(work[k].pairs);
+      neighbours.forEachPair(work[k].a, work[k].b, {kMinDistance, range_},
+                             [&](const KeyPoint& first, const KeyPoint& second)
+                             { placed.push_back(placedEntry(keyPair(first, second), error)); });
+      sortInto(tables_[work[k].a * kKeyPointKinds + work[k].b], placed, work[k].before);
+    }
+  };
+  std::future<void> other = std::async(fill);
+  fill();
+  other.get();
 }
 
-/// Sorts the entries of a table by cell, and keeps those of a cell in their order. `done` entries
+/// Sorts the entries of a table by cell, and keeps those of a cell in their order. `before` entries
 /// of earlier tables come before them.
-void KeyPairIndex::sortInto(Table& table, const std::vector<Placed>& placed, std::uint32_t done)
+void KeyPairIndex::sortInto(Table& table, const std::vector<Placed>& placed, std::uint32_t before)
 {
   // While entries are put in, the element after a cell's own says where its next one goes. In the
   // end that is where the next cell begins.
@@ -182,7 +205,7 @@ void KeyPairIndex::sortInto(Table& table, const std::vector<Placed>& placed, std
   const std::size_t first = std::size_t{table.row} * distance_bins_;
   const std::size_t end =
       first + std::size_t{table.first.bins} * table.second.bins * distance_bins_;
-  std::exclusive_scan(next + first, next + end, next + first, done);
+  std::exclusive_scan(next + first, next + end, next + first, before);
   std::array<std::uint32_t, 3> largest{};  // codes of standard deviations
   for (const Placed& one : placed)
   {

@@ -119,7 +119,7 @@ class KeyPairIndex
   void layOutTables();
   std::uint32_t distanceBin(double distance) const;
   Placed placedEntry(const KeyPair& pair, const MapErrorModel& error) const;
-  void sortInto(Table& table, const std::vector<Placed>& placed, std::uint32_t done);
+  void sortInto(Table& table, const std::vector<Placed>& placed, std::uint32_t before);
 
   std::array<Table, kTables> tables_{};
   double range_ = 0;  // [m]
