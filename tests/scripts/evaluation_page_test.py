@@ -17,7 +17,7 @@ from selenium import webdriver
 from selenium.webdriver.common.by import By
 from selenium.webdriver.support.ui import Select
 
-from run_page_test import browser, check, probability_texts, shown
+from run_page_test import browser, check, check_narrow, probability_texts, shown
 
 OFFICE = ["--map", "maps/office.simplemap", "--rawlog", "rawlogs/office.rawlog"]
 OFFICE += ["--ground-truth", "rawlogs/office-truth.txt"]
@@ -145,6 +145,7 @@ def main():
                 check(listed(driver), "no place is listed")
             runs = rows_of(drives / "runs.csv")
             check(len(listed(driver)) == len(runs), "not every run is listed")
+            check_narrow(driver)
             errors = [e["message"] for e in driver.get_log("browser") if e["level"] == "SEVERE"]
             check(not errors, f"the browser reports {errors}")
         finally:

@@ -148,7 +148,7 @@ def walk(driver, rows):
         check((pixels_like(driver, "not_localized", 300, 50) > 500) == has_banner, f"{verdict}: banner is wrong")
 
 
-def check_narrow(driver, picture):
+def check_narrow(driver, picture=None):
     """In a narrow window the parts are one below the other, and none is over another or cut."""
     driver.set_window_size(520, 900)
     overlaps = driver.execute_script(

@@ -15,7 +15,7 @@ body { font: 15px/1.4 sans-serif; margin: 0; color: #222; background: #f4f4f2; }
 header { padding: 8px 14px; background: #fff; border-bottom: 1px solid #ccc; }
 main, #plots { display: grid; gap: 12px; padding: 12px; }
 main { grid-template-columns: minmax(0, 1fr) 380px; }
-#plots { grid-template-columns: repeat(auto-fill, minmax(440px, 1fr)); }
+#plots { grid-template-columns: repeat(auto-fill, minmax(min(440px, 100%), 1fr)); }
 canvas { display: block; width: 100%; background: #fff; border: 1px solid #bbb; }
 #map { height: 68vh; cursor: grab; touch-action: none; }
 #plots canvas { height: 300px; }
@@ -29,6 +29,10 @@ aside table { width: 100%; }
 code { background: #eee; }
 .key { display: inline-block; width: 12px; height: 12px; margin: 0 6px 0 2px; }
 .small { color: #555; font-size: 13px; }
+@media (max-width: 760px) {
+  main { grid-template-columns: minmax(0, 1fr); }
+  #map { height: 55vh; }
+}
 </style>
 </head>
 <body>
