@@ -49,7 +49,7 @@ int localize(const sigloc::LocalizationSetup& setup, bool quiet,
   {
     progress.show(run);
     if (!every_step) continue;
-    writer->writeBelief(*step, run.anywhere());
+    if (setup.report.beliefs) writer->writeBelief(*step, run.anywhere());
     pictures->take(run, *writer);
   }
   progress.finish();

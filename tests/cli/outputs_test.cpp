@@ -105,6 +105,18 @@ void writeConfig(const TemporaryFolder& folder, const std::string& rawlog,
                                     "[sigloc.localize]\npictures = false\n");
 }
 
+TEST(Outputs, leaveOutTheBeliefOfEachStepWhereTheIniSaysSo)
+{
+  const TemporaryFolder folder;
+  writeConfig(folder, kLabLog.string());
+  ASSERT_EQ(run(folder, "sigloc-localize", {"run.ini", "--out", "all", "--quiet"}).exit_code, 0);
+  EXPECT_FALSE(fs::is_empty(folder / "all/belief"));
+  std::ofstream(folder / "run.ini", std::ios::app) << "beliefs = false\n";
+  ASSERT_EQ(run(folder, "sigloc-localize", {"run.ini", "--out", "less", "--quiet"}).exit_code, 0);
+  EXPECT_TRUE(fs::is_empty(folder / "less/belief"));
+  EXPECT_EQ(readBytes(folder / "less/steps.csv"), readBytes(folder / "all/steps.csv"));
+}
+
 TEST(Outputs, aRunNeverReplacesTheLogItReads)
 {
   const TemporaryFolder folder;

@@ -30,6 +30,7 @@ struct ReportOptions
   double final_truth_y = 0;
   double final_truth_phi_deg = 0;
   bool pictures = true;
+  bool beliefs = true;
 
   template <class V>
   static void visitFields(V&& visit)
@@ -48,6 +49,7 @@ struct ReportOptions
     visit(OptionField{"final_truth_y", &O::final_truth_y, -kFar, kFar, "[m]"});
     visit(OptionField{"final_truth_phi_deg", &O::final_truth_phi_deg, -360.0, 360.0, "[deg]"});
     visit(OptionField{"pictures", &O::pictures, false, true, "[-] write PNG pictures"});
+    visit(OptionField{"beliefs", &O::beliefs, false, true, "[-] write belief/, two files a step"});
   }
 };
 
