@@ -42,9 +42,10 @@ struct TrackerOptions
         "[m] travel after which a scan is fresh evidence; between rivals seven tenths of it"});
     visit(OptionField{"evidence_turn", &O::evidence_turn, 0.01, 100.0,
                       "[rad] turn that counts as much as the distance"});
-    visit(OptionField{"lost_distance", &O::lost_distance, 0.01, 100.0,
-                      "[m] with landmarks, travel after which a scan is fresh evidence of being lost; "
-                      "without odometry, travel from step to step"});
+    visit(OptionField{
+        "lost_distance", &O::lost_distance, 0.01, 100.0,
+        "[m] with landmarks, travel after which a scan is fresh evidence of being lost; "
+        "without odometry, travel from step to step"});
     visit(OptionField{"min_elsewhere", &O::min_elsewhere, 0.0, 0.5,
                       "[-] the weight of somewhere else never falls below this"});
     visit(OptionField{"relocation_distance", &O::relocation_distance, 0.0, 100.0,
