@@ -51,13 +51,18 @@ SIGLOC_WIDE_VECTORS EndSums sumsOfEnds(const DenseField& field, const SharpTable
     for (std::size_t i = 0; i < size; ++i)
     {
       const std::uint8_t distance = block.distance(i);
+      if (distance > kFarFromWall)
+      {
+        const CellState state = block.state(i);
+        const bool is_speck = state == CellState::free && scan.isolated[first + i] != 0;
+        if (is_speck) ++sums.specks;
+        if (is_speck) continue;
+        if (state == CellState::free) ++sums.in_free;
+        if (state == CellState::unknown) ++sums.unknown;
+      }
       sums.sharp += sharpLikelihood(sharp, block, i, cells.resolution());
       sums.fine += fine[distance];
       sums.coarse += coarse[distance];
-      if (distance <= kFarFromWall) continue;
-      const CellState state = block.state(i);
-      if (state == CellState::free) ++(scan.isolated[first + i] != 0 ? sums.specks : sums.in_free);
-      if (state == CellState::unknown) ++sums.unknown;
     }
   }
   return sums;
