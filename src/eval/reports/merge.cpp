@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <set>
 #include <stdexcept>
 
@@ -22,20 +23,74 @@ namespace fs = std::filesystem;
 using detail::CsvTable;
 using nlohmann::ordered_json;
 
+/// What summary.json tells of a run.
+struct RunSummary
+{
+  ordered_json methods;  ///< an object of each, by name
+  bool complete = true;
+  std::string command;
+  std::string label;  ///< of what a sweep varies
+  std::string data;  ///< checksums of its data or, in simulation, its seed
+};
+
 /// What one run left in its folder.
 struct Run
 {
   fs::path folder;
-  ordered_json summary;
+  RunSummary summary;
   CsvTable results;
 
   std::vector<std::string> methods() const
   {
     std::vector<std::string> names;
-    for (const auto& [name, method] : summary.at("methods").items()) names.push_back(name);
+    for (const auto& [name, method] : summary.methods.items()) names.push_back(name);
     return names;
   }
 };
+
+constexpr const char* kCounts = "_counts";  // of the cases and of all, behind the name of a share
+
+bool isMethod(const ordered_json& method)
+{
+  if (!method.is_object()) return false;
+  for (const auto& [key, value] : method.items())
+  {
+    const auto counts = method.find(key + kCounts);
+    if (counts != method.end() && (counts->size() != 2 || !counts->front().is_number_unsigned() ||
+                                   !counts->back().is_number_unsigned()))
+    {
+      return false;
+    }
+    const bool is_count = key == "confidently_wrong" || key == "queries";
+    if (is_count && !value.is_number_unsigned()) return false;
+  }
+  return true;
+}
+
+/// Returns nullopt where a value is missing or has another type.
+std::optional<RunSummary> summaryOf(const ordered_json& json)
+try
+{
+  RunSummary summary;
+  summary.methods = json.at("methods");
+  if (!summary.methods.is_object() ||
+      !std::all_of(summary.methods.begin(), summary.methods.end(), isMethod))
+  {
+    return std::nullopt;
+  }
+  summary.complete = json.value("complete", true);
+  summary.label = json.value("label", "");
+  const ordered_json& provenance = json.at("provenance");
+  summary.command = provenance.value("command", "");
+  const auto data = provenance.value("data", ordered_json::array());
+  for (const auto& file : data) summary.data += " " + file.value("md5", "");
+  if (data.empty()) summary.data = provenance.value("seed", ordered_json()).dump();
+  return summary;
+}
+catch (const ordered_json::exception&)
+{
+  return std::nullopt;
+}
 
 /// A file that was cut off at the end of a line looks whole.
 void checkComplete(const Run& run)
@@ -44,7 +99,7 @@ void checkComplete(const Run& run)
   if (!run.results.has("query") && !run.results.has("step")) return;
   std::map<std::string, std::size_t> rows;
   for (std::size_t i = 0; i < run.results.rows(); ++i) ++rows[run.results.text(i, "method")];
-  for (const auto& [name, method] : run.summary.at("methods").items())
+  for (const auto& [name, method] : run.summary.methods.items())
   {
     const std::string counted = method.contains("steps") ? "steps" : "queries";
     const auto expected = method.find(counted);
@@ -62,29 +117,19 @@ Run readRun(const fs::path& folder)
   const fs::path path = folder / "summary.json";
   std::ifstream file(path);
   if (!file) throw std::runtime_error(path.string() + ": cannot be opened");
-  ordered_json summary = ordered_json::parse(file, nullptr, false);
-  if (summary.is_discarded() || !summary.contains("methods") || !summary.contains("provenance"))
-  {
-    throw std::runtime_error(path.string() + ": is no summary of sigloc-eval");
-  }
-  Run run{folder, std::move(summary), CsvTable(folder / "results.csv")};
+  std::optional<RunSummary> summary = summaryOf(ordered_json::parse(file, nullptr, false));
+  if (!summary) throw std::runtime_error(path.string() + ": is no summary of sigloc-eval");
+  Run run{folder, std::move(*summary), CsvTable(folder / "results.csv")};
   checkComplete(run);
   return run;
 }
 
-/// What a run asked: the checksums of its data or, in simulation, its seed, and the columns that
-/// tell a question. Another seed asks a log nothing new.
+/// What a run asked: its data, and the columns that tell a question. Another seed asks a log
+/// nothing new.
 std::set<std::string> questionsOf(const Run& run)
 {
-  const ordered_json& provenance = run.summary.at("provenance");
-  std::string asked;
   // The world of a sweep has the seed in its name, and keeps it when merged.
-  if (!run.results.has("world"))
-  {
-    const auto data = provenance.value("data", ordered_json::array());
-    for (const auto& file : data) asked += " " + file.value("md5", "");
-    if (data.empty()) asked = provenance.value("seed", ordered_json()).dump();
-  }
+  const std::string asked = run.results.has("world") ? "" : run.summary.data;
   std::set<std::string> questions;
   for (std::size_t i = 0; i < run.results.rows(); ++i)
   {
@@ -130,9 +175,9 @@ void addRuns(const std::vector<Run>& runs, RunReport& report)
   std::vector<std::vector<std::string>> rows = {{"run", "command"}};
   for (const Run& run : runs)
   {
-    const std::string command = run.summary.at("provenance").value("command", "");
-    rows.push_back({run.folder.string(), command});
-    report.summary["runs"].push_back({{"folder", run.folder.string()}, {"command", command}});
+    rows.push_back({run.folder.string(), run.summary.command});
+    report.summary["runs"].push_back(
+        {{"folder", run.folder.string()}, {"command", run.summary.command}});
   }
   report.text += "\n## The runs\n\n" + markdownTable(rows);
 }
@@ -217,7 +262,8 @@ RunReport mergeSweeps(const std::vector<Run>& runs)
 {
   SweepReport report;
   report.over = runs.front().results.text(0, "over");
-  report.label = runs.front().summary.value("label", report.over);
+  report.label = runs.front().summary.label;
+  if (report.label.empty()) report.label = report.over;
   for (const Run& run : runs) addSweepRun(run, report);
   std::stable_sort(report.rows.begin(), report.rows.end(),
                    [](const SweepRow& a, const SweepRow& b) { return a.value < b.value; });
@@ -235,13 +281,13 @@ void sumCounts(const std::vector<Run>& runs, const std::string& method, ordered_
   std::map<std::string, Proportion> shares;
   for (const Run& run : runs)
   {
-    const ordered_json& summary = run.summary.at("methods").at(method);
+    const ordered_json& summary = run.summary.methods.at(method);
     for (const auto& [key, value] : summary.items())
     {
       if (value.is_number_unsigned())
         sum[key] = sum.value(key, std::uint64_t{0}) + value.get<std::uint64_t>();
-      if (!summary.contains(key + "_counts")) continue;
-      const auto& counts = summary.at(key + "_counts");
+      if (!summary.contains(key + kCounts)) continue;
+      const auto& counts = summary.at(key + kCounts);
       shares[key].count += counts.at(0).get<std::size_t>();
       shares[key].cases += counts.at(1).get<std::size_t>();
     }
@@ -272,7 +318,7 @@ RunReport mergeDrives(const std::vector<Run>& runs)
   report.results = "run,method,confidently_wrong,queries\n";
   for (const Run& run : runs)
   {
-    for (const auto& [name, method] : run.summary.at("methods").items())
+    for (const auto& [name, method] : run.summary.methods.items())
     {
       report.results +=
           fmt::format("{},{},{},{}\n", detail::csvCell(run.folder.string()), name,
@@ -321,7 +367,7 @@ MergedRuns mergeRuns(const std::vector<fs::path>& folders, const std::string& co
   merged.report = pool(runs);
   for (const Run& run : runs)
   {
-    merged.complete = merged.complete && run.summary.value("complete", true);
+    merged.complete = merged.complete && run.summary.complete;
     merged.report.provenance.data_files.push_back(run.folder / "results.csv");
   }
   merged.report.summary["complete"] = merged.complete;
