@@ -117,7 +117,7 @@ bool ModeTracker::judge(const ObservedScene& scene, const SignatureMatcher& matc
                     ? relocation_.run(set_, schedule_, matcher, scene, scan, region, next_id_)
                     : relocateByFeatures(scene, matcher, region);
   }
-  set_.mergeAndPrune();
+  set_.mergeAndPrune(travel);
   return relocated;
 }
 

@@ -134,7 +134,7 @@ void HypothesisTracker::State::trackDensely(const std::optional<MotionIncrement>
   {
     relocated = relocation.run(set, schedule, *matcher, scene, scan, regionToSearch(), next_id);
   }
-  set.mergeAndPrune();
+  set.mergeAndPrune(travel);
   rateFirst(scan);
 }
 
@@ -151,7 +151,7 @@ void HypothesisTracker::State::trackByFeatures(const std::optional<MotionIncreme
     relocated = landmark_tracker->relocate(set, schedule, regionToSearch(), settled, next_id);
   }
   landmark_tracker->remember();
-  set.mergeAndPrune();
+  set.mergeAndPrune(travel);
   reliability = set.tracks.empty() ? 0 : landmark_tracker->reliabilityOf(set.tracks.front());
 }
 

@@ -223,6 +223,28 @@ TEST(Tracker, NoticesAKidnapInTheStepAfterItsFirst)
   EXPECT_GE(claimed, 15);
 }
 
+// Where it stands then is not in the map, so that no relocation finds it.
+TEST(Tracker, DoubtsAKidnapForAsLongAsTheRobotStands)
+{
+  const World elsewhere = makeWorld(WorldKind::office, {}, 77);
+  int before = 0;
+  int after = 0;
+  for (std::uint64_t seed = 301; seed < 321; ++seed)
+  {
+    HypothesisTracker tracker(office().matcher());
+    follow(tracker, driveThrough(office().world(), 3, seed));
+    before += tracker.belief().verdict == Verdict::localized;
+    const auto there = driveThrough(elsewhere, 1, seed).front();
+    for (int scan = 0; scan < 40; ++scan)
+    {
+      tracker.step(MotionIncrement{}, observeScene({*there.scan}));
+      after += tracker.belief().verdict == Verdict::localized;
+    }
+  }
+  EXPECT_GE(before, 15);
+  EXPECT_EQ(after, 0);
+}
+
 /// Four people around the robot, each of whom hides a twelfth of the view.
 void crowd(LaserScan& scan)
 {

@@ -52,8 +52,9 @@ struct TrackerOptions
                       "[m] travel between two relocations while no pose is known"});
     visit(OptionField{"confirmation_distance", &O::confirmation_distance, 0.0, 1000.0,
                       "[m] travel between two relocations while one pose is known"});
-    visit(OptionField{"score_drop", &O::score_drop, 0.01, 1.0,
-                      "[-] fall of the score below its running mean that calls for a relocation"});
+    visit(
+        OptionField{"score_drop", &O::score_drop, 0.01, 1.0,
+                    "[-] fall of the score below its mean over 10 m that calls for a relocation"});
     visit(OptionField{
         "suspicion", &O::suspicion, 0.0, 1.0,
         "[-] weight of somewhere else when relocation finds the robot far from all tracks"});

@@ -228,7 +228,7 @@ Track LandmarkTracker::startAt(const Candidate& candidate, std::uint64_t id) con
   track.hypothesis.pose = candidate.pose;
   track.hypothesis.pose.covariance *= kSharedErrors;
   track.hypothesis.id = id;
-  track.score = track.mean_score = candidate.score;
+  track.score = candidate.score;
   track.confirmed = std::clamp(kFeatureTempering * candidate.score, kMinInMap, kMaxConfirmed);
   track.features.paired = candidate.pairings.size();
   return track;

@@ -53,7 +53,7 @@ struct Track
   mrpt::math::TPose2D moved;  // from there to the updated pose; none before the update
   DenseEvidence evidence;  // of the last scan
   mrpt::math::TPose2D evaluated_at;  // pose at which the observed cells are evaluated
-  double mean_score = 0;  // running mean
+  double mean_score = 0;  // over the last kMemory of travel
   bool found = false;  // this step's relocation found it best of the whole map
   double confirmed = 0;  // log-odds from relocations: kappa of eq. (8.7)
   VisitedCells seen;  // cells seen at relocations
@@ -93,7 +93,7 @@ struct Track
   /// True when the log-odds reach `sure`: the track is not given up because of look-alikes.
   bool retained(double sure) const { return std::max(confirmed, inMapLogOdds()) >= sure; }
 
-  /// True when the score `now` of the last scan is lower than the running mean by more than `drop`.
+  /// True when the score `now` of the last scan is lower than its mean by more than `drop`.
   bool hasFallenTo(double now, double drop) const { return now < mean_score - drop; }
 };
 }  // namespace sigloc

@@ -25,13 +25,18 @@ constexpr double kLeastChange = 0.02;  // share that has changed even in a new m
 constexpr double kMostChange = 0.3;  // largest share that is taken to have changed, eq. (8.26)
 constexpr double kCellIndependence = 0.7;  // neighbouring cells share their evidence, eq. (8.26)
 constexpr double kSure = 0.9;  // probability of a candidate that overrules all tracks, section 8
-constexpr double kScoreMemory = 0.9;  // of the running mean of the score, per step
 constexpr double kMinSigma = 0.005;  // [m] added to the motion of a step, eq. (8.1)
 
 bool heavier(const Track& a, const Track& b)
 {
   if (a.hypothesis.weight != b.hypothesis.weight) return a.hypothesis.weight > b.hypothesis.weight;
   return a.hypothesis.id < b.hypothesis.id;
+}
+
+/// Returns how much a scan counts in a mean over the last kMemory of travel.
+double freshShare(double travel)
+{
+  return 1.0 - std::exp(-travel / kMemory);
 }
 }  // namespace
 
@@ -134,8 +139,7 @@ void TrackSet::weigh(const DenseScan& scan, const DenseVerifier& verifier, doubl
 void TrackSet::noteChange(double travel)
 {
   if (tracks.empty()) return;
-  const double fresh = 1.0 - std::exp(-travel / kMemory);
-  unexplained_ += fresh * (std::max(0.0, 1.0 - bestScore()) - unexplained_);
+  unexplained_ += freshShare(travel) * (std::max(0.0, 1.0 - bestScore()) - unexplained_);
 }
 
 double TrackSet::bestScore() const
@@ -307,15 +311,15 @@ void TrackSet::sort()
   std::sort(tracks.begin(), tracks.end(), heavier);
 }
 
-void TrackSet::rememberScores()
+/// A robot that was carried away may stand for long. Its scans there do not tell how well the old
+/// place is usually explained.
+void TrackSet::rememberScores(double travel)
 {
   for (Track& track : tracks)
-  {
-    track.mean_score = kScoreMemory * track.mean_score + (1 - kScoreMemory) * track.score;
-  }
+    track.mean_score += freshShare(travel) * (track.score - track.mean_score);
 }
 
-void TrackSet::mergeAndPrune()
+void TrackSet::mergeAndPrune(double travel)
 {
   sort();
   std::vector<Track> kept;
@@ -347,7 +351,7 @@ void TrackSet::mergeAndPrune()
   }
   tracks = std::move(kept);
   sort();
-  rememberScores();
+  rememberScores(travel);
   double here = 0;
   for (const Track& track : tracks) here += track.hypothesis.weight;
   // The weight of pruned tracks goes to "somewhere else", which keeps its floor.

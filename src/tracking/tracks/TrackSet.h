@@ -105,11 +105,9 @@ class TrackSet
   /// Sorts the tracks by weight, heaviest first.
   void sort();
 
-  /// Adds the scores of the last scan to the running means.
-  void rememberScores();
-
   /// Merges tracks that have met, prunes the light ones and sorts by weight. Eq. (8.10)
-  void mergeAndPrune();
+  /// Adds the scores of the last scan, `travel` [m] after the one before, to their means.
+  void mergeAndPrune(double travel);
 
   /// Returns the track at a pose (within 0.5 m and 17 degrees), or null.
   Track* trackAt(const mrpt::math::TPose2D& pose);
@@ -142,6 +140,7 @@ class TrackSet
   void weighRivals(const DenseScan& scan, const DenseVerifier& verifier, double travelled,
                    double travel);
   double bestScore() const;
+  void rememberScores(double travel);
 
   TrackerOptions options_;
   bool has_odometry_ = true;  // of the last prediction
