@@ -204,10 +204,11 @@ RunWriter::RunWriter(const fs::path& folder, const std::vector<fs::path>& inputs
     : folder_(resultsFolder(folder)), work_(workFolderBeside(folder_))
 {
   checkRunFolder(folder, inputs);
-  // The folder of another user stays that user's: it is filled, not replaced.
-  std::error_code error = detail::isOfAnotherUser(folder_)
-                              ? std::make_error_code(std::errc::operation_not_permitted)
-                              : makeWorkFolder();
+  // The folder of another user stays that user's, and a mount point stays where it is: they are
+  // filled, not replaced.
+  const bool stays = detail::isOfAnotherUser(folder_) || detail::isMountPoint(folder_);
+  std::error_code error =
+      stays ? std::make_error_code(std::errc::operation_not_permitted) : makeWorkFolder();
   if (error && fs::exists(folder_))
   {
     work_ = folder_ / detail::kInnerWork;
@@ -252,26 +253,6 @@ std::error_code RunWriter::makeWorkFolder()
   return error;
 }
 
-/// Puts what was written in the place of an earlier run.
-void RunWriter::replaceFolder()
-{
-  if (work_.parent_path() != folder_)
-  {
-    fs::remove_all(folder_);  // an earlier run, or empty: checked at the start
-    fs::rename(work_, folder_);
-    return;
-  }
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder_))
-  {
-    if (entry.path() != work_) fs::remove_all(entry.path());
-  }
-  for (const fs::directory_entry& entry : fs::directory_iterator(work_))
-  {
-    fs::rename(entry.path(), folder_ / entry.path().filename());
-  }
-  fs::remove(work_);
-}
-
 RunWriter::~RunWriter()
 {
   std::error_code ignored;
@@ -313,9 +294,17 @@ void RunWriter::finish(const LocalizationRun& run)
   write(detail::kRunSummaryFile,
         toJson(summaryColumns(), Figures{run.summary(), run}).dump(2) + "\n");
   syncFolder(work_);
-  replaceFolder();
   finished_ = true;
-  syncFolder(folder_.parent_path());
+  try
+  {
+    detail::replaceRun(work_, folder_);
+  }
+  catch (const fs::filesystem_error& error)
+  {
+    throw std::runtime_error(folder_.string() + ": cannot be replaced: " + error.code().message() +
+                             "; the results are in " + work_.string());
+  }
+  syncFolder(folder_);
 }
 
 std::string stepName(const StepRecord& step)

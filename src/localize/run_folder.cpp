@@ -3,6 +3,7 @@
 #include "localize/run_folder.h"
 
 #include <fcntl.h>
+#include <stdio.h>  // renameat2
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -25,6 +26,8 @@ namespace sigloc::detail
 namespace
 {
 namespace fs = std::filesystem;
+
+constexpr const char* kMark = "belief";  // a run makes this folder first
 
 [[noreturn]] void refuse(const fs::path& folder, const std::string& reason)
 {
@@ -106,6 +109,59 @@ bool isSame(int file, const fs::path& folder)
          opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
 }
 
+/// Gives two files or folders each other's name, at once where the file system can.
+void exchange(const fs::path& a, const fs::path& b)
+{
+  if (renameat2(AT_FDCWD, a.c_str(), AT_FDCWD, b.c_str(), RENAME_EXCHANGE) == 0) return;
+  if (errno != EINVAL && errno != ENOSYS)
+  {
+    throw fs::filesystem_error("exchange", a, b, std::error_code(errno, std::generic_category()));
+  }
+  const fs::path aside = a.string() + ".replaced";
+  fs::rename(b, aside);
+  fs::rename(a, b);
+  fs::rename(aside, a);
+}
+
+/// What has the new name so far gets the old one.
+void putInPlace(const fs::path& from, const fs::path& to)
+{
+  if (fs::exists(fs::symlink_status(to)))
+    exchange(from, to);
+  else
+    fs::rename(from, to);
+}
+
+/// Removes what it can. The folder that tells the work folder of a run goes last.
+void removeRun(const fs::path& folder)
+{
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored))
+  {
+    if (entry.path().filename() != kMark) fs::remove_all(entry.path(), ignored);
+  }
+  fs::remove_all(folder, ignored);
+}
+
+/// Replaces the entries of a folder one by one, and removes those that the new run does not have.
+void replaceEntries(const fs::path& work, const fs::path& results)
+{
+  std::set<fs::path> names;
+  for (const fs::directory_entry& entry : fs::directory_iterator(work))
+    names.insert(entry.path().filename());
+  for (const fs::path& name : names)
+  {
+    if (name != kRunSummaryFile) putInPlace(work / name, results / name);
+  }
+  putInPlace(work / kRunSummaryFile, results / kRunSummaryFile);
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(results))
+  {
+    const fs::path name = entry.path().filename();
+    if (entry.path() != work && names.count(name) == 0) fs::remove_all(entry.path(), ignored);
+  }
+}
+
 bool isMissing(const fs::path& folder)
 {
   std::error_code unnameable;
@@ -131,7 +187,7 @@ void requireFinishedRun(const fs::path& folder)
 void requireUnfinishedRun(const fs::path& folder)
 {
   if (isMissing(folder) || !requireRunFilesOnly(folder)) return;
-  if (!fs::is_directory(folder / "belief")) refuse(folder, "is not the work folder of a run");
+  if (!fs::is_directory(folder / kMark)) refuse(folder, "is not the work folder of a run");
 }
 
 bool isOfAnotherUser(const fs::path& folder)
@@ -161,5 +217,21 @@ void requireNoOtherRun(const fs::path& folder)
 {
   const int file = openLocked(folder);
   if (file >= 0) close(file);
+}
+
+bool isMountPoint(const fs::path& folder)
+{
+  struct statx named = {};
+  if (statx(AT_FDCWD, folder.c_str(), 0, 0, &named) != 0) return false;
+  return (named.stx_attributes & STATX_ATTR_MOUNT_ROOT) != 0;
+}
+
+void replaceRun(const fs::path& work, const fs::path& results)
+{
+  if (work.parent_path() == results)
+    replaceEntries(work, results);
+  else
+    putInPlace(work, results);
+  removeRun(work);
 }
 }  // namespace sigloc::detail

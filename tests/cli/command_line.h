@@ -76,14 +76,17 @@ inline CommandResult run(const TemporaryFolder& folder, const std::string& progr
 }
 
 /// All files and folders below a folder.
-inline std::set<std::string> listing(const TemporaryFolder& folder)
+inline std::set<std::string> listing(const std::filesystem::path& folder)
 {
   std::set<std::string> names;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path()))
-  {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
     names.insert(entry.path().string());
-  }
   return names;
+}
+
+inline std::set<std::string> listing(const TemporaryFolder& folder)
+{
+  return listing(folder.path());
 }
 
 inline std::ptrdiff_t countLines(const std::string& text)

@@ -130,6 +130,22 @@ TEST(Outputs, aRunNeverReplacesTheLogItReads)
   expectUntouched(folder, "sigloc-localize", {"run.ini", "--out", "more"}, "annotated.rawlog");
 }
 
+TEST(Outputs, aRunFillsAFolderThatSomethingIsMountedOn)
+{
+  const TemporaryFolder folder;
+  fs::create_directory(folder / "out");
+  if (runShell(folder, "mount -t tmpfs none out").exit_code != 0) GTEST_SKIP() << "cannot mount";
+  writeConfig(folder, kLabLog.string());
+  for (const char* const which : {"an empty one", "one with an earlier run"})
+  {
+    EXPECT_EQ(run(folder, "sigloc-localize", {"run.ini", "--out", "out", "--quiet"}).exit_code, 0)
+        << which;
+    EXPECT_TRUE(fs::exists(folder / "out/summary.json")) << which;
+    EXPECT_FALSE(fs::exists(folder / "out/.partial")) << which;
+  }
+  EXPECT_EQ(runShell(folder, "umount out").exit_code, 0);
+}
+
 TEST(Outputs, aFolderWithFilesNamedLikeARunsIsNoRun)
 {
   const TemporaryFolder folder;

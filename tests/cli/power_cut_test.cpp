@@ -150,6 +150,34 @@ TEST_F(PowerCut, SparesRunsNewOrOverAnEarlierOne)
   expectSafe("sigloc-localize", arguments);
 }
 
+TEST_F(PowerCut, SparesARunThatIsKilledAsItRemovesAnEarlierOne)
+{
+  const Arguments arguments = {"--map", kLabMap.string(), "--log", kLabLog.string(), "--out",
+                               "out",   "--quiet"};
+  ASSERT_EQ(run(folder_, "sigloc-localize", arguments).exit_code, 0);
+  const auto files = [&]
+  {
+    std::set<std::string> all = listing(folder_ / "out");
+    all.erase((folder_ / "out/_SUMMARY.txt").string());  // of all repetitions, written after them
+    return all;
+  };
+  const std::set<std::string> whole = files();
+  for (const char* const last : {"1", "20", "60"})
+  {
+    const TemporaryFolder notes;
+    const CommandResult killed = runShell(
+        folder_, "LD_PRELOAD=" + quoted(SIGLOC_FILE_CALLS_MODULE) +
+                     " SIGLOC_FILE_CALLS=" + quoted((notes / "calls").string()) +
+                     " SIGLOC_DIE_AT=" + last + " " + commandLine("sigloc-localize", arguments));
+    EXPECT_NE(killed.exit_code, 0);
+    EXPECT_TRUE(fs::exists(folder_ / "out.partial")) << "not killed in the midst of it";
+    EXPECT_TRUE(files() == whole) << last;
+  }
+  EXPECT_EQ(run(folder_, "sigloc-localize", arguments).exit_code, 0);
+  EXPECT_TRUE(files() == whole);
+  EXPECT_FALSE(fs::exists(folder_ / "out.partial"));
+}
+
 TEST_F(PowerCut, SparesSimulationsAndReports)
 {
   expectSafe("sigloc-simulate",

@@ -62,7 +62,6 @@ class RunWriter
 
  private:
   std::error_code makeWorkFolder();
-  void replaceFolder();
 
   std::filesystem::path folder_;
   std::filesystem::path work_;

@@ -2,13 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Preloaded into a program, it writes down some of its calls in the file $SIGLOC_FILE_CALLS. They
-// wait until a disk holds a file, make a folder, or rename something.
+// wait until a disk holds a file, make a folder, or rename something. The program is killed as it
+// removes its $SIGLOC_DIE_AT-th file.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <climits>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
@@ -68,4 +70,22 @@ extern "C" int rename(const char* from, const char* to) noexcept
   const int result = next<int (*)(const char*, const char*)>("rename")(from, to);
   if (result == 0) note("rename\t" + old_path + "\t" + pathOf(to));
   return result;
+}
+
+extern "C" int renameat2(int from_folder, const char* from, int to_folder, const char* to,
+                         unsigned int flags) noexcept
+{
+  const std::string old_path = pathOf(from);
+  const int result = next<int (*)(int, const char*, int, const char*, unsigned int)>("renameat2")(
+      from_folder, from, to_folder, to, flags);
+  if (result == 0) note("rename\t" + old_path + "\t" + pathOf(to));
+  return result;
+}
+
+extern "C" int unlinkat(int folder, const char* path, int flags) noexcept
+{
+  static int removed = 0;
+  const char* const last = std::getenv("SIGLOC_DIE_AT");
+  if (last != nullptr && ++removed == std::atoi(last)) raise(SIGKILL);
+  return next<int (*)(int, const char*, int)>("unlinkat")(folder, path, flags);
 }
