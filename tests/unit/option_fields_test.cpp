@@ -84,6 +84,16 @@ TEST(OptionFields, valuesThatAreNotOfTheFieldsTypeAreRefused)
   }
 }
 
+TEST(OptionFields, refusalsSayWhatIsWanted)
+{
+  EXPECT_EQ(refusal("dense = off"),
+            "section sigloc.example: bad value 'off' for 'dense', not true or false");
+  EXPECT_EQ(refusal("gate = wide"),
+            "section sigloc.example: bad value 'wide' for 'gate', not a number from 0 to 100");
+  EXPECT_EQ(refusal("count = 2.5"),
+            "section sigloc.example: bad value '2.5' for 'count', not a whole number from 1 to 50");
+}
+
 TEST(OptionFields, valuesOutsideTheirRangeAndNanAreRefused)
 {
   EXPECT_EQ(refusal("gate = 100.5"), "option 'gate' = 100.5 is outside [0, 100]");

@@ -76,6 +76,21 @@ std::string formatValue(T value)
     return {text.data(), end};
   }
 }
+
+/// Returns what a value from `least` to `most` is, for messages.
+template <class T>
+std::string wantedValue(T least, T most)
+{
+  if constexpr (std::is_same_v<T, bool>)
+  {
+    return "true or false";
+  }
+  else
+  {
+    return (std::is_integral_v<T> ? "a whole number from " : "a number from ") +
+           formatValue(least) + " to " + formatValue(most);
+  }
+}
 }  // namespace detail
 
 /// Throws std::invalid_argument naming the key when a value lies outside its range or is NaN.
@@ -137,7 +152,8 @@ Options loadOptions(const mrpt::config::CConfigFileBase& ini, const std::string&
         if (!value)
         {
           throw std::invalid_argument("section " + section + ": bad value '" + text + "' for '" +
-                                      field.key + "'");
+                                      field.key + "', not " +
+                                      detail::wantedValue<T>(field.minimum, field.maximum));
         }
         options.*(field.member) = *value;
       });
