@@ -3,12 +3,12 @@
 #include "localize/run_folder.h"
 
 #include <fcntl.h>
-#include <stdio.h>  // renameat2
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>  // renameat2
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -126,10 +126,8 @@ void exchange(const fs::path& a, const fs::path& b)
 /// What has the new name so far gets the old one.
 void putInPlace(const fs::path& from, const fs::path& to)
 {
-  if (fs::exists(fs::symlink_status(to)))
-    exchange(from, to);
-  else
-    fs::rename(from, to);
+  if (!fs::exists(fs::symlink_status(to))) return fs::rename(from, to);
+  exchange(from, to);
 }
 
 /// Removes what it can. The folder that tells the work folder of a run goes last.
@@ -228,10 +226,8 @@ bool isMountPoint(const fs::path& folder)
 
 void replaceRun(const fs::path& work, const fs::path& results)
 {
-  if (work.parent_path() == results)
-    replaceEntries(work, results);
-  else
-    putInPlace(work, results);
+  const bool is_inside = work.parent_path() == results;
+  (is_inside ? replaceEntries : putInPlace)(work, results);
   removeRun(work);
 }
 }  // namespace sigloc::detail
