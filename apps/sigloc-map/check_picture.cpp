@@ -111,40 +111,76 @@ void drawCross(RasterPicture& picture, int column, int row)
   picture.image().line(column - kArm, row + kArm, column + kArm, row - kArm, kFooled, 2);
 }
 
-void drawTwins(RasterPicture& picture, const Twins& twins, std::size_t number)
+constexpr int kLabelRadius = 13;  // [pixels]
+
+/// A place on the picture with the numbers of the twins that it belongs to.
+struct TwinLabel
 {
-  constexpr int kRadius = 13;
-  const auto a = picture.pixelOf({twins.a.x, twins.a.y});
-  const auto b = picture.pixelOf({twins.b.x, twins.b.y});
-  picture.image().line(a.first, a.second, b.first, b.second, kTwin, 1);
-  for (const auto& [column, row] : {a, b})
+  int column, row;
+  std::string numbers;
+
+  bool covers(int x, int y) const { return std::hypot(column - x, row - y) < 2 * kLabelRadius; }
+};
+
+/// Draws the worst twins, joined by lines. Those that share a place share a label.
+std::vector<TwinLabel> drawTwins(RasterPicture& picture, const std::vector<Twins>& twins)
+{
+  std::vector<TwinLabel> labels;
+  for (std::size_t k = 0; k < std::min(kDrawnTwins, twins.size()); ++k)
   {
-    for (int radius = 0; radius < kRadius; ++radius)
-      picture.image().drawCircle(column, row, radius, TColor(255, 255, 255), 2);
-    picture.image().drawCircle(column, row, kRadius, kTwin, 2);
-    picture.put(column - 5, row - 10, std::to_string(number), kTwin);
+    const auto a = picture.pixelOf({twins[k].a.x, twins[k].a.y});
+    const auto b = picture.pixelOf({twins[k].b.x, twins[k].b.y});
+    picture.image().line(a.first, a.second, b.first, b.second, kTwin, 1);
+    for (const auto& end : {a, b})
+    {
+      const auto same =
+          std::find_if(labels.begin(), labels.end(),
+                       [&](const TwinLabel& label) { return label.covers(end.first, end.second); });
+      if (same == labels.end())
+      {
+        labels.push_back({end.first, end.second, std::to_string(k + 1)});
+      }
+      else
+      {
+        same->numbers += "," + std::to_string(k + 1);
+      }
+    }
   }
+  for (const TwinLabel& label : labels)
+  {
+    for (int radius = 0; radius < kLabelRadius; ++radius)
+      picture.image().drawCircle(label.column, label.row, radius, TColor(255, 255, 255), 2);
+    picture.image().drawCircle(label.column, label.row, kLabelRadius, kTwin, 2);
+    picture.put(label.column - 5, label.row - 10, label.numbers, kTwin);
+  }
+  return labels;
 }
 
-void drawPlace(RasterPicture& picture, const CheckedPlace& place)
+void drawPlace(RasterPicture& picture, const CheckedPlace& place,
+               const std::vector<TwinLabel>& labels)
 {
-  const auto [column, row] = picture.pixelOf({place.pose.x, place.pose.y});
-  if (place.fooled > 0) drawCross(picture, column, row);
+  const auto at = picture.pixelOf({place.pose.x, place.pose.y});
+  if (place.fooled > 0) drawCross(picture, at.first, at.second);
   if (!place.drive) return;
-  picture.put(column - 6, row - 10, metresText(*place.drive), kText);
+  const bool covered =
+      std::any_of(labels.begin(), labels.end(),
+                  [&](const TwinLabel& label) { return label.covers(at.first, at.second); });
+  const int beside = covered ? 2 * kLabelRadius : -6;
+  picture.put(at.first + beside, at.second - 10, metresText(*place.drive), kText);
 }
 
 void drawTexts(RasterPicture& picture, const std::string& title)
 {
   picture.put(kMargin, 8, title, kText);
   picture.put(kMargin, 36, "one scan localizes:", kText);
-  int column = kMargin + 200;
-  for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0})
+  constexpr int kBar = kMargin + 260;
+  constexpr int kBarLength = 300;
+  picture.put(kBar - 40, 36, "0 %", kText);
+  for (int k = 0; k < kBarLength; ++k)
   {
-    picture.image().filledRectangle(column, 36, column + 20, 56, colorOf(share));
-    picture.put(column + 26, 36, fmt::format("{:.0f} %", 100 * share), kText);
-    column += 90;
+    picture.image().line(kBar + k, 36, kBar + k, 56, colorOf(k / (kBarLength - 1.0)), 1);
   }
+  picture.put(kBar + kBarLength + 8, 36, "100 %", kText);
   picture.put(kMargin, 64, "number: metres to drive", kText);
   picture.put(kMargin + 270, 64, "x fooled", kFooled);
   picture.put(kMargin + 370, 64, "white: not asked", kText);
@@ -157,9 +193,8 @@ CImage checkPicture(const MapCheck& check, const DenseField& field, const std::s
   RasterPicture picture(boxOf(check, field), kTop);
   const PlaceColors colors(check, field);
   picture.paint([&](const TPoint2D& place) { return colors.at(place); });
-  for (const CheckedPlace& place : check.places) drawPlace(picture, place);
-  for (std::size_t k = 0; k < std::min(kDrawnTwins, check.twins.size()); ++k)
-    drawTwins(picture, check.twins[k], k + 1);
+  const std::vector<TwinLabel> labels = drawTwins(picture, check.twins);
+  for (const CheckedPlace& place : check.places) drawPlace(picture, place, labels);
   picture.drawAxes();
   drawTexts(picture, title);
   return std::move(picture.image());
