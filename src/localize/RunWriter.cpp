@@ -204,6 +204,7 @@ RunWriter::RunWriter(const fs::path& folder, const std::vector<fs::path>& inputs
     : folder_(resultsFolder(folder)), work_(workFolderBeside(folder_))
 {
   checkRunFolder(folder, inputs);
+  detail::recoverRun(work_, folder_);
   // The folder of another user stays that user's, and a mount point stays where it is: they are
   // filled, not replaced.
   const bool stays = detail::isOfAnotherUser(folder_) || detail::isMountPoint(folder_);

@@ -113,11 +113,12 @@ bool isSame(int file, const fs::path& folder)
 void exchange(const fs::path& a, const fs::path& b)
 {
   if (renameat2(AT_FDCWD, a.c_str(), AT_FDCWD, b.c_str(), RENAME_EXCHANGE) == 0) return;
-  if (errno != EINVAL && errno != ENOSYS)
+  if (errno != EINVAL && errno != ENOSYS && errno != EOPNOTSUPP)
   {
     throw fs::filesystem_error("exchange", a, b, std::error_code(errno, std::generic_category()));
   }
   const fs::path aside = a.string() + ".replaced";
+  fs::remove_all(aside);  // of a run that was killed below, after the next one took the name
   fs::rename(b, aside);
   fs::rename(a, b);
   fs::rename(aside, a);
@@ -215,6 +216,11 @@ void requireNoOtherRun(const fs::path& folder)
 {
   const int file = openLocked(folder);
   if (file >= 0) close(file);
+}
+
+void recoverRun(const fs::path& work, const fs::path& results)
+{
+  if (isMissing(results) && isRunSummary(work / kRunSummaryFile)) fs::rename(work, results);
 }
 
 bool isMountPoint(const fs::path& folder)

@@ -39,6 +39,10 @@ class FolderLock
 /// Throws the same for a folder that is locked. One that does not exist is not.
 void requireNoOtherRun(const std::filesystem::path& folder);
 
+/// Gives a finished run in `work` its name where the program was killed before it did, on a file
+/// system where names cannot be exchanged. Throws std::filesystem::filesystem_error.
+void recoverRun(const std::filesystem::path& work, const std::filesystem::path& results);
+
 /// True for a folder that another file system, or another part of one, is mounted on. It cannot be
 /// renamed.
 bool isMountPoint(const std::filesystem::path& folder);

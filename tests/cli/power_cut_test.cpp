@@ -178,6 +178,31 @@ TEST_F(PowerCut, SparesARunThatIsKilledAsItRemovesAnEarlierOne)
   EXPECT_FALSE(fs::exists(folder_ / "out.partial"));
 }
 
+TEST_F(PowerCut, SparesARunThatIsKilledBeforeItHasItsName)
+{
+  const Arguments arguments = {"--map", kLabMap.string(), "--log", kLabLog.string(), "--out",
+                               "out",   "--quiet"};
+  ASSERT_EQ(run(folder_, "sigloc-localize", arguments).exit_code, 0);
+  for (const char* const time : {"first", "second"})
+  {
+    const TemporaryFolder notes;
+    const std::string calls = quoted((notes / "calls").string());
+    EXPECT_NE(runShell(folder_, "LD_PRELOAD=" + quoted(SIGLOC_FILE_CALLS_MODULE) +
+                                    " SIGLOC_FILE_CALLS=" + calls + " SIGLOC_NO_EXCHANGE=1 " +
+                                    commandLine("sigloc-localize", arguments))
+                  .exit_code,
+              0);
+    EXPECT_FALSE(fs::exists(folder_ / "out")) << time << ": not killed in the midst of it";
+    EXPECT_TRUE(fs::exists(folder_ / "out.partial/summary.json")) << time;
+    // The second time this is the run that was killed the first time.
+    EXPECT_TRUE(fs::exists(folder_ / "out.partial.replaced/summary.json")) << time;
+    fs::remove_all(folder_ / "out.partial.replaced");
+  }
+  ASSERT_EQ(run(folder_, "sigloc-localize", arguments).exit_code, 0);
+  EXPECT_TRUE(fs::exists(folder_ / "out/summary.json"));
+  EXPECT_FALSE(fs::exists(folder_ / "out.partial"));
+}
+
 TEST_F(PowerCut, SparesSimulationsAndReports)
 {
   expectSafe("sigloc-simulate",

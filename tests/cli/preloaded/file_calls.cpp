@@ -3,12 +3,14 @@
 
 // Preloaded into a program, it writes down some of its calls in the file $SIGLOC_FILE_CALLS. They
 // wait until a disk holds a file, make a folder, or rename something. The program is killed as it
-// removes its $SIGLOC_DIE_AT-th file.
+// removes its $SIGLOC_DIE_AT-th file. Names cannot be exchanged where $SIGLOC_NO_EXCHANGE is set,
+// and the program is killed where the second of three renames would take their place.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <climits>
 #include <csignal>
 #include <cstdio>
@@ -17,6 +19,8 @@
 
 namespace
 {
+bool killed_at_next_but_one = false;
+
 void note(const std::string& line)
 {
   const char* const path = std::getenv("SIGLOC_FILE_CALLS");
@@ -66,6 +70,8 @@ extern "C" int mkdir(const char* path, mode_t mode) noexcept
 
 extern "C" int rename(const char* from, const char* to) noexcept
 {
+  static int renamed = 0;
+  if (killed_at_next_but_one && ++renamed == 2) raise(SIGKILL);
   const std::string old_path = pathOf(from);
   const int result = next<int (*)(const char*, const char*)>("rename")(from, to);
   if (result == 0) note("rename\t" + old_path + "\t" + pathOf(to));
@@ -75,6 +81,12 @@ extern "C" int rename(const char* from, const char* to) noexcept
 extern "C" int renameat2(int from_folder, const char* from, int to_folder, const char* to,
                          unsigned int flags) noexcept
 {
+  if (std::getenv("SIGLOC_NO_EXCHANGE") != nullptr)
+  {
+    killed_at_next_but_one = true;
+    errno = EINVAL;
+    return -1;
+  }
   const std::string old_path = pathOf(from);
   const int result = next<int (*)(int, const char*, int, const char*, unsigned int)>("renameat2")(
       from_folder, from, to_folder, to, flags);
