@@ -311,12 +311,16 @@ void TrackSet::sort()
   std::sort(tracks.begin(), tracks.end(), heavier);
 }
 
-/// A robot that was carried away may stand for long. Its scans there do not tell how well the old
-/// place is usually explained.
+/// A robot that was carried away may stand for long, with jitter in its odometry that adds up. Its
+/// scans there do not tell how well the old place is usually explained. So none counts in doubt.
 void TrackSet::rememberScores(double travel)
 {
+  const bool doubtful = !tracks.empty() && isDoubtful();
   for (Track& track : tracks)
+  {
+    if (doubtful && track.hypothesis.id == heaviest().hypothesis.id) continue;
     track.mean_score += freshShare(travel) * (track.score - track.mean_score);
+  }
 }
 
 void TrackSet::mergeAndPrune(double travel)
