@@ -49,8 +49,10 @@ bool isMountPoint(const std::filesystem::path& folder);
 
 /// Puts the whole run in `work`, a folder beside `results` or in it, in the place of the run in
 /// `results`, if there is one. A folder beside it takes its name at once, and then the earlier run
-/// is removed. In it, one file after the other is replaced, the summary last. Wherever that ends,
-/// nothing of the new run is lost, and `results` has a summary. What cannot be removed stays in
-/// `work`. Throws std::filesystem::filesystem_error where `results` cannot be replaced.
+/// is removed. In it, one file after the other is replaced, the summary last. Wherever the program
+/// is killed, nothing of the new run is lost, and `results` has a summary. Where the file system
+/// cannot exchange names, `results` may be missing then; recoverRun() mends that. What cannot be
+/// removed stays in `work`. Throws std::filesystem::filesystem_error where `results` cannot be
+/// replaced.
 void replaceRun(const std::filesystem::path& work, const std::filesystem::path& results);
 }  // namespace sigloc::detail

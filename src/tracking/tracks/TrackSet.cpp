@@ -315,10 +315,10 @@ void TrackSet::sort()
 /// scans there do not tell how well the old place is usually explained. So none counts in doubt.
 void TrackSet::rememberScores(double travel)
 {
-  const bool doubtful = !tracks.empty() && isDoubtful();
+  const Track* const doubted = isDoubtful() ? &heaviest() : nullptr;
   for (Track& track : tracks)
   {
-    if (doubtful && track.hypothesis.id == heaviest().hypothesis.id) continue;
+    if (&track == doubted) continue;
     track.mean_score += freshShare(travel) * (track.score - track.mean_score);
   }
 }
@@ -381,8 +381,8 @@ bool TrackSet::isSuspicious() const
 
 bool TrackSet::isDoubtful() const
 {
+  if (!isSuspicious() || heaviest().found) return false;
   const Track& first = heaviest();
-  if (first.found || !isSuspicious()) return false;
   // Without odometry nothing but the scan says that the robot is still there.
   return !has_odometry_ || first.hasFallenTo(scoreOfUnhidden(first.evidence), options_.score_drop);
 }

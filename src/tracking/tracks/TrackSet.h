@@ -126,7 +126,7 @@ class TrackSet
 
   /// True where suspicion stops a claim of the heaviest track. It does not where a relocation finds
   /// no better pose in the whole map, nor where less is explained only because something hides the
-  /// walls. Must not be called on an empty set.
+  /// walls. False for an empty set.
   bool isDoubtful() const;
 
   /// The heaviest track. Must not be called on an empty set.

@@ -19,7 +19,7 @@
 
 namespace
 {
-bool killed_at_next_but_one = false;
+bool exchange_refused = false;
 
 void note(const std::string& line)
 {
@@ -71,7 +71,7 @@ extern "C" int mkdir(const char* path, mode_t mode) noexcept
 extern "C" int rename(const char* from, const char* to) noexcept
 {
   static int renamed = 0;
-  if (killed_at_next_but_one && ++renamed == 2) raise(SIGKILL);
+  if (exchange_refused && ++renamed == 2) raise(SIGKILL);
   const std::string old_path = pathOf(from);
   const int result = next<int (*)(const char*, const char*)>("rename")(from, to);
   if (result == 0) note("rename\t" + old_path + "\t" + pathOf(to));
@@ -83,7 +83,7 @@ extern "C" int renameat2(int from_folder, const char* from, int to_folder, const
 {
   if (std::getenv("SIGLOC_NO_EXCHANGE") != nullptr)
   {
-    killed_at_next_but_one = true;
+    exchange_refused = true;
     errno = EINVAL;
     return -1;
   }
