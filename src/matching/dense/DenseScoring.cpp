@@ -133,11 +133,18 @@ DenseEvidence DenseVerifier::evaluate(const DenseScan& scan, const TPose2D& pose
   evidence.coarse = static_cast<double>(sums.coarse) / n;
   evidence.in_free = static_cast<double>(sums.in_free) / n;
   evidence.unknown = static_cast<double>(sums.unknown) / n;
+  testRays(scan, pose, rays, evidence);
+  return evidence;
+}
+
+/// Tests up to `rays` beams for passing through walls, and scores the evidence with what is found.
+void DenseVerifier::testRays(const DenseScan& scan, const TPose2D& pose, std::size_t rays,
+                             DenseEvidence& evidence) const
+{
   const std::size_t tested = std::min(rays, scan.spaced);
   if (tested > 0) evidence.through_wall = wall_crossings_->throughShare(scan, pose, tested);
   evidence.score = (evidence.sharp + evidence.coarse) / 2 -
                    DenseEvidence::kPenalty * evidence.through_wall -
                    DenseEvidence::kPenalty * evidence.in_free;
-  return evidence;
 }
 }  // namespace sigloc

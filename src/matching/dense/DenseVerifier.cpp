@@ -55,26 +55,49 @@ bool better(const RankedPose& a, const RankedPose& b)
   return a.pose.phi < b.pose.phi;
 }
 
-/// Keeps the best of each group of poses that are not distinct, at most `count`. Beyond these it
-/// keeps distinct places that tie with the best, up to `most_tied` in all.
-void keepDistinct(std::vector<RankedPose>& poses, std::size_t count, std::size_t most_tied,
-                  double distance = kSamePlaceDistance)
+/// Distinct poses. They are offered best first. The first `count` are kept, and beyond these those
+/// that tie with the best, up to `most_tied` in all.
+class DistinctPoses
+{
+ public:
+  explicit DistinctPoses(std::size_t count, std::size_t most_tied,
+                         double distance = kSamePlaceDistance)
+      : count_(count), most_tied_(most_tied), distance_(distance)
+  {
+  }
+
+  /// Keeps the pose if none like it is kept. Returns false if no later pose will be kept either.
+  bool offer(const RankedPose& pose)
+  {
+    const bool full = kept_.size() >= count_;
+    const bool ties = kept_.empty() || pose.evidence.score >= kept_.front().evidence.score - kTie;
+    if (full && (!ties || kept_.size() >= most_tied_)) return false;
+    const double apart = full ? kSamePlaceDistance : distance_;
+    const bool fresh =
+        std::all_of(kept_.begin(), kept_.end(),
+                    [&](const RankedPose& other)
+                    { return !withinReach(pose.pose, other.pose, apart, kSamePlaceAngle); });
+    if (fresh) kept_.push_back(pose);
+    return true;
+  }
+
+  std::vector<RankedPose> take() { return std::move(kept_); }
+
+ private:
+  std::size_t count_, most_tied_;
+  double distance_;  // [m] between the first `count` poses
+  std::vector<RankedPose> kept_;
+};
+
+void keepDistinct(std::vector<RankedPose>& poses, std::size_t count, std::size_t most_tied)
 {
   std::sort(poses.begin(), poses.end(), better);
-  std::vector<RankedPose> kept;
-  for (const RankedPose& candidate : poses)
+  DistinctPoses distinct(count, most_tied);
+  for (const RankedPose& pose : poses)
   {
-    const bool full = kept.size() >= count;
-    const bool ties = candidate.evidence.score >= poses.front().evidence.score - kTie;
-    if (full && (!ties || kept.size() >= most_tied)) break;
-    const double apart = full ? kSamePlaceDistance : distance;
-    const bool fresh =
-        std::all_of(kept.begin(), kept.end(),
-                    [&](const RankedPose& other)
-                    { return !withinReach(candidate.pose, other.pose, apart, kSamePlaceAngle); });
-    if (fresh) kept.push_back(candidate);
+    if (!distinct.offer(pose)) break;
   }
-  poses = std::move(kept);
+  poses = distinct.take();
 }
 
 /// Returns the score of the first of sorted poses, or 0 without any.
@@ -124,10 +147,8 @@ std::vector<RankedPose> DenseVerifier::rank(const DenseScan& scan,
   counters.poses_scored += are_many ? proposals.size() : scores.size();
 
   // 2. Refine the best of each neighbourhood on some of the returns.
-  std::vector<RankedPose> poses = race(scan, tried, std::move(scores), before, counters);
-  // Neighbouring poses that did not converge stay rivals until all returns have scored them. Which
-  // of them wins must not depend on where the proposals were.
-  keepDistinct(poses, kFinalKept, kFinalKept + max_ranked, kApartDistance);
+  std::vector<Raced> raced = race(scan, tried, std::move(scores), before, counters);
+  std::vector<RankedPose> poses = bestOf(scan, std::move(raced), kFinalKept + max_ranked);
 
   // 3. Refine the best of those on more returns, and score them by all.
   const double promising = std::max(bestScore(poses), bestScore(before)) - kFinalLead;
@@ -163,11 +184,11 @@ std::vector<RankedPose> DenseVerifier::rank(const DenseScan& scan,
 
 /// Refines one proposal of each place, best first, until the next can hardly win any more. What a
 /// refinement adds to the coarse score is small, so few are refined where the scan tells much.
-std::vector<RankedPose> DenseVerifier::race(const DenseScan& scan,
-                                            const std::vector<PoseProposal>& proposals,
-                                            std::vector<CoarseScore> scores,
-                                            const std::vector<RankedPose>& before,
-                                            MatchingCounters& counters) const
+std::vector<DenseVerifier::Raced> DenseVerifier::race(const DenseScan& scan,
+                                                      const std::vector<PoseProposal>& proposals,
+                                                      std::vector<CoarseScore> scores,
+                                                      const std::vector<RankedPose>& before,
+                                                      MatchingCounters& counters) const
 {
   const auto worse = [](const CoarseScore& a, const CoarseScore& b)
   { return a.score != b.score ? a.score < b.score : a.index > b.index; };
@@ -181,7 +202,7 @@ std::vector<RankedPose> DenseVerifier::race(const DenseScan& scan,
   constexpr auto kMargin = static_cast<std::uint32_t>(kCoarseMargin * CoarseScore::kMost);
 
   TakenPoses taken;
-  std::vector<RankedPose> poses;
+  std::vector<Raced> raced;
   float most_weight = 0;
   double best_middle = bestScore(before);
   std::size_t refined = 0;
@@ -204,16 +225,53 @@ std::vector<RankedPose> DenseVerifier::race(const DenseScan& scan,
     best = std::max(best, coarse_field_->bestScore(scan, places));
     for (const TPose2D& place : places)
     {
-      RankedPose pose{place, evaluate(scan, place, kMiddleScored, 0)};
+      Raced next{{place, evaluate(scan, place, kMiddleScored, 0)}, false};
       // Beams through walls only lower a score.
-      if (pose.evidence.score < best_middle - kFinalLead) continue;
-      pose.evidence = evaluate(scan, place, kMiddleScored, kMiddleRays);
-      best_middle = std::max(best_middle, pose.evidence.score);
-      poses.push_back(pose);
+      const double most = next.ranked.evidence.score;
+      if (most < best_middle - kFinalLead) continue;
+      if (most > best_middle) testRays(scan, next);
+      if (next.rays_tested) best_middle = std::max(best_middle, next.ranked.evidence.score);
+      raced.push_back(next);
     }
   }
   if (can_win()) ++counters.cut_short;
-  return poses;
+  return raced;
+}
+
+void DenseVerifier::testRays(const DenseScan& scan, Raced& raced) const
+{
+  testRays(scan, raced.ranked.pose, kMiddleRays, raced.ranked.evidence);
+  raced.rays_tested = true;
+}
+
+/// Returns the best distinct poses of the race, with their beams tested for passing through walls.
+/// Neighbouring poses that did not converge stay rivals until all returns have scored them. Which
+/// of them wins must not depend on where the proposals were.
+std::vector<RankedPose> DenseVerifier::bestOf(const DenseScan& scan, std::vector<Raced> raced,
+                                              std::size_t most_tied) const
+{
+  // The test only lowers a score. So it is made of those that are best without it, and most poses
+  // are never tested.
+  const auto after = [](const Raced& a, const Raced& b)
+  {
+    const bool tie = a.ranked.evidence.score == b.ranked.evidence.score;
+    return tie && a.rays_tested != b.rays_tested ? a.rays_tested : better(b.ranked, a.ranked);
+  };
+  std::make_heap(raced.begin(), raced.end(), after);
+  DistinctPoses distinct(kFinalKept, most_tied, kApartDistance);
+  while (!raced.empty())
+  {
+    std::pop_heap(raced.begin(), raced.end(), after);
+    if (raced.back().rays_tested)
+    {
+      if (!distinct.offer(raced.back().ranked)) break;
+      raced.pop_back();
+      continue;
+    }
+    testRays(scan, raced.back());
+    std::push_heap(raced.begin(), raced.end(), after);
+  }
+  return distinct.take();
 }
 
 /// Refines a pose on all returns. They fix it better than a small difference of the score does, so

@@ -75,15 +75,25 @@ class DenseVerifier
   const DenseField& field() const { return field_; }
 
  private:
-  std::vector<RankedPose> race(const DenseScan& scan, const std::vector<PoseProposal>& proposals,
-                               std::vector<CoarseScore> scores,
-                               const std::vector<RankedPose>& before,
-                               MatchingCounters& counters) const;
+  /// A pose refined in the race. Its score is an upper bound until its rays are tested.
+  struct Raced
+  {
+    RankedPose ranked;
+    bool rays_tested;
+  };
+  std::vector<Raced> race(const DenseScan& scan, const std::vector<PoseProposal>& proposals,
+                          std::vector<CoarseScore> scores, const std::vector<RankedPose>& before,
+                          MatchingCounters& counters) const;
+  std::vector<RankedPose> bestOf(const DenseScan& scan, std::vector<Raced> raced,
+                                 std::size_t most_tied) const;
   void refineAll(const DenseScan& scan, std::vector<mrpt::math::TPose2D>& poses, int steps,
                  std::size_t beams, float least = 0, float* most_weight = nullptr) const;
   void refineFinally(const DenseScan& scan, const DenseScan& balanced, RankedPose& pose) const;
   DenseEvidence evaluate(const DenseScan& scan, const mrpt::math::TPose2D& pose,
                          std::size_t returns, std::size_t rays) const;
+  void testRays(const DenseScan& scan, const mrpt::math::TPose2D& pose, std::size_t rays,
+                DenseEvidence& evidence) const;
+  void testRays(const DenseScan& scan, Raced& raced) const;
   double fineLikelihood(const DenseScan& scan, const mrpt::math::TPose2D& pose) const;
 
   const DenseField& field_;
