@@ -24,10 +24,10 @@ constexpr std::uint32_t kHeadings = 512;  // of the table: an error of 0.35 degr
 constexpr auto kHeadingsPerRadian = static_cast<float>(kHeadings / (2.0 * M_PI));
 
 /// Keeps the best `count` of the first scores, and those equal to the last of them, so that the
-/// order of the proposals does not decide which ones stay.
-void keepBest(std::vector<CoarseScore>& scores, std::size_t count)
+/// order of the proposals does not decide which ones stay. Returns the least score that it keeps.
+std::uint32_t keepBest(std::vector<CoarseScore>& scores, std::size_t count)
 {
-  if (scores.size() <= count) return;
+  if (scores.size() <= count) return 0;
   std::array<std::uint32_t, 255 * kRoughReturns + 1> with_score{};
   for (const CoarseScore& entry : scores) ++with_score[entry.score];
   std::size_t enough = 0;
@@ -41,6 +41,7 @@ void keepBest(std::vector<CoarseScore>& scores, std::size_t count)
     kept += entry.score >= lowest ? 1 : 0;
   }
   scores.resize(kept);
+  return lowest;
 }
 
 /// Where proposals are placed on a raster.
@@ -100,12 +101,16 @@ class CoarseField::TurnedReturns
     }
   }
 
-  /// Scores the proposals at which a robot could be, by the first `returns`.
+  /// Scores the proposals at which a robot could be, by the first `returns`. Leaves out some that
+  /// are not among the best `count`, so that what very many take fits the cache.
   template <std::size_t returns>
-  std::vector<CoarseScore> firstScores(const std::vector<PoseProposal>& proposals)
+  std::vector<CoarseScore> firstScores(const std::vector<PoseProposal>& proposals,
+                                       std::size_t count)
   {
+    std::size_t room = std::max(4 * count, 2 * PlacedBlock::kSize);
     std::vector<CoarseScore> scores;
-    scores.reserve(proposals.size());
+    scores.reserve(std::min(proposals.size(), room));
+    std::uint32_t least = 0;
     PlacedBlock placed;
     std::array<std::uint32_t, PlacedBlock::kSize> standing;
     std::array<CoarseScore, PlacedBlock::kSize> of_block;
@@ -113,16 +118,24 @@ class CoarseField::TurnedReturns
     {
       const std::size_t size = std::min(PlacedBlock::kSize, proposals.size() - first);
       placeOn(place_, &proposals[first], size, placed);
-      const std::size_t count = findStanding(placed, size, standing);
-      for (std::size_t k = 0; k < count; ++k)
+      const std::size_t standing_count = findStanding(placed, size, standing);
+      std::size_t kept = 0;
+      for (std::size_t k = 0; k < standing_count; ++k)
       {
         const std::uint32_t i = standing[k];
         const Turned& turned = turnedTo(placed.heading[i]);
-        of_block[k] = {sumAt<0, returns>(placed.column[i], placed.row[i], turned),
-                       static_cast<std::uint32_t>(first + i)};
+        const std::uint32_t score = sumAt<0, returns>(placed.column[i], placed.row[i], turned);
+        // An entry is kept or overwritten by the next one: a branch here could not be predicted.
+        of_block[kept] = {score, static_cast<std::uint32_t>(first + i)};
+        kept += score >= least ? 1 : 0;
+      }
+      if (scores.size() + kept > room)
+      {
+        least = keepBest(scores, count);
+        room = std::max(room, 2 * scores.size());  // where many are equal
       }
       scores.insert(scores.end(), of_block.begin(),
-                    of_block.begin() + static_cast<std::ptrdiff_t>(count));
+                    of_block.begin() + static_cast<std::ptrdiff_t>(kept));
     }
     return scores;
   }
@@ -278,7 +291,7 @@ std::vector<PoseProposal> CoarseField::best(const DenseScan& scan,
                                             std::size_t count) const
 {
   std::vector<CoarseScore> scores =
-      TurnedReturns(scan, *this).firstScores<kRoughReturns>(proposals);
+      TurnedReturns(scan, *this).firstScores<kRoughReturns>(proposals, count);
   keepBest(scores, count);
   std::vector<PoseProposal> kept;
   kept.reserve(scores.size());
@@ -302,7 +315,8 @@ std::vector<CoarseScore> CoarseField::score(const DenseScan& scan,
                                             const std::vector<PoseProposal>& proposals) const
 {
   TurnedReturns returns(scan, *this);
-  std::vector<CoarseScore> scores = returns.firstScores<kThinningReturns>(proposals);
+  std::vector<CoarseScore> scores =
+      returns.firstScores<kThinningReturns>(proposals, proposals.size());
   keepBest(scores, std::clamp(scores.size() / kThinningShare, kLeastThinned, kMostThinned));
   returns.addOtherReturns(scores, proposals);
   return scores;

@@ -17,7 +17,7 @@ namespace
 constexpr double kParallel = 0.35;  // [rad] between walls, below which one of them is enough
 constexpr double kSameLine = 0.5;  // [m] between parallel walls, below which one is enough
 constexpr double kMinPairDistance = 0.8;  // [m] of circles; shorter pairs give poor headings
-constexpr std::size_t kUsualProposals = 16384;  // for which memory is reserved
+constexpr std::size_t kOthers = 16384;  // proposals by all but walls, for which memory is reserved
 constexpr double kRadiusTolerance = 0.3;  // [m] gate on the radius of an observed circle
 constexpr double kPairTolerance = 0.15;  // [m] gate on the distance of two circles
 constexpr double kPairRange = 15.0;  // [m] largest distance of a pair of circles
@@ -109,6 +109,7 @@ PoseProposer::PoseProposer(const FeatureMap& map)
       length = std::max(length, tangent.x * d.x + tangent.y * d.y);
     }
     walls_.push_back({line.direction, -tangent.y, tangent.x, start, length});
+    most_slid_ += static_cast<std::size_t>(std::ceil(length / kSlideStep)) + 1;
   }
   std::stable_sort(walls_.begin(), walls_.end(),
                    [](const MappedWall& a, const MappedWall& b)
@@ -148,7 +149,7 @@ PoseProposer::PoseProposer(const FeatureMap& map)
 std::vector<PoseProposal> PoseProposer::propose(const std::vector<Feature>& observed) const
 {
   std::vector<PoseProposal> proposals;
-  proposals.reserve(kUsualProposals);
+  proposals.reserve(mostByWallEnds(observed) + most_slid_ + kOthers);
   proposeWallEnds(observed, proposals);
   proposeCirclePairs(observed, 0, kMaxPairs, proposals);
   const auto parallel = [](const Feature& a, const Feature& b)
@@ -165,7 +166,6 @@ std::vector<PoseProposal> PoseProposer::propose(const std::vector<Feature>& obse
 std::vector<PoseProposal> PoseProposer::proposeFurther(const std::vector<Feature>& observed) const
 {
   std::vector<PoseProposal> proposals;
-  proposals.reserve(kUsualProposals);
   proposeCirclePairs(observed, kMaxPairs, kThoroughPairs, proposals);
   // The longest wall may be mapped from its other side only, or not at all. So parallel ones are
   // slid as well.
@@ -177,11 +177,25 @@ std::vector<PoseProposal> PoseProposer::proposeFurther(const std::vector<Feature
            std::abs(normal.x * between.x + normal.y * between.y) <= kSameLine;
   };
   const std::vector<const Feature*> walls = longestWalls(observed, kThoroughSlidWalls, on_one_line);
+  const std::size_t slid = std::max<std::size_t>(walls.size(), kSlidWalls) - kSlidWalls;
+  proposals.reserve(proposals.size() + slid * most_slid_);
   for (std::size_t i = kSlidWalls; i < walls.size(); ++i)
   {
     slide(*walls[i], proposals);
   }
   return proposals;
+}
+
+/// Returns an upper bound of the proposals by wall ends.
+std::size_t PoseProposer::mostByWallEnds(const std::vector<Feature>& observed) const
+{
+  std::size_t most = 0;
+  for (const Feature& end : observed)
+  {
+    if (end.type == FeatureType::wall_end)
+      most += wall_ends_[static_cast<std::size_t>(end.side)].size();
+  }
+  return most;
 }
 
 void PoseProposer::proposeWallEnds(const std::vector<Feature>& observed,

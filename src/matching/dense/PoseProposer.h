@@ -53,6 +53,7 @@ class PoseProposer
     double c, s;  // cosine and sine of the bearing
   };
 
+  std::size_t mostByWallEnds(const std::vector<Feature>& observed) const;
   void proposeWallEnds(const std::vector<Feature>& observed, std::vector<PoseProposal>& out) const;
   void slide(const Feature& wall, std::vector<PoseProposal>& out) const;
   void proposeCirclePairs(const std::vector<Feature>& observed, std::size_t first, std::size_t last,
@@ -60,6 +61,7 @@ class PoseProposer
 
   std::array<std::vector<MappedEnd>, 2> wall_ends_;  // by side, and by place
   std::vector<MappedWall> walls_;  // by place
+  std::size_t most_slid_ = 0;  // proposals by one observed wall, for memory allocated at once
   std::vector<CirclePair> pairs_;  // by distance
 };
 }  // namespace sigloc
