@@ -34,13 +34,12 @@ constexpr std::size_t kMaxBeams = 400;  // of a scene that are used; more are th
 // The probability that the right pose was not proposed where nothing significant was found.
 constexpr double kMissed = 0.2;
 
-/// Returns the probability that the right pose was not proposed, or not refined. With hypotheses
-/// that features support it is near 0 where the best pose explains significantly many of them. In
-/// mode (e) it is 0 unless the search was cut short. \cite algorithm eq. (7.6)
-double missedProbability(const std::vector<FeatureHypothesis>& hypotheses, const TPose2D& best,
-                         bool was_cut_short)
+/// Returns the prior probability that the right pose was not among the hypotheses that features
+/// support. It is near 0 where the best pose explains significantly many of them, and 0 in modes
+/// (e) and (f), which have no such hypotheses. \cite algorithm eq. (7.6)
+double unproposedProbability(const std::vector<FeatureHypothesis>& hypotheses, const TPose2D& best)
 {
-  if (hypotheses.empty()) return was_cut_short ? kMissed : 0;
+  if (hypotheses.empty()) return 0;
   double chance = 1;
   for (const FeatureHypothesis& hypothesis : hypotheses)
   {
@@ -272,10 +271,10 @@ void SignatureMatcher::concludeDensely(const ObservedScene& scene, const DenseSc
     candidate.pose.covariance = verifier_->covarianceAt(scan, candidate.pose.mean);
     candidate.pose = withCommonError(candidate.pose, map_->error());
   }
-  const double missed = result.candidates.empty()
-                            ? 0
-                            : missedProbability(hypotheses, result.candidates.front().pose.mean,
-                                                result.counters.cut_short > 0);
+  Missed missed;
+  if (!result.candidates.empty())
+    missed.unproposed = unproposedProbability(hypotheses, result.candidates.front().pose.mean);
+  missed.unrefined = result.complete && result.counters.cut_short > 0;
   result.view = angularCoverage(scene);
   weighCandidates(result, candidatesOf(verified.outside, *verifier_, scene), missed);
 }

@@ -31,6 +31,9 @@ constexpr double kNarrowSlope = 12.0;  // log-odds per share of this coverage th
 constexpr double kPriorOutside = 0.01;  // prior of a pose outside the prior region, section 7
 constexpr double kBackgroundScore = 0.4;  // score of the background without a runner-up, eq. (7.2)
 constexpr double kUsualScore = 0.8;  // usual score of the right pose, eq. (7.6)
+// Odds that the right pose was not refined, as a share of the runner-up's relative likelihood.
+// Fitted by scripts/fit_missed, eq. (7.8).
+constexpr double kUnrefinedShare = 0.44;
 // Factors of the log-odds of features, eq. (7.4). Walls of a scan share its errors, and buildings
 // repeat walls. Places gathered over a drive share less.
 constexpr double kWallTempering = 0.25;  // where the scan has walls
@@ -126,7 +129,8 @@ double inMapLogOdds(const RelocationResult& result, std::size_t k)
   return fitLogOdds(candidate) + leadLogOdds(candidate.score, rivalScore(result, k));
 }
 
-void weighCandidates(RelocationResult& result, const std::vector<Candidate>& outside, double missed)
+void weighCandidates(RelocationResult& result, const std::vector<Candidate>& outside,
+                     const Missed& missed)
 {
   std::vector<Candidate>& candidates = result.candidates;
   if (candidates.empty()) return decide(result);
@@ -137,7 +141,12 @@ void weighCandidates(RelocationResult& result, const std::vector<Candidate>& out
   for (Candidate& candidate : candidates) sum += candidate.probability = weight_of(candidate);
   double sum_outside = 0;
   for (const Candidate& candidate : outside) sum_outside += kPriorOutside * weight_of(candidate);
-  const double sum_missed = missed * std::exp(logLikelihoodOfScore(kUsualScore) - best);
+  double sum_missed = missed.unproposed * std::exp(logLikelihoodOfScore(kUsualScore) - best);
+  if (missed.unrefined)
+  {
+    const double rival = std::exp(logLikelihoodOfScore(rivalScore(result, 0)) - best);
+    sum_missed += kUnrefinedShare * rival * sum;
+  }
 
   const double narrow = kNarrowSlope * std::max(0.0, 1.0 - result.view / kFullCoverage);
   const double here = 1.0 / (1.0 + std::exp(narrow - inMapLogOdds(result, 0) - kPriorHereLogOdds));

@@ -48,14 +48,20 @@ double leadLogOdds(double score, double rival_score);
 /// different areas may be added up. \cite algorithm eq. (7.2)
 double inMapLogOdds(const RelocationResult& result, std::size_t k);
 
+/// What may keep the right pose from being a candidate.
+struct Missed
+{
+  double unproposed = 0;  ///< prior probability that it was not proposed, \cite algorithm eq. (7.6)
+  bool unrefined = false;  ///< more places fitted than were refined, \cite algorithm eq. (7.8)
+};
+
 /// Distributes probability over the candidates (best first, scores set) and "elsewhere", and sets
 /// the verdict. A candidate gains by what it explains and by its lead over the best rival, which
 /// measures what the background reaches. Look-alikes share the probability.
 /// Poses `outside` a prior region are rivals with a small prior that count as "elsewhere". So does
-/// the right pose if it was not proposed: `missed` is the prior probability of that.
-/// \cite algorithm eq. (7.3), (7.6)
+/// the right pose where it was `missed`. \cite algorithm eq. (7.3), (7.6), (7.8)
 void weighCandidates(RelocationResult& result, const std::vector<Candidate>& outside = {},
-                     double missed = 0);
+                     const Missed& missed = {});
 
 /// The same for maps without a dense field, where scores are log-odds against "all clutter". There
 /// the candidates compete with the clutter hypothesis itself. `place_background` is for scenes

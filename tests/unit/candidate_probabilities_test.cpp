@@ -123,7 +123,7 @@ TEST(Weighing, APlaceThatMayHaveBeenMissedRivalsAPoorWinner)
   const auto first_of = [](double score, double missed)
   {
     RelocationResult result = resultOf({score, 0.2});
-    weighCandidates(result, {}, missed);
+    weighCandidates(result, {}, {missed});
     EXPECT_NEAR(sumOf(result), 1.0, 1e-12);
     return result.candidates.front().probability;
   };
@@ -138,6 +138,31 @@ TEST(Weighing, APlaceThatMayHaveBeenMissedRivalsAPoorWinner)
   }
   EXPECT_LT(first_of(0.7, 0.2), 0.9);  // the right pose would usually score higher
   EXPECT_GT(first_of(0.97, 0.2), 0.99);  // hardly
+}
+
+TEST(Weighing, PlacesThatWereNotRefinedAreAsLikelyAsTheRunnerUpSuggests)
+{
+  Missed cut_short;
+  cut_short.unrefined = true;
+  const auto share_of = [&](double score, double rival)
+  {
+    RelocationResult all = resultOf({score, rival});
+    RelocationResult cut = all;
+    weighCandidates(all);
+    weighCandidates(cut, {}, cut_short);
+    EXPECT_NEAR(sumOf(cut), 1.0, 1e-12);
+    return cut.candidates.front().probability / all.candidates.front().probability;
+  };
+  for (double score = 0.5; score < 1.0; score += 0.05)
+  {
+    double last = 1;
+    for (double lead = 0.4; lead >= 0; lead -= 0.05)
+    {
+      EXPECT_LT(share_of(score, score - lead), last) << score << " " << lead;
+      last = share_of(score, score - lead);
+    }
+    EXPECT_NEAR(last, 1 / 1.44, 1e-9);  // a tie
+  }
 }
 
 TEST(Weighing, ChanceRivalsPlacesThatAreFew)
