@@ -24,8 +24,9 @@ constexpr std::size_t kCellsPerStep = 2;  // of a drive
 bool fits(const DenseField& field, const TPoint2D& place)
 {
   const DenseCell* cell = cellAt(field, place);
-  return cell != nullptr && cell->state == CellState::free &&
-         (cell->distance == 255 || cell->distance * DenseField::kDistanceUnit >= kClearance);
+  return cell != nullptr && cell->state() == CellState::free &&
+         (cell->distance() == DenseCell::kFar ||
+          cell->distance() * DenseField::kDistanceUnit >= kClearance);
 }
 
 /// Calls `visit(neighbour, distance in cells)` for the free neighbours of a cell.

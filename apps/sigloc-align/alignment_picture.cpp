@@ -59,7 +59,7 @@ PlanarBox boxOf(const DenseField& a, const DenseField& b, const std::vector<MapP
 bool hasWall(const DenseField& field, const TPoint2D& place)
 {
   const DenseCell* cell = cellAt(field, place);
-  return cell != nullptr && isWall(cell->state);
+  return cell != nullptr && isWall(cell->state());
 }
 
 void drawOutline(RasterPicture& picture, const DenseField& b, const TPose2D& pose,
@@ -86,8 +86,8 @@ mrpt::img::CImage alignmentPicture(const DenseField& a, const DenseField& b,
       {
         if (hasWall(b, b_from_a.composePoint(place))) return kWallOfB;
         const DenseCell* cell = cellAt(a, place);
-        if (cell == nullptr || cell->state == CellState::unknown) return kUnknown;
-        return isWall(cell->state) ? kWallOfA : kFree;
+        if (cell == nullptr || cell->state() == CellState::unknown) return kUnknown;
+        return isWall(cell->state()) ? kWallOfA : kFree;
       });
   for (std::size_t k = 0; k < poses.size(); ++k)
   {

@@ -22,7 +22,7 @@ constexpr double kLeastSigma = 0.02;  // [m] of a wall, whatever the residuals
 std::optional<TPoint2D> toRidge(const DenseField& field, const TPoint2D& point)
 {
   const DenseCell* cell = cellAt(field, point);
-  if (cell == nullptr || cell->distance == 255) return std::nullopt;
+  if (cell == nullptr || cell->distance() == DenseCell::kFar) return std::nullopt;
   const RasterFrame& frame = field.frame;
   const auto middle = [&](double value, double origin)
   { return origin + (std::floor((value - origin) / frame.resolution) + 0.5) * frame.resolution; };
@@ -83,7 +83,7 @@ void judge(const DenseField& a, const std::vector<TPoint2D>& points, MapPose& po
     const auto off = toRidge(a, there);
     const bool near = off && std::hypot(off->x, off->y) < kOnWall;
     on_wall += near ? 1 : 0;
-    mapped += near || (cell != nullptr && cell->state != CellState::unknown) ? 1 : 0;
+    mapped += near || (cell != nullptr && cell->state() != CellState::unknown) ? 1 : 0;
   }
   pose.overlap = mapped / static_cast<double>(std::max<std::size_t>(1, points.size()));
   pose.explained = mapped > 0 ? on_wall / mapped : 0;
@@ -97,13 +97,13 @@ std::vector<TPoint2D> wallPoints(const DenseField& field, std::size_t most)
   const RasterFrame& frame = field.frame;
   const auto add = [&](const DenseCell& cell, std::uint32_t column, std::uint32_t row)
   {
-    if (!isWall(cell.state)) return;
+    if (!isWall(cell.state())) return;
     const double x = (column + 0.5) * frame.resolution;
     const double y = (row + 0.5) * frame.resolution;
     const TPoint2D ridge(frame.origin.x + x + cell.dx * DenseField::kOffsetUnit,
                          frame.origin.y + y + cell.dy * DenseField::kOffsetUnit);
     all.push_back(ridge);
-    if (cell.state == CellState::solid_wall) solid.push_back(ridge);
+    if (cell.state() == CellState::solid_wall) solid.push_back(ridge);
   };
   for (const StoredCells& stored : storedCells(field))
   {

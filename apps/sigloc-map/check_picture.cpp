@@ -82,8 +82,8 @@ class PlaceColors
   TColor at(const TPoint2D& place) const
   {
     const DenseCell* cell = cellAt(field_, place);
-    if (cell == nullptr || cell->state == CellState::unknown) return kUnknown;
-    if (isWall(cell->state)) return kWall;
+    if (cell == nullptr || cell->state() == CellState::unknown) return kUnknown;
+    if (isWall(cell->state())) return kWall;
     double nearest = farthest_;
     TColor color(255, 255, 255);
     for (const CheckedPlace& checked : check_.places)

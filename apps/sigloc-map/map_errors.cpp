@@ -66,13 +66,13 @@ class ReturnCounts
     if (!(cell.x >= 0 && cell.y >= 0 && cell.x < frame.width && cell.y < frame.height)) return;
     const DenseCell& at =
         field_.at(static_cast<std::size_t>(cell.x), static_cast<std::size_t>(cell.y));
-    const double distance = at.distance * DenseField::kDistanceUnit;
+    const double distance = at.distance() * DenseField::kDistanceUnit;
     if (distance < kNear)
     {
       near_ += 1;
       squares_ += distance * distance;
     }
-    else if (at.state == CellState::free)
+    else if (at.state() == CellState::free)
     {
       in_free_ += 1;
     }

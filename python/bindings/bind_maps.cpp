@@ -111,7 +111,7 @@ std::optional<py::array_t<std::int8_t>> gridOf(const FeatureMap& map)
     for (std::uint32_t y = 0; y < stored.height; ++y)
     {
       std::int8_t* to = out + (std::size_t{stored.y + y} * frame.width + stored.x);
-      for (std::uint32_t x = 0; x < stored.width; ++x) to[x] = percentOf(stored.row(y)[x].state);
+      for (std::uint32_t x = 0; x < stored.width; ++x) to[x] = percentOf(stored.row(y)[x].state());
     }
   }
   return grid;

@@ -19,10 +19,10 @@ namespace
 constexpr double kRidgeRadius = 0.05;  // [m] within which hits belong to a wall's ridge, eq. (6.12)
 constexpr std::int32_t kNone = std::numeric_limits<std::int16_t>::max();
 
-/// Returns the truncation radius [cells], which fits both the distance byte and the offset bytes.
+/// Returns the truncation radius [cells], which fits both the distance and the offset bytes.
 std::int32_t truncationRadius(double resolution)
 {
-  const double by_distance = 254.0 * DenseField::kDistanceUnit / resolution;
+  const double by_distance = (DenseCell::kFar - 1) * DenseField::kDistanceUnit / resolution;
   return std::min(127, static_cast<std::int32_t>(std::floor(by_distance)));
 }
 
@@ -220,15 +220,17 @@ DenseField buildDenseField(const OccupancyRaster& raster)
     {
       const auto column = static_cast<std::size_t>(x);
       DenseCell& cell = field.cells[row + column];
-      cell.state = raster.cells[row + column];
-      if (cell.state == CellState::free) ++free_cells;
-      if (isWall(cell.state)) ++field.wall_cells;
+      const CellState state = raster.cells[row + column];
+      cell = DenseCell(state);
+      if (state == CellState::free) ++free_cells;
+      if (isWall(state)) ++field.wall_cells;
       if (nearest[column] < 0) continue;
       const std::int32_t dx = nearest[column] - x;
       const std::int32_t dy = offsets[row + static_cast<std::size_t>(nearest[column])];
       if (dx * dx + dy * dy > radius * radius) continue;
       const double distance = resolution * std::sqrt(static_cast<double>(dx * dx + dy * dy));
-      cell.distance = static_cast<std::uint8_t>(std::lround(distance / DenseField::kDistanceUnit));
+      const auto units = std::lround(distance / DenseField::kDistanceUnit);
+      cell = DenseCell(state, static_cast<std::uint8_t>(units));
       const TPoint2Df& ridge =
           ridges[static_cast<std::size_t>(static_cast<std::int32_t>(y) + dy) * raster.frame.width +
                  static_cast<std::size_t>(nearest[column])];
@@ -252,9 +254,9 @@ OccupancyRaster rasterOf(const DenseField& field)
   raster.hits.resize(field.cells.size());
   for (const DenseCell& cell : field.cells)
   {
-    if (isWall(cell.state))
+    if (isWall(cell.state()))
       raster.hits[raster.cells.size()] = {hit_byte(cell.dx), hit_byte(cell.dy)};
-    raster.cells.push_back(cell.state);
+    raster.cells.push_back(cell.state());
   }
   return raster;
 }

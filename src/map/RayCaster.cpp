@@ -8,6 +8,6 @@ std::optional<double> RayCaster::cast(const mrpt::math::TPoint2D& origin, double
                                       double max_range) const
 {
   return walk(origin, angle, 0, max_range, max_range,
-              [](double, const DenseCell& cell) { return !isWall(cell.state); });
+              [](double, const DenseCell& cell) { return !isWall(cell.state()); });
 }
 }  // namespace sigloc

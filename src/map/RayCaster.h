@@ -54,8 +54,8 @@ class RayCaster
       const DenseCell& cell = field_.at(ix, iy);
       if (!visit(along * resolution, cell)) return along * resolution;
       // The distance is between cell centres. A ray may be nearer by up to two half diagonals, and
-      // the byte may have been rounded up.
-      const double distance = std::min(far, (cell.distance - 0.5) * DenseField::kDistanceUnit);
+      // the distance may have been rounded up.
+      const double distance = std::min(far, (cell.distance() - 0.5) * DenseField::kDistanceUnit);
       const double clear = distance / resolution - 1.42;
       along += std::clamp(clear, 0.35, std::max(longest, 0.35));
     }

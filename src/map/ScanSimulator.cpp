@@ -136,7 +136,7 @@ class ScanInMaking
     {
       if (in_unknown) left -= range - before;
       before = range;
-      in_unknown = cell.state == CellState::unknown;
+      in_unknown = cell.state() == CellState::unknown;
       const bool backed = options_.backed_within > 0 && passed;
       if (in_unknown && backed && range - *passed < options_.backed_within)
       {
@@ -148,9 +148,9 @@ class ScanInMaking
         beyond = left;  // the surface was passed
         return false;
       }
-      if (cell.state == CellState::wall) passed = range + ridgeAhead(cell, direction, range);
+      if (cell.state() == CellState::wall) passed = range + ridgeAhead(cell, direction, range);
       const bool stops =
-          cell.state == CellState::solid_wall || (cell.state == CellState::wall && thin_there);
+          cell.state() == CellState::solid_wall || (cell.state() == CellState::wall && thin_there);
       if (stops) beyond = ridgeAhead(cell, direction, range);
       return !stops;
     };

@@ -15,7 +15,7 @@ constexpr std::uint32_t kSide = DenseField::kTileSide;
 
 bool isBlankCell(const DenseCell& cell)
 {
-  return cell.distance == 255 && cell.state == CellState::unknown;
+  return cell.distance() == DenseCell::kFar && cell.state() == CellState::unknown;
 }
 
 bool isBlank(const StoredCells& cells)
@@ -140,7 +140,7 @@ ShrunkField shrunkField(const DenseField& field, std::uint32_t block)
       for (std::uint32_t x = 0; x < stored.width; ++x)
       {
         CellState& state = row[(stored.x + x) / block];
-        state = std::max(state, stored.row(y)[x].state);
+        state = std::max(state, stored.row(y)[x].state());
       }
     }
   }

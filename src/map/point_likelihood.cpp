@@ -21,8 +21,8 @@ constexpr double kReachInSigmas = 4.0;  // distance to a feature beyond which it
 double wallDistance(const DenseField& field, const TPoint2D& point)
 {
   const DenseCell* cell = cellAt(field, point);
-  if (cell == nullptr || cell->distance == 255) return kFar;
-  return cell->distance * DenseField::kDistanceUnit;
+  if (cell == nullptr || cell->distance() == DenseCell::kFar) return kFar;
+  return cell->distance() * DenseField::kDistanceUnit;
 }
 
 template <class Distance>

@@ -18,7 +18,7 @@ constexpr double kRange = 30.0;  // [m] of the beams
 bool isFree(const DenseField& field, const TPoint2D& place)
 {
   const DenseCell* cell = cellAt(field, place);
-  return cell != nullptr && cell->state == CellState::free;
+  return cell != nullptr && cell->state() == CellState::free;
 }
 }  // namespace
 

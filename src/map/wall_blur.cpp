@@ -23,7 +23,7 @@ constexpr double kUnit = 1e-4;  // [m] of the offsets that are summed, so that o
 std::optional<TPoint2D> toRidge(const DenseField& field, const TPoint2D& point)
 {
   const DenseCell* cell = cellAt(field, point);
-  if (cell == nullptr || cell->distance * DenseField::kDistanceUnit > kSameWall) return {};
+  if (cell == nullptr || cell->distance() * DenseField::kDistanceUnit > kSameWall) return {};
   const RasterFrame& frame = field.frame;
   const auto to_middle = [&](double from_origin)
   {

@@ -286,7 +286,7 @@ PlanarBox boundsOf(const FeatureMap& map)
     {
       for (std::uint32_t y = 0; y < stored.height; ++y)
       {
-        const auto known = [](const DenseCell& cell) { return cell.state != CellState::unknown; };
+        const auto known = [](const DenseCell& cell) { return cell.state() != CellState::unknown; };
         const DenseCell* const row = stored.row(y);
         const DenseCell* const end = row + stored.width;
         const DenseCell* const first = std::find_if(row, end, known);

@@ -70,8 +70,8 @@ void expectSameWalls(const DenseField& a, const DenseField& b)
   ASSERT_EQ(a.cells.size(), b.cells.size());
   for (std::size_t i = 0; i < a.cells.size(); ++i)
   {
-    ASSERT_EQ(a.cells[i].state, b.cells[i].state);
-    ASSERT_EQ(a.cells[i].distance, b.cells[i].distance);
+    ASSERT_EQ(a.cells[i].state(), b.cells[i].state());
+    ASSERT_EQ(a.cells[i].distance(), b.cells[i].distance());
     ASSERT_NEAR(a.cells[i].dx, b.cells[i].dx, 0.1 / DenseField::kOffsetUnit);
     ASSERT_NEAR(a.cells[i].dy, b.cells[i].dy, 0.1 / DenseField::kOffsetUnit);
   }

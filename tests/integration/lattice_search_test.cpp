@@ -59,7 +59,7 @@ std::uint32_t scoreByDefinition(const OccupancyRaster& raster, const DenseSearch
     }
     const double d = std::round(nearest * raster.frame.resolution / DenseField::kDistanceUnit) *
                      DenseField::kDistanceUnit;
-    if (d >= 255 * DenseField::kDistanceUnit) continue;
+    if (d >= DenseCell::kFar * DenseField::kDistanceUnit) continue;
     const double ratio = d / space.options().coarse_sigma;
     score += static_cast<std::uint32_t>(std::lround(255 * std::exp(-0.5 * ratio * ratio)));
   }

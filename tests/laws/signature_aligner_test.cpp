@@ -71,7 +71,7 @@ mrpt::maps::COccupancyGridMap2D gridOf(const DenseField& field)
   {
     for (std::uint32_t x = 0; x < frame.width; ++x)
     {
-      const CellState state = field.cells[std::size_t{y} * frame.width + x].state;
+      const CellState state = field.cells[std::size_t{y} * frame.width + x].state();
       const float free = isWall(state) ? 0.0F : state == CellState::free ? 1.0F : 0.5F;
       grid.setCell(static_cast<int>(x), static_cast<int>(y), free);
     }

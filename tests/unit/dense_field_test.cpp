@@ -131,7 +131,7 @@ TEST(DenseField, EqualsBruteForceOnRandomRasters)
     const DenseField field = buildDenseField(raster);
     ASSERT_EQ(field.cells.size(), raster.cells.size());
     const double radius =
-        std::min(127.0, std::floor(254 * DenseField::kDistanceUnit / c.resolution));
+        std::min(127.0, std::floor(126 * DenseField::kDistanceUnit / c.resolution));
     std::uint32_t walls = 0;
     double free_area = 0;
     for (int y = 0; y < static_cast<int>(c.height); ++y)
@@ -140,16 +140,16 @@ TEST(DenseField, EqualsBruteForceOnRandomRasters)
       {
         const std::size_t k = static_cast<std::size_t>(y) * c.width + static_cast<std::size_t>(x);
         const DenseCell& cell = field.cells[k];
-        EXPECT_EQ(cell.state, raster.cells[k]);
-        walls += isWall(cell.state);
-        free_area += cell.state == CellState::free ? c.resolution * c.resolution : 0;
+        EXPECT_EQ(cell.state(), raster.cells[k]);
+        walls += isWall(cell.state());
+        free_area += cell.state() == CellState::free ? c.resolution * c.resolution : 0;
         const double expected = nearestByBruteForce(raster, x, y);
         if (expected > radius)
         {
-          ASSERT_EQ(cell.distance, 255) << "truncated at " << x << ", " << y;
+          ASSERT_EQ(cell.distance(), DenseCell::kFar) << "truncated at " << x << ", " << y;
           continue;
         }
-        ASSERT_NEAR(cell.distance * DenseField::kDistanceUnit, expected * c.resolution,
+        ASSERT_NEAR(cell.distance() * DenseField::kDistanceUnit, expected * c.resolution,
                     0.5 * DenseField::kDistanceUnit + 1e-9);
         ASSERT_TRUE(leadsToNearestRidge(raster, cell, x, y, expected)) << x << ", " << y;
       }

@@ -193,14 +193,14 @@ double explainedAt(const DenseField& field, const TPoint2D& end)
   if (column < 0 || row < 0 || column >= frame.width || row >= frame.height) return 0;
   const DenseCell& cell =
       field.cells[static_cast<std::size_t>(row) * frame.width + static_cast<std::size_t>(column)];
-  if (cell.distance == 255) return 0;
+  if (cell.distance() == DenseCell::kFar) return 0;
   const auto likelihood = [](double distance, double sigma)
   { return std::exp(-0.5 * distance * distance / (sigma * sigma)); };
-  const double from_cell = cell.distance * DenseField::kDistanceUnit;
+  const double from_cell = cell.distance() * DenseField::kDistanceUnit;
   const double from_ridge = std::hypot(
       (column - std::floor(column) - 0.5) * frame.resolution - cell.dx * DenseField::kOffsetUnit,
       (row - std::floor(row) - 0.5) * frame.resolution - cell.dy * DenseField::kOffsetUnit);
-  const bool in_free = from_cell > 0.4 && cell.state == CellState::free;
+  const bool in_free = from_cell > 0.4 && cell.state() == CellState::free;
   return std::max(0.0, 0.65 * 0.5 * (likelihood(from_cell, 0.12) + likelihood(from_cell, 0.25)) +
                            0.35 * likelihood(from_ridge, 0.06) - (in_free ? 0.5 : 0.0));
 }

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "bridge/sample_maps.h"
-#include "map/ClearRings.h"
+#include "map/ClearBlocks.h"
 #include "map/RayCaster.h"
 #include "matching/dense/CoarseField.h"
 #include "matching/dense/DenseVerifier.h"
@@ -91,8 +91,9 @@ TEST(FieldTiles, HoldEveryCellOfASparseField)
   {
     for (std::uint32_t x = y % 2; x < 1501; x += 2)
     {
-      ASSERT_EQ(cornersInTiles().at(x, y).distance, corners().at(x, y).distance) << x << " " << y;
-      ASSERT_EQ(cornersInTiles().at(x, y).state, corners().at(x, y).state);
+      ASSERT_EQ(cornersInTiles().at(x, y).distance(), corners().at(x, y).distance())
+          << x << " " << y;
+      ASSERT_EQ(cornersInTiles().at(x, y).state(), corners().at(x, y).state());
     }
   }
   const ShrunkField whole = shrunkField(corners(), 7);
@@ -110,45 +111,57 @@ TEST(FieldTiles, AreMadeOnlyOfLargeSparseFields)
 }
 
 // In frames of any shape, with few walls and farther from them than a byte tells.
-TEST(ClearRings, AreTheChessboardDistances)
+TEST(ClearBlocks, TellTheWallsOrTheDistanceToTheNearest)
 {
   std::mt19937 random(11);
   for (const auto& [width, height] : std::vector<std::pair<std::uint32_t, std::uint32_t>>{
-           {1, 1}, {1, 300}, {300, 1}, {2, 7}, {37, 41}, {3, 290}, {64, 64}, {290, 3}})
+           {1, 1}, {1, 600}, {600, 1}, {2, 7}, {37, 41}, {3, 580}, {64, 64}, {580, 3}})
   {
     DenseField field;
     field.frame = {{0, 0}, 0.05, width, height};
     field.cells.resize(std::size_t{width} * height);
-    std::vector<std::pair<std::int32_t, std::int32_t>> walls;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> walls;
     for (std::uint32_t k = random() % 4; k > 0; --k)
     {
       const std::size_t cell = random() % field.cells.size();
-      field.cells[cell].state = CellState::solid_wall;
+      field.cells[cell] = DenseCell(CellState::solid_wall);
       walls.emplace_back(cell % width, cell / width);
     }
-    const ClearRings rings(field);
-    for (std::int32_t k = 0; k < static_cast<std::int32_t>(field.cells.size()); ++k)
+    const ClearBlocks blocks(field);
+    ASSERT_EQ(blocks.width(), static_cast<std::int32_t>((width + 1) / 2));
+    ASSERT_EQ(blocks.height(), static_cast<std::int32_t>((height + 1) / 2));
+    const std::int32_t count = blocks.width() * blocks.height();
+    for (std::int32_t k = 0; k < count; ++k)
     {
-      const auto columns = static_cast<std::int32_t>(width);
-      std::int32_t nearest = 255;
+      const std::int32_t column = k % blocks.width();
+      const std::int32_t row = k / blocks.width();
+      std::int32_t nearest = ClearBlocks::kFarthest;
+      std::uint32_t own = 0;
       for (const auto& [x, y] : walls)
-        nearest = std::min(nearest, std::max(std::abs(k % columns - x), std::abs(k / columns - y)));
-      ASSERT_EQ(rings.whole()[k], nearest) << width << " x " << height << ", cell " << k;
+      {
+        const std::int32_t right = static_cast<std::int32_t>(x / 2) - column;
+        const std::int32_t up = static_cast<std::int32_t>(y / 2) - row;
+        nearest = std::min(nearest, std::max(std::abs(right), std::abs(up)));
+        if (right == 0 && up == 0) own |= ClearBlocks::bitOf(x, y);
+      }
+      const auto expected =
+          own != 0 ? static_cast<std::int32_t>(own) : ClearBlocks::kWalls + nearest;
+      ASSERT_EQ(blocks.whole()[k], expected) << width << " x " << height << ", block " << k;
     }
-    EXPECT_EQ(rings.whole()[field.cells.size()], ClearRings::kOutside);
+    EXPECT_EQ(blocks.whole()[count], ClearBlocks::kOutside);
   }
 }
 
-TEST(FieldTiles, HaveTheSameClearRings)
+TEST(FieldTiles, HaveTheSameClearBlocks)
 {
-  const ClearRings whole(corners());
-  const ClearRings tiled(cornersInTiles());
+  const ClearBlocks whole(corners());
+  const ClearBlocks tiled(cornersInTiles());
   ASSERT_TRUE(tiled.isTiled());
-  for (std::int32_t y = 0; y < 1333; ++y)
+  for (std::int32_t y = 0; y < whole.height(); ++y)
   {
-    for (std::int32_t x = 0; x < 1501; ++x)
+    for (std::int32_t x = 0; x < whole.width(); ++x)
     {
-      ASSERT_EQ(tiled.inTile(x, y), whole.whole()[y * 1501 + x]) << x << " " << y;
+      ASSERT_EQ(tiled.inTile(x, y), whole.whole()[y * whole.width() + x]) << x << " " << y;
     }
   }
 }

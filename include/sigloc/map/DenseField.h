@@ -62,24 +62,58 @@ struct OccupancyRaster
   std::vector<WallHits> hits;
 };
 
-/// One cell of the dense field, packed so that reading it takes one cache line.
-struct DenseCell
+/// One cell of the dense field, in three bytes: what is looked up at random should fit the cache.
+class DenseCell
 {
-  /// To the nearest wall cell, in units of DenseField::kDistanceUnit; 255: farther away.
-  std::uint8_t distance = 255;
+ public:
+  static constexpr std::uint8_t kFar = 127;  ///< stands for all distances above those stored
+  static constexpr std::uint8_t kMarked = 128;  ///< in code()
+
+  DenseCell() = default;
+  /// Makes a cell of a state, `distance` units from the nearest wall cell, kFar at most. Of a wall
+  /// the distance is 0, and of other cells at least 1, whatever is given.
+  explicit DenseCell(CellState state, std::uint8_t distance = kFar)
+      : code_(isWall(state) ? 0 : clamped(distance))
+  {
+    if (state == CellState::free || state == CellState::solid_wall) code_ |= kMarked;
+  }
+
+  /// Returns the distance to the nearest wall cell, in units of DenseField::kDistanceUnit; kFar:
+  /// farther away.
+  std::uint8_t distance() const { return code_ & kFar; }
+  CellState state() const { return stateOf(code_); }
+
+  /// Returns the distance, with kMarked added where the cell is free or a solid wall.
+  std::uint8_t code() const { return code_; }
+  static CellState stateOf(std::uint8_t code)
+  {
+    const bool is_marked = code >= kMarked;
+    if ((code & kFar) != 0) return is_marked ? CellState::free : CellState::unknown;
+    return is_marked ? CellState::solid_wall : CellState::wall;
+  }
+
   /// From the middle of the cell to the ridge of the nearest wall, in units of
-  /// DenseField::kOffsetUnit. Used where distance < 255.
+  /// DenseField::kOffsetUnit. Used where the distance is not kFar.
   std::int8_t dx = 0;
   std::int8_t dy = 0;
-  CellState state = CellState::unknown;
+
+ private:
+  static std::uint8_t clamped(std::uint8_t distance)
+  {
+    if (distance == 0) return 1;
+    return distance < kFar ? distance : kFar;
+  }
+
+  std::uint8_t code_ = kFar;
 };
+static_assert(sizeof(DenseCell) == 3, "a field has hundreds of cells a square metre");
 
 /// Distance to, and direction of, the nearest wall everywhere on the map, for dense verification.
 /// Plain data; see `buildDenseField`. Where most of a large frame is not mapped, only tiles with
 /// something in them are stored. \cite algorithm eq. (6.3)
 struct DenseField
 {
-  static constexpr double kDistanceUnit = 0.005;  ///< [m] per unit of DenseCell::distance
+  static constexpr double kDistanceUnit = 0.01;  ///< [m] per unit of DenseCell::distance()
   static constexpr double kOffsetUnit = 0.01;  ///< [m] per unit of DenseCell::dx and dy
   static constexpr std::uint32_t kTileSide = 64;  ///< [cells]
   static constexpr std::size_t kTileCells = std::size_t{kTileSide} * kTileSide;
@@ -141,8 +175,8 @@ constexpr std::size_t kMostWholeCells = std::size_t{1} << 24U;
 /// frame has more than `most_whole` cells.
 DenseField inTilesWhereSparse(DenseField field, std::size_t most_whole = kMostWholeCells);
 
-/// Returns the least distance [m] to any wall of a cell whose distance byte is 255. The distance
-/// bytes end at 1.27 m, the offset bytes at 127 cells.
+/// Returns the least distance [m] to any wall of a cell whose distance is kFar. Distances are
+/// stored up to 1.26 m and 127 cells.
 double truncationDistance(double resolution);
 
 /// Returns the distance [cells] along either axis beyond which a cell's state has no effect on a

@@ -41,6 +41,20 @@ constexpr std::uint32_t kLongestText = 1U << 16U;
 // Cells are written in blocks of four planes. Equal bytes are next to each other, so that the
 // lowest level of compression is both quick and small. A reader allocates no more than the file has
 // data for.
+// A file has distances in half the field's unit, and 255 for all that are farther.
+constexpr std::uint8_t kFarByte = 255;
+
+std::uint8_t distanceByte(std::uint8_t distance)
+{
+  return distance < DenseCell::kFar ? static_cast<std::uint8_t>(2 * distance) : kFarByte;
+}
+
+std::uint8_t distanceOfByte(std::uint8_t byte)
+{
+  const int nearest = std::min((byte + 1) / 2, DenseCell::kFar - 1);
+  return byte < kFarByte ? static_cast<std::uint8_t>(nearest) : DenseCell::kFar;
+}
+
 void writeCells(const std::vector<DenseCell>& cells, std::size_t from, CArchive& out)
 {
   std::vector<std::uint8_t> planes(4 * kBlockCells);
@@ -50,10 +64,10 @@ void writeCells(const std::vector<DenseCell>& cells, std::size_t from, CArchive&
     for (std::size_t i = 0; i < n; ++i)
     {
       const DenseCell& cell = cells[first + i];
-      planes[i] = cell.distance;
+      planes[i] = distanceByte(cell.distance());
       planes[n + i] = static_cast<std::uint8_t>(cell.dx);
       planes[2 * n + i] = static_cast<std::uint8_t>(cell.dy);
-      planes[3 * n + i] = static_cast<std::uint8_t>(cell.state);
+      planes[3 * n + i] = static_cast<std::uint8_t>(cell.state());
     }
     out.WriteBuffer(planes.data(), 4 * n);
   }
@@ -92,17 +106,15 @@ void countStates(const std::uint8_t* states, std::size_t n, CellCounts& counts)
   }
 }
 
-/// Puts cells together from their four planes, as words whose bytes lie in memory like theirs: the
-/// compiler makes several at a time of it.
-void joinPlanes(const std::uint8_t* planes, std::size_t n, std::uint32_t* words)
+/// Appends the cells of four planes.
+void joinPlanes(const std::uint8_t* planes, std::size_t n, std::vector<DenseCell>& cells)
 {
-  constexpr bool kLowFirst = __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__;
-  const auto placed = [](std::uint8_t byte, unsigned place)
-  { return std::uint32_t{byte} << 8U * (kLowFirst ? place : 3 - place); };
   for (std::size_t i = 0; i < n; ++i)
   {
-    words[i] = placed(planes[i], 0) | placed(planes[n + i], 1) | placed(planes[2 * n + i], 2) |
-               placed(planes[3 * n + i], 3);
+    DenseCell cell(static_cast<CellState>(planes[3 * n + i]), distanceOfByte(planes[i]));
+    cell.dx = static_cast<std::int8_t>(planes[n + i]);
+    cell.dy = static_cast<std::int8_t>(planes[2 * n + i]);
+    cells.push_back(cell);
   }
 }
 
@@ -111,8 +123,6 @@ CellCounts readCells(CArchive& in, std::size_t count, std::vector<DenseCell>& ce
 {
   CellCounts counts;
   std::vector<std::uint8_t> planes(4 * kBlockCells);
-  std::vector<std::uint32_t> words(kBlockCells);
-  std::vector<DenseCell> block(kBlockCells);
   while (cells.size() < count)
   {
     const std::size_t first = cells.size();
@@ -122,10 +132,7 @@ CellCounts readCells(CArchive& in, std::size_t count, std::vector<DenseCell>& ce
     // is stored whole is then moved once at most, early on.
     if (first + n > cells.capacity()) cells.reserve(std::min(count, 16 * (first + n)));
     countStates(&planes[3 * n], n, counts);
-    joinPlanes(planes.data(), n, words.data());
-    static_assert(sizeof(DenseCell) == sizeof(std::uint32_t));
-    std::memcpy(static_cast<void*>(block.data()), words.data(), n * sizeof(DenseCell));
-    cells.insert(cells.end(), block.begin(), block.begin() + static_cast<std::ptrdiff_t>(n));
+    joinPlanes(planes.data(), n, cells);
   }
   return counts;
 }

@@ -188,7 +188,7 @@ void guessFreeSpace(OccupancyRaster& raster)
       const TPoint2D middle(frame.origin.x + (x0 + 0.5 * block) * frame.resolution,
                             frame.origin.y + (y0 + 0.5 * block) * frame.resolution);
       const DenseCell* const cell = cellAt(field, middle);
-      if (cell == nullptr || isWall(cell->state) || !isEnclosed(caster, middle)) continue;
+      if (cell == nullptr || isWall(cell->state()) || !isEnclosed(caster, middle)) continue;
       for (std::uint32_t y = y0; y < std::min(y0 + block, frame.height); ++y)
       {
         for (std::uint32_t x = x0; x < std::min(x0 + block, frame.width); ++x)

@@ -34,7 +34,7 @@ CellBox widened(const CellBox& box, std::int32_t by)
 std::int64_t freeCellsOf(const DenseField& field)
 {
   return std::count_if(field.cells.begin(), field.cells.end(),
-                       [](const DenseCell& cell) { return cell.state == CellState::free; });
+                       [](const DenseCell& cell) { return cell.state() == CellState::free; });
 }
 
 CellBox boxOf(const RasterFrame& frame, const CellIndex& low)
@@ -163,11 +163,14 @@ void GrowingField::growTo(const CellBox& wanted, const BeamCounts& counts)
 
 void GrowingField::setState(DenseCell& cell, CellState state)
 {
-  if (cell.state == CellState::free) --free_cells_;
+  if (cell.state() == CellState::free) --free_cells_;
   if (state == CellState::free) ++free_cells_;
-  if (isWall(cell.state)) --field_.wall_cells;
+  if (isWall(cell.state())) --field_.wall_cells;
   if (isWall(state)) ++field_.wall_cells;
-  cell.state = state;
+  const DenseCell before = cell;
+  cell = DenseCell(state, before.distance());
+  cell.dx = before.dx;
+  cell.dy = before.dy;
 }
 
 /// Takes over the cells of a tile. Returns true, and the box of changed cells, when walls have
@@ -185,9 +188,9 @@ bool GrowingField::takeCells(const CellIndex& first, const BeamCounts::TileCells
       if (tile.states[i] == CellState::unknown || !isWithin(box_, x, y)) continue;
       const std::size_t k = indexOf(x, y);
       DenseCell& cell = field_.cells[k];
-      if (cell.state == tile.states[i] && hits_[k] == tile.hits[i]) continue;
+      if (cell.state() == tile.states[i] && hits_[k] == tile.hits[i]) continue;
       const bool moves =
-          isWall(cell.state) != isWall(tile.states[i]) || !(hits_[k] == tile.hits[i]);
+          isWall(cell.state()) != isWall(tile.states[i]) || !(hits_[k] == tile.hits[i]);
       setState(cell, tile.states[i]);
       hits_[k] = tile.hits[i];
       if (!moves) continue;
@@ -238,7 +241,7 @@ void GrowingField::solve(const CellBox& box)
   {
     for (std::int32_t x = window.low.x; x < window.high.x; ++x)
     {
-      raster.cells.push_back(field_.cells[indexOf(x, y)].state);
+      raster.cells.push_back(field_.cells[indexOf(x, y)].state());
       raster.hits.push_back(hits_[indexOf(x, y)]);
     }
   }

@@ -24,8 +24,8 @@ void takeRows(const DenseField& window, std::size_t first, std::size_t rows, Den
   const auto end = from + static_cast<std::ptrdiff_t>(rows * width);
   for (auto cell = from; cell != end; ++cell)
   {
-    free_cells += cell->state == CellState::free ? 1U : 0U;
-    field.wall_cells += isWall(cell->state) ? 1U : 0U;
+    free_cells += cell->state() == CellState::free ? 1U : 0U;
+    field.wall_cells += isWall(cell->state()) ? 1U : 0U;
   }
   field.cells.insert(field.cells.end(), from, end);
 }
@@ -171,8 +171,8 @@ class TileSolver
     {
       for (const DenseCell* cell = tile.row(y); cell != tile.row(y) + tile.width; ++cell)
       {
-        free_cells_ += cell->state == CellState::free ? 1U : 0U;
-        field_.wall_cells += isWall(cell->state) ? 1U : 0U;
+        free_cells_ += cell->state() == CellState::free ? 1U : 0U;
+        field_.wall_cells += isWall(cell->state()) ? 1U : 0U;
       }
     }
     storeTile(field_, indexOf(column, row), tile);

@@ -40,7 +40,7 @@ std::optional<TPoint2D> standingPlace(const DenseField& field, std::uint32_t x0,
     for (std::uint32_t x = x0; x < x1; ++x)
     {
       const DenseCell& cell = field.at(x, y);
-      if (cell.state != CellState::free || cell.distance < clearance) continue;
+      if (cell.state() != CellState::free || cell.distance() < clearance) continue;
       const double d = std::hypot(x + 0.5 - middle_x, y + 0.5 - middle_y);
       if (d >= best) continue;
       best = d;

@@ -57,7 +57,8 @@ class CellView
     static constexpr std::size_t kSize = 64;
     std::array<std::int32_t, kSize> ix, iy;  ///< cell; for a point outside, any cell outside
     std::array<float, kSize> fx, fy;  ///< [cells] from the middle of the cell
-    std::array<std::uint32_t, kSize> packed;  ///< members of the cell, the first in the lowest byte
+    std::array<std::uint32_t, kSize>
+        packed;  ///< dx, dy and code of the cell, the first in the lowest byte
 
     /// Finds the cells of `count` <= kSize points [m] of the robot frame, placed at `place`.
     void fill(const CellView& view, const Placement& place, const float* x, const float* y,
@@ -93,15 +94,24 @@ class CellView
       }
     }
 
-    std::uint8_t distance(std::size_t i) const { return static_cast<std::uint8_t>(packed[i]); }
+    std::uint8_t distance(std::size_t i) const
+    {
+      return static_cast<std::uint8_t>(packed[i] >> 16 & DenseCell::kFar);
+    }
     std::int32_t dx(std::size_t i) const
+    {
+      return static_cast<std::int32_t>(packed[i] << 24) >> 24;
+    }
+    std::int32_t dy(std::size_t i) const
     {
       return static_cast<std::int32_t>(packed[i] << 16) >> 24;
     }
-    std::int32_t dy(std::size_t i) const { return static_cast<std::int32_t>(packed[i] << 8) >> 24; }
-    CellState state(std::size_t i) const { return static_cast<CellState>(packed[i] >> 24); }
+    CellState state(std::size_t i) const
+    {
+      return DenseCell::stateOf(static_cast<std::uint8_t>(packed[i] >> 16));
+    }
 
-    /// From the ridge of the nearest wall to the point [m], where `distance` is not 255.
+    /// From the ridge of the nearest wall to the point [m], where `distance` is not kFar.
     float offsetX(std::size_t i, float resolution) const
     {
       return fx[i] * resolution - static_cast<float>(dx(i)) * kOffsetUnit;
@@ -114,14 +124,12 @@ class CellView
    private:
     static constexpr auto kOffsetUnit = static_cast<float>(DenseField::kOffsetUnit);
 
-    /// Packs a cell so that it takes one access to memory. The members are then separated for
-    /// several points at once.
+    /// Packs the members of a cell. They are then separated for several points at once.
     static std::uint32_t pack(const DenseCell& cell)
     {
-      return static_cast<std::uint32_t>(cell.distance) |
-             static_cast<std::uint32_t>(static_cast<std::uint8_t>(cell.dx)) << 8 |
-             static_cast<std::uint32_t>(static_cast<std::uint8_t>(cell.dy)) << 16 |
-             static_cast<std::uint32_t>(cell.state) << 24;
+      return static_cast<std::uint32_t>(static_cast<std::uint8_t>(cell.dx)) |
+             static_cast<std::uint32_t>(static_cast<std::uint8_t>(cell.dy)) << 8 |
+             static_cast<std::uint32_t>(cell.code()) << 16;
     }
   };
 

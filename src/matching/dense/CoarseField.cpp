@@ -48,21 +48,13 @@ void forEachBlock(std::uint32_t first, std::uint32_t width, std::uint32_t ratio,
     visit(column, begin, std::min(end, width));
 }
 
-/// True where the distance bytes of all cells are 255.
+/// True where all cells are far from any wall.
 bool areFar(const DenseCell* cells, std::uint32_t count)
 {
-  // By words, of which the compiler takes several at a time.
-  std::uint32_t common = UINT32_MAX;
+  std::uint8_t common = DenseCell::kFar;
   for (std::uint32_t x = 0; x < count; ++x)
-  {
-    std::uint32_t word = 0;
-    std::memcpy(&word, &cells[x], sizeof(word));
-    common &= word;
-  }
-  DenseCell all;
-  static_assert(sizeof(all) == sizeof(common));
-  std::memcpy(static_cast<void*>(&all), &common, sizeof(common));
-  return all.distance == 255;
+    common = static_cast<std::uint8_t>(common & cells[x].code());
+  return common == DenseCell::kFar;
 }
 }  // namespace
 
@@ -94,7 +86,7 @@ CoarseField::Standing::Standing(const DenseField& field)
                    {
                      bool has_free = false;
                      for (std::uint32_t x = begin; x < end; ++x)
-                       has_free |= row[x].state == CellState::free;
+                       has_free |= row[x].state() == CellState::free;
                      if (has_free) free.at(column, block_row) = kStanding;
                    });
     }
@@ -141,7 +133,7 @@ void CoarseField::fillLikelihoods(const DenseField& field)
   frame_.height += 2 * border_;
   likelihoods_ = ByteRaster(frame_.width, frame_.height,
                             field.isTiled() && cellCount(frame_) > kMostWholeCells);
-  std::array<std::uint8_t, 256> bytes{};
+  std::array<std::uint8_t, DenseCell::kFar + 1> bytes{};
   for (std::size_t d = 0; d < bytes.size(); ++d)
   {
     const auto byte = static_cast<std::uint8_t>(std::lround(255.0F * coarseTable()[d]));
@@ -149,7 +141,7 @@ void CoarseField::fillLikelihoods(const DenseField& field)
   }
   // Most of a map is far from walls.
   constexpr std::uint32_t kPiece = 64;
-  const bool far_is_nothing = bytes[255] == 0;
+  const bool far_is_nothing = bytes[DenseCell::kFar] == 0;
   for (const StoredCells& stored : storedCells(field))
   {
     for (std::uint32_t y = 0; y < stored.height; ++y)
@@ -165,7 +157,7 @@ void CoarseField::fillLikelihoods(const DenseField& field)
                      {
                        std::uint8_t byte = 0;
                        for (std::uint32_t x = begin; x < end; ++x)
-                         byte = std::max(byte, bytes[cells[x].distance]);
+                         byte = std::max(byte, bytes[cells[x].distance()]);
                        if (byte == 0) return;
                        std::uint8_t& best = likelihoods_.at(column + border_, coarse_row);
                        best = std::max(best, byte);

@@ -106,7 +106,7 @@ struct PullSums
 };
 
 /// Finds the vectors [m] from the nearest wall's ridge to the returns of a block, in the robot
-/// frame, and their weights (6.6). The weight is 0 without a wall within 1.27 m.
+/// frame, and their weights (6.6). The weight is 0 without a wall within 1.26 m.
 void offsetsFromRidge(const CellView::Block& block, float resolution, const Placement& place,
                       std::size_t count, float robust_sigma, Floats& weight, Floats& ex, Floats& ey)
 {
@@ -115,7 +115,7 @@ void offsetsFromRidge(const CellView::Block& block, float resolution, const Plac
   {
     const float mx = block.offsetX(i, resolution);
     const float my = block.offsetY(i, resolution);
-    const float reached = block.distance(i) != 255 ? 1.0F : 0.0F;
+    const float reached = block.distance(i) != DenseCell::kFar ? 1.0F : 0.0F;
     weight[i] = reached / (1.0F + (mx * mx + my * my) * inverse_square);
     ex[i] = place.c * mx + place.s * my;
     ey[i] = place.c * my - place.s * mx;

@@ -25,7 +25,7 @@ inline float sharpLikelihood(const SharpTable& table, const CellView::Block& blo
 {
   const float x = block.offsetX(i, resolution);
   const float y = block.offsetY(i, resolution);
-  return block.distance(i) == 255 ? 0.0F : table.at(x * x + y * y);
+  return block.distance(i) == DenseCell::kFar ? 0.0F : table.at(x * x + y * y);
 }
 
 /// Sums over the cells in which a scan's returns end.

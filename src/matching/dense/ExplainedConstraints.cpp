@@ -53,15 +53,15 @@ class ExplainedConstraints::PlacedField
     for (int i = 0; i < samples; ++i)
     {
       const DenseCell& cell = cellAt(wall.start + along * ((i + 0.5) / samples));
-      likelihood += static_cast<double>(fineTable()[cell.distance]);
-      unknown += cell.state == CellState::unknown;
+      likelihood += static_cast<double>(fineTable()[cell.distance()]);
+      unknown += cell.state() == CellState::unknown;
     }
     if (likelihood > kExplained * samples) return WallState::mapped;
     return 2 * unknown > samples ? WallState::unknown : WallState::missing;
   }
   double distance(const TPoint2D& p) const
   {
-    return cellAt(p).distance * DenseField::kDistanceUnit;
+    return cellAt(p).distance() * DenseField::kDistanceUnit;
   }
 
  private:

@@ -111,6 +111,7 @@ PoseProposer::PoseProposer(const FeatureMap& map)
     walls_.push_back({line.direction, -tangent.y, tangent.x, start, length});
     most_slid_ += static_cast<std::size_t>(std::ceil(length / kSlideStep)) + 1;
   }
+  walls_.shrink_to_fit();
   std::stable_sort(walls_.begin(), walls_.end(),
                    [](const MappedWall& a, const MappedWall& b)
                    { return isBefore(a.start, b.start); });
@@ -137,6 +138,7 @@ PoseProposer::PoseProposer(const FeatureMap& map)
                         d.y / distance});
     }
   }
+  pairs_.shrink_to_fit();
   std::sort(pairs_.begin(), pairs_.end(),
             [](const CirclePair& a, const CirclePair& b)
             {

@@ -79,11 +79,15 @@ Rays raysOf(const RasterFrame& frame, const DenseScan& scan, const Placement& pl
   return rays;
 }
 
-/// Finds, for eight rays that have advanced by `along` [cells], how many rings of cells around them
-/// are clear. Also finds how far they may go on: to the rim of those, and a little beyond.
-inline void lookAround(const RasterFrame& frame, const ClearRings& clear_rings, const Rays& rays,
-                       std::size_t first, const WideFloat& along, WideInt& rings, WideFloat& clear)
+/// Finds, for eight rays that have advanced by `along` [cells], which of them are in a solid wall.
+/// Also finds how far the others may go on: to the rim of what is clear around them, and a little
+/// beyond.
+inline void lookAround(const RasterFrame& frame, const ClearBlocks& clear_blocks, const Rays& rays,
+                       std::size_t first, const WideFloat& along, WideInt& in_wall,
+                       WideFloat& clear)
 {
+  constexpr std::int32_t kHalf = ClearBlocks::kSide / 2;
+  static_assert(kHalf == 1, "a block is two cells wide");
   WideFloat x, y, dx, dy, per_column, per_row;
   loadWide(&rays.x[first], kWideFloats, x);
   loadWide(&rays.y[first], kWideFloats, y);
@@ -98,22 +102,40 @@ inline void lookAround(const RasterFrame& frame, const ClearRings& clear_rings, 
   const auto width = static_cast<std::int32_t>(frame.width);
   const auto height = static_cast<std::int32_t>(frame.height);
   const WideInt is_inside = (column >= 0) & (row >= 0) & (column < width) & (row < height);
-  if (clear_rings.isTiled())
+  const WideInt block_column = column >> 1;
+  const WideInt block_row = row >> 1;
+  WideInt block;
+  if (clear_blocks.isTiled())
   {
     for (std::size_t k = 0; k < kWideFloats; ++k)
-      rings[k] = is_inside[k] != 0 ? clear_rings.inTile(column[k], row[k]) : ClearRings::kOutside;
+    {
+      block[k] = is_inside[k] != 0 ? clear_blocks.inTile(block_column[k], block_row[k])
+                                   : ClearBlocks::kOutside;
+    }
   }
   else
   {
-    const std::uint8_t* bytes = clear_rings.whole();
-    const std::int32_t outside = width * height;
-    const WideInt cell = ((row * width + column) & is_inside) | (outside & ~is_inside);
-    rings = WideInt{bytes[cell[0]], bytes[cell[1]], bytes[cell[2]], bytes[cell[3]],
-                    bytes[cell[4]], bytes[cell[5]], bytes[cell[6]], bytes[cell[7]]};
+    const std::uint8_t* bytes = clear_blocks.whole();
+    const std::int32_t outside = clear_blocks.width() * clear_blocks.height();
+    const WideInt at =
+        ((block_row * clear_blocks.width() + block_column) & is_inside) | (outside & ~is_inside);
+    block = WideInt{bytes[at[0]], bytes[at[1]], bytes[at[2]], bytes[at[3]],
+                    bytes[at[4]], bytes[at[5]], bytes[at[6]], bytes[at[7]]};
   }
-  const WideFloat reach = __builtin_convertvector(rings, WideFloat) - 0.5F;
-  const WideFloat right = x - __builtin_convertvector(column, WideFloat) - 0.5F;
-  const WideFloat up = y - __builtin_convertvector(row, WideFloat) - 0.5F;
+  // Between walls only the own cell is known to be clear, elsewhere all blocks up to the nearest.
+  const WideInt has_walls = block <= std::int32_t{ClearBlocks::kWalls};
+  const WideInt in_row = 1 + (column & 1);
+  const WideInt own_bit = (row & 1) != 0 ? in_row << ClearBlocks::kSide : in_row;
+  in_wall = has_walls & ((block & own_bit) != 0);
+  const WideFloat blocks =
+      __builtin_convertvector(block - std::int32_t{ClearBlocks::kWalls}, WideFloat);
+  const WideFloat reach = has_walls ? WideFloat{} + 0.5F : 2.0F * blocks - 1.0F;
+  const WideFloat middle_x = has_walls ? __builtin_convertvector(column, WideFloat) + 0.5F
+                                       : __builtin_convertvector(column | 1, WideFloat);
+  const WideFloat middle_y = has_walls ? __builtin_convertvector(row, WideFloat) + 0.5F
+                                       : __builtin_convertvector(row | 1, WideFloat);
+  const WideFloat right = x - middle_x;
+  const WideFloat up = y - middle_y;
   const WideFloat to_column =
       reach * (per_column < 0.0F ? -per_column : per_column) - right * per_column;
   const WideFloat to_row = reach * (per_row < 0.0F ? -per_row : per_row) - up * per_row;
@@ -122,7 +144,7 @@ inline void lookAround(const RasterFrame& frame, const ClearRings& clear_rings, 
 }
 }  // namespace
 
-WallCrossings::WallCrossings(const DenseField& field) : frame_(field.frame), clear_rings_(field) {}
+WallCrossings::WallCrossings(const DenseField& field) : frame_(field.frame), clear_blocks_(field) {}
 
 double WallCrossings::throughShare(const DenseScan& scan, const TPose2D& pose,
                                    std::size_t beams) const
@@ -176,15 +198,15 @@ SIGLOC_WIDE_VECTORS std::uint64_t WallCrossings::crossings(const DenseScan& scan
     {
       Eight eight = eights[k];
       const WideFloat before = eight.along;
-      WideInt rings;
+      WideInt in_wall;
       WideFloat clear;
       WideFloat length;
-      lookAround(frame_, clear_rings_, rays, eight.first, eight.along, rings, clear);
+      lookAround(frame_, clear_blocks_, rays, eight.first, eight.along, in_wall, clear);
       loadWide(&rays.length[eight.first], kWideFloats, length);
       eight.along += clear;
-      crossed[eight.first / kWideFloats] |= eight.under_way & (rings == 0);
+      crossed[eight.first / kWideFloats] |= eight.under_way & in_wall;
       // A ray stops where it is so far away that a step is lost in rounding.
-      eight.under_way &= (rings != 0) & (eight.along < length) & (eight.along > before);
+      eight.under_way &= ~in_wall & (eight.along < length) & (eight.along > before);
       eights[kept] = eight;
       kept += anyOf(eight.under_way) ? 1 : 0;
     }

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "map/ClearRings.h"
+#include "map/ClearBlocks.h"
 #include "matching/dense/DenseEvidence.h"
 #include "matching/dense/DenseScan.h"
 #include "sigloc/map/DenseField.h"
@@ -37,6 +37,6 @@ class WallCrossings
                           std::size_t count) const;
 
   RasterFrame frame_;
-  ClearRings clear_rings_;
+  ClearBlocks clear_blocks_;
 };
 }  // namespace sigloc

@@ -21,9 +21,9 @@ bool differ(const DenseCell& a, const DenseCell& b)
 {
   constexpr auto kWallUnits = static_cast<int>(kWall / DenseField::kDistanceUnit);
   constexpr auto kClearUnits = static_cast<int>(kClear / DenseField::kDistanceUnit);
-  const auto wall = [](const DenseCell& cell) { return cell.distance <= kWallUnits; };
+  const auto wall = [](const DenseCell& cell) { return cell.distance() <= kWallUnits; };
   const auto clear = [](const DenseCell& cell)
-  { return cell.state == CellState::free && cell.distance >= kClearUnits; };
+  { return cell.state() == CellState::free && cell.distance() >= kClearUnits; };
   return (wall(a) && clear(b)) || (wall(b) && clear(a));
 }
 }  // namespace

@@ -4,8 +4,6 @@
 
 #include <cmath>
 
-#include "sigloc/map/DenseField.h"
-
 namespace sigloc
 {
 namespace
@@ -17,7 +15,7 @@ constexpr double kCoarseSigma = 0.25;  // [m]
 LikelihoodTable makeTable(double sigma)
 {
   LikelihoodTable table{};
-  for (std::size_t d = 0; d < 255; ++d)
+  for (std::size_t d = 0; d < DenseCell::kFar; ++d)
   {
     const double distance = static_cast<double>(d) * DenseField::kDistanceUnit;
     table[d] = static_cast<float>(std::exp(-0.5 * distance * distance / (sigma * sigma)));

@@ -6,11 +6,13 @@
 #include <array>
 #include <cstddef>
 
+#include "sigloc/map/DenseField.h"
+
 namespace sigloc
 {
-/// Likelihood in [0, 1] of a return, for each distance byte of a dense cell.
+/// Likelihood in [0, 1] of a return, for each distance of a dense cell.
 /// \cite algorithm eq. (6.3)
-using LikelihoodTable = std::array<float, 256>;
+using LikelihoodTable = std::array<float, DenseCell::kFar + 1>;
 
 /// Returns the table for a sigma of 0.12 m (fine) or 0.25 m (coarse).
 const LikelihoodTable& fineTable();

@@ -151,7 +151,24 @@ KeyPair keyPair(const KeyPoint& first, const KeyPoint& second)
   return pair;
 }
 
+KeyPairIndex::Box::Box(const std::vector<KeyPoint>& points)
+{
+  constexpr double kMostUnits = (1U << 24U) - 1;
+  if (points.empty()) return;
+  TPoint2D low = points.front().position;
+  TPoint2D high = low;
+  for (const KeyPoint& point : points)
+  {
+    low = {std::min(low.x, point.position.x), std::min(low.y, point.position.y)};
+    high = {std::max(high.x, point.position.x), std::max(high.y, point.position.y)};
+  }
+  x = low.x;
+  y = low.y;
+  unit = std::max({high.x - low.x, high.y - low.y, kMinDistance}) / kMostUnits;
+}
+
 KeyPairIndex::KeyPairIndex(const std::vector<KeyPoint>& points, const MapErrorModel& error)
+    : box_(points)
 {
   layOutTables();
   const NeighbouringKeyPoints neighbours(points);
@@ -269,8 +286,12 @@ KeyPairIndex::Placed KeyPairIndex::placedEntry(const KeyPair& pair,
   const std::uint32_t row = table.row + first.bin * table.second.bins + second.bin;
   placed.cell = row * distance_bins_ + distanceBin(pair.distance);
   Entry& entry = placed.entry;
-  entry.x = static_cast<float>(pair.x);
-  entry.y = static_cast<float>(pair.y);
+  const auto x = static_cast<std::uint32_t>(std::lround((pair.x - box_.x) / box_.unit));
+  const auto y = static_cast<std::uint32_t>(std::lround((pair.y - box_.y) / box_.unit));
+  entry.low_x = static_cast<std::uint16_t>(x);
+  entry.low_y = static_cast<std::uint16_t>(y);
+  entry.high_x = static_cast<std::uint8_t>(x >> 16U);
+  entry.high_y = static_cast<std::uint8_t>(y >> 16U);
   entry.distance = static_cast<std::uint16_t>(std::lround(pair.distance / kDistanceUnit));
   entry.bearing = static_cast<std::uint16_t>(
       static_cast<std::int32_t>(std::lround(pair.bearing / (2 * M_PI) * kFullTurn)));
@@ -361,7 +382,9 @@ void KeyPairIndex::collect(const KeyPair& observed, const Run& run,
     if (!(distance_fits & first_fits & second_fits)) continue;
     const auto bearing =
         static_cast<float>(static_cast<std::int16_t>(entry.bearing) * (2 * M_PI / kFullTurn));
-    matches.push_back({entry.x, entry.y, bearing, first, second});
+    const double x = box_.x + box_.unit * (entry.high_x << 16 | entry.low_x);
+    const double y = box_.y + box_.unit * (entry.high_y << 16 | entry.low_y);
+    matches.push_back({static_cast<float>(x), static_cast<float>(y), bearing, first, second});
   }
 }
 }  // namespace sigloc

@@ -76,13 +76,23 @@ class KeyPairIndex
   /// A mapped pair. What its row says is left out; standard deviations are rounded up.
   struct Entry
   {
-    float x, y;  // [m]
+    std::uint16_t low_x, low_y;  // the lower bytes of the middle, in units of the index
     std::uint16_t distance;  // of kDistanceUnit
     std::uint16_t bearing;  // of a full turn
-    std::uint8_t first, second;  // within the bin of the row
     std::uint16_t deviations;  // three times five bits: indices of kDeviations
+    std::uint8_t high_x, high_y;  // the highest bytes of the middle
+    std::uint8_t first, second;  // within the bin of the row
   };
-  static_assert(sizeof(Entry) == 16, "four entries a cache line");
+  static_assert(sizeof(Entry) == 14, "a map has some sixty of them a square metre");
+
+  /// Units of 24 bits for positions in the box around all key points.
+  struct Box
+  {
+    explicit Box(const std::vector<KeyPoint>& points);
+
+    double x = 0, y = 0;  // [m], its lower left corner
+    double unit = 1;  // [m]
+  };
 
   /// An entry on its way to its cell.
   struct Placed
@@ -122,6 +132,7 @@ class KeyPairIndex
   void sortInto(Table& table, const std::vector<Placed>& placed, std::uint32_t before);
 
   std::array<Table, kTables> tables_{};
+  Box box_;
   double range_ = 0;  // [m]
   std::uint32_t rows_ = 0;
   std::uint32_t distance_bins_ = 1;  // of a row

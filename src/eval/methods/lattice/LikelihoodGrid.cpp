@@ -18,8 +18,9 @@ LikelihoodGrid::LikelihoodGrid(const DenseField& field, double sigma, std::uint3
   rows_ = height + 2 * border_;
   values_.assign(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(rows_), 0);
 
-  std::array<std::uint8_t, 256> value_of_distance{};
-  for (std::size_t d = 0; d < 255; ++d)  // 255 means beyond the field's largest distance: zero
+  std::array<std::uint8_t, DenseCell::kFar + 1> value_of_distance{};
+  for (std::size_t d = 0; d < DenseCell::kFar;
+       ++d)  // kFar is beyond the field's largest distance: zero
   {
     const double ratio = static_cast<double>(d) * DenseField::kDistanceUnit / sigma;
     value_of_distance[d] =
@@ -29,7 +30,7 @@ LikelihoodGrid::LikelihoodGrid(const DenseField& field, double sigma, std::uint3
   {
     const DenseCell* row = &field.cells[static_cast<std::size_t>(iy) * frame_.width];
     std::uint8_t* out = &values_[indexOf(0, iy)];
-    for (std::int32_t ix = 0; ix < width; ++ix) out[ix] = value_of_distance[row[ix].distance];
+    for (std::int32_t ix = 0; ix < width; ++ix) out[ix] = value_of_distance[row[ix].distance()];
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "map/ClearRings.h"
+#include "map/ClearBlocks.h"
 
 #include <algorithm>
 #include <utility>
@@ -63,51 +63,98 @@ void spreadRings(std::vector<std::uint8_t>& rings, std::uint32_t width, std::uin
   for (std::uint32_t y = 0; y < height; ++y) spreadAlongRow(row(y), other.data(), width);
 }
 
-std::uint8_t ringsAt(const DenseCell& cell)
+bool isSolid(const DenseCell& cell)
 {
-  return cell.state == CellState::solid_wall ? 0 : kMostRings;
+  return cell.state() == CellState::solid_wall;
 }
+
+/// The solid walls in a part of the frame, as the bytes of its blocks; 0 in a block without any.
+struct Walls
+{
+  std::uint32_t width, height;  // [blocks]
+  std::vector<std::uint8_t> blocks;
+
+  /// Of `cells_wide` by `cells_high` cells from cell (x0, y0) on, both even.
+  template <class CellAt>
+  Walls(std::uint32_t x0, std::uint32_t y0, std::uint32_t cells_wide, std::uint32_t cells_high,
+        const CellAt& cell_at)
+      : width((cells_wide + 1) / 2),
+        height((cells_high + 1) / 2),
+        blocks(std::size_t{width} * height)
+  {
+    for (std::uint32_t y = 0; y < cells_high; ++y)
+    {
+      std::uint8_t* const row = &blocks[std::size_t{y / 2} * width];
+      for (std::uint32_t x = 0; x < cells_wide; ++x)
+      {
+        if (!isSolid(cell_at(x0 + x, y0 + y))) continue;
+        row[x / 2] = static_cast<std::uint8_t>(row[x / 2] | ClearBlocks::bitOf(x, y));
+      }
+    }
+  }
+
+  /// Replaces each 0 by the distance to the nearest block with walls.
+  void addDistances()
+  {
+    std::vector<std::uint8_t> rings(blocks.size());
+    std::transform(blocks.begin(), blocks.end(), rings.begin(),
+                   [](std::uint8_t walls) { return walls != 0 ? 0 : kMostRings; });
+    spreadRings(rings, width, height);
+    std::transform(blocks.begin(), blocks.end(), rings.begin(), blocks.begin(),
+                   [](std::uint8_t walls, std::uint8_t ring)
+                   {
+                     if (walls != 0) return walls;
+                     const int far = std::min(ring, ClearBlocks::kFarthest);
+                     return static_cast<std::uint8_t>(ClearBlocks::kWalls + far);
+                   });
+  }
+};
 }  // namespace
 
-ClearRings::ClearRings(const DenseField& field)
+ClearBlocks::ClearBlocks(const DenseField& field)
 {
   const RasterFrame& frame = field.frame;
+  width_ = static_cast<std::int32_t>((frame.width + 1) / 2);
+  height_ = static_cast<std::int32_t>((frame.height + 1) / 2);
   if (!field.isTiled())
   {
-    rings_.resize(field.cells.size() + 1);
-    std::transform(field.cells.begin(), field.cells.end(), rings_.begin(), ringsAt);
-    spreadRings(rings_, frame.width, frame.height);
-    rings_.back() = kOutside;
+    const DenseCell* const cells = field.cells.data();
+    Walls walls(0, 0, frame.width, frame.height,
+                [&](std::uint32_t x, std::uint32_t y) -> const DenseCell&
+                { return cells[std::size_t{y} * frame.width + x]; });
+    walls.addDistances();
+    blocks_.reserve(walls.blocks.size() + 1);
+    blocks_ = walls.blocks;
+    blocks_.push_back(kOutside);
     return;
   }
-  columns_ = static_cast<std::int32_t>((frame.width + kTileSide - 1) / kTileSide);
-  rows_ = static_cast<std::int32_t>((frame.height + kTileSide - 1) / kTileSide);
+  columns_ = (width_ + kTileSide - 1) / kTileSide;
+  rows_ = (height_ + kTileSide - 1) / kTileSide;
   tiles_.resize(indexOf(0, rows_));
-  rings_.assign(kTileCells, kMostRings);  // for all tiles far from any wall
+  blocks_.assign(kTileBlocks, kWalls + kFarthest);  // for all tiles far from any wall
   wantAroundWalls(field);
   for (std::int32_t row = 0; row < rows_; ++row)
   {
     for (std::int32_t column = 0; column < columns_; ++column)
     {
       if (tiles_[indexOf(column, row)] != kWanted) continue;
-      const auto first = static_cast<std::uint32_t>(rings_.size() / kTileCells);
+      const auto first = static_cast<std::uint32_t>(blocks_.size() / kTileBlocks);
       solve(field, nameIsland(column, row), first);
     }
   }
-  rings_.shrink_to_fit();
+  blocks_.shrink_to_fit();
 }
 
-void ClearRings::wantAroundWalls(const DenseField& field)
+void ClearBlocks::wantAroundWalls(const DenseField& field)
 {
-  constexpr std::int32_t kRatio = kTileSide / static_cast<std::int32_t>(DenseField::kTileSide);
+  constexpr std::int32_t kRatio =
+      kSide * kTileSide / static_cast<std::int32_t>(DenseField::kTileSide);
   for (const StoredCells& stored : storedCells(field))
   {
     bool has_wall = false;
     for (std::uint32_t y = 0; y < stored.height && !has_wall; ++y)
     {
-      has_wall =
-          std::any_of(stored.row(y), stored.row(y) + stored.width,
-                      [](const DenseCell& cell) { return cell.state == CellState::solid_wall; });
+      has_wall = std::any_of(stored.row(y), stored.row(y) + stored.width, isSolid);
     }
     if (!has_wall) continue;
     const auto column = static_cast<std::int32_t>(stored.x / DenseField::kTileSide) / kRatio;
@@ -124,7 +171,7 @@ void ClearRings::wantAroundWalls(const DenseField& field)
 
 /// Gives places to the wanted tiles that hang together with one, over corners too, and returns the
 /// box around them. No wall of another such island is near.
-ClearRings::TileBox ClearRings::nameIsland(std::int32_t column, std::int32_t row)
+ClearBlocks::TileBox ClearBlocks::nameIsland(std::int32_t column, std::int32_t row)
 {
   TileBox box{column, column, row, row};
   std::vector<std::pair<std::int32_t, std::int32_t>> open;
@@ -132,8 +179,8 @@ ClearRings::TileBox ClearRings::nameIsland(std::int32_t column, std::int32_t row
   {
     std::uint32_t& tile = tiles_[indexOf(x, y)];
     if (tile != kWanted) return;
-    tile = static_cast<std::uint32_t>(rings_.size() / kTileCells);
-    rings_.resize(rings_.size() + kTileCells);
+    tile = static_cast<std::uint32_t>(blocks_.size() / kTileBlocks);
+    blocks_.resize(blocks_.size() + kTileBlocks);
     open.emplace_back(x, y);
   };
   take(column, row);
@@ -152,22 +199,18 @@ ClearRings::TileBox ClearRings::nameIsland(std::int32_t column, std::int32_t row
 
 /// Fills the tiles of an island, by the box around it. Its tiles have the places from `first` on;
 /// those of other islands may lie in the box.
-void ClearRings::solve(const DenseField& field, const TileBox& box, std::uint32_t first)
+void ClearBlocks::solve(const DenseField& field, const TileBox& box, std::uint32_t first)
 {
-  const auto x0 = static_cast<std::uint32_t>(box.left * kTileSide);
-  const auto y0 = static_cast<std::uint32_t>(box.bottom * kTileSide);
-  const std::uint32_t width =
-      std::min(static_cast<std::uint32_t>((box.right + 1) * kTileSide), field.frame.width) - x0;
-  const std::uint32_t height =
-      std::min(static_cast<std::uint32_t>((box.top + 1) * kTileSide), field.frame.height) - y0;
-  std::vector<std::uint8_t> rings;
-  rings.reserve(std::size_t{width} * height);
-  for (std::uint32_t y = 0; y < height; ++y)
-  {
-    for (std::uint32_t x = 0; x < width; ++x) rings.push_back(ringsAt(field.at(x0 + x, y0 + y)));
-  }
-  spreadRings(rings, width, height);
-  for (std::uint32_t y = 0; y < height; ++y)
+  constexpr std::int32_t kTileCells = kSide * kTileSide;
+  const auto x0 = static_cast<std::uint32_t>(box.left * kTileCells);
+  const auto y0 = static_cast<std::uint32_t>(box.bottom * kTileCells);
+  Walls walls(
+      x0, y0,
+      std::min(static_cast<std::uint32_t>((box.right + 1) * kTileCells), field.frame.width) - x0,
+      std::min(static_cast<std::uint32_t>((box.top + 1) * kTileCells), field.frame.height) - y0,
+      [&](std::uint32_t x, std::uint32_t y) -> const DenseCell& { return field.at(x, y); });
+  walls.addDistances();
+  for (std::uint32_t y = 0; y < walls.height; ++y)
   {
     for (std::int32_t column = box.left; column <= box.right; ++column)
     {
@@ -175,9 +218,9 @@ void ClearRings::solve(const DenseField& field, const TileBox& box, std::uint32_
           tiles_[indexOf(column, box.bottom + static_cast<std::int32_t>(y) / kTileSide)];
       if (tile < first || tile == kWanted) continue;
       const auto x = static_cast<std::uint32_t>((column - box.left) * kTileSide);
-      std::copy_n(&rings[std::size_t{y} * width + x],
-                  std::min(static_cast<std::uint32_t>(kTileSide), width - x),
-                  &rings_[tile * kTileCells + std::size_t{y % kTileSide} * kTileSide]);
+      std::copy_n(&walls.blocks[std::size_t{y} * walls.width + x],
+                  std::min(static_cast<std::uint32_t>(kTileSide), walls.width - x),
+                  &blocks_[tile * kTileBlocks + std::size_t{y % kTileSide} * kTileSide]);
     }
   }
 }
