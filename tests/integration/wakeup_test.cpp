@@ -7,6 +7,7 @@
 #include <set>
 
 #include "bridge/rawlog_files.h"
+#include "eval/wakeup/wakeup_drive.h"
 
 namespace sigloc
 {
@@ -74,6 +75,35 @@ TEST(WakeupScoring, LandThatIsNotMappedSettlesNothing)
   judgeRun(run);
   ASSERT_TRUE(run.settled_after);
   EXPECT_EQ(run.settled_after->metres, 3.0);
+}
+
+// Logs often have truth at some scans only.
+TEST(WakeupScoring, StepsWithoutTruthAreMappedWhereThoseAroundThemAre)
+{
+  const auto steps = [](const std::string& letters)  // m: mapped, o: not, -: without truth
+  {
+    std::vector<detail::WakeupDriveStep> made;
+    for (const char letter : letters)
+    {
+      detail::WakeupDriveStep step;
+      if (letter != '-') step.truth = mrpt::math::TPose2D(1, 2, 3);
+      step.mapped = letter != 'o';
+      made.push_back(step);
+    }
+    return made;
+  };
+  const auto marked = [&](const std::string& letters)
+  {
+    auto made = steps(letters);
+    detail::markStepsWithoutTruth(made);
+    std::string all;
+    for (const auto& step : made) all += step.mapped ? 'm' : 'o';
+    return all;
+  };
+  EXPECT_EQ(marked("-m--m-o--m-o-"), "mmmmmoooomooo");
+  EXPECT_EQ(marked("---"), "mmm");
+  EXPECT_EQ(marked("o-"), "oo");
+  EXPECT_EQ(marked(""), "");
 }
 
 TEST(WakeupScoring, ARunThatNeverSettlesCostsItsWholeTime)

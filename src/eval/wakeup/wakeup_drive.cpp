@@ -84,6 +84,21 @@ bool isMapped(const mrpt::math::TPose2D& truth,
                      { return std::hypot(pose.x - truth.x, pose.y - truth.y) <= kMappedDistance; });
 }
 
+void markStepsWithoutTruth(std::vector<WakeupDriveStep>& steps)
+{
+  const auto carry = [](auto begin, auto end)
+  {
+    bool mapped = true;  // of the last step with truth
+    for (auto step = begin; step != end; ++step)
+    {
+      if (step->truth) mapped = step->mapped;
+      step->mapped = step->mapped && mapped;
+    }
+  };
+  carry(steps.begin(), steps.end());
+  carry(steps.rbegin(), steps.rend());
+}
+
 Wakeup runLegs(const TrackingMethodFactory& factory, const std::vector<WakeupLeg>& legs,
                std::uint32_t seed, const AccuracyGates& gates)
 {

@@ -61,6 +61,10 @@ struct WakeupLeg
 bool isMapped(const mrpt::math::TPose2D& truth,
               const std::vector<mrpt::math::TPose2D>& mapped_poses);
 
+/// Clears `mapped` of the steps without truth where the ones with truth before or after them are
+/// off the mapped area.
+void markStepsWithoutTruth(std::vector<WakeupDriveStep>& steps);
+
 /// Runs a method, lost at first, over one leg after another, carried from the end of each to the
 /// start of the next, and judges every step.
 Wakeup runLegs(const TrackingMethodFactory& factory, const std::vector<WakeupLeg>& legs,

@@ -85,12 +85,13 @@ WakeupDrive readDrive(const WakeupOptions& options, const std::vector<TPose2D>& 
     if (out.truth && last) travelled += std::hypot(out.truth->x - last->x, out.truth->y - last->y);
     if (out.truth) last = out.truth;
     out.travelled = travelled;
-    out.mapped = !out.truth || isMapped(*out.truth, mapped_poses);
+    if (out.truth) out.mapped = isMapped(*out.truth, mapped_poses);
     out.may_start = out.truth.has_value() &&
                     (!start_frames || start_frames->at(i, step->time, kSameScan).has_value());
     out.step = std::move(*step);
     drive.steps.push_back(std::move(out));
   }
+  markStepsWithoutTruth(drive.steps);
   drive.complete = !reader.truncated();
   return drive;
 }
