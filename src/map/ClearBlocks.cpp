@@ -14,7 +14,7 @@ namespace
 constexpr std::uint8_t kMostRings = 255;
 constexpr std::uint32_t kWanted = ~0U;  // a tile that is stored, but has no place yet
 
-/// Lowers each of n rings to one more than the least of the three cells above, or below, it.
+/// Lowers each of n rings to one more than the least of the three blocks above, or below, it.
 SIGLOC_WIDE_VECTORS void spreadFromRow(std::uint8_t* row, const std::uint8_t* beside, std::size_t n)
 {
   const auto next = [](std::uint8_t ring)
@@ -32,7 +32,7 @@ SIGLOC_WIDE_VECTORS void spreadFromRow(std::uint8_t* row, const std::uint8_t* be
 /// Lowers each of n rings in `row` to what those left and right of it allow. `other` is as long.
 SIGLOC_WIDE_VECTORS void spreadAlongRow(std::uint8_t* row, std::uint8_t* other, std::size_t n)
 {
-  // A way of up to 255 cells is a sum of these steps, each taken at most once.
+  // A way of up to 255 blocks is a sum of these steps, each taken at most once.
   for (std::size_t step = 1; step < n && step <= 128; step *= 2)
   {
     const auto add = static_cast<std::uint8_t>(step);
@@ -51,9 +51,9 @@ SIGLOC_WIDE_VECTORS void spreadAlongRow(std::uint8_t* row, std::uint8_t* other, 
   }
 }
 
-/// Computes the chessboard distance [cells] to the nearest zero cell, exact up to 255. Down and up
-/// the rows it goes straight or over corners, which reaches all that are at least as far above or
-/// below as beside. From there the others are reached along the row.
+/// Computes the chessboard distance [blocks] to the nearest zero block, exact up to 255. Down and
+/// up the rows it goes straight or over corners, which reaches all that are at least as far above
+/// or below as beside. From there the others are reached along the row.
 void spreadRings(std::vector<std::uint8_t>& rings, std::uint32_t width, std::uint32_t height)
 {
   const auto row = [&](std::uint32_t y) { return &rings[std::size_t{y} * width]; };
@@ -74,7 +74,7 @@ struct Walls
   std::uint32_t width, height;  // [blocks]
   std::vector<std::uint8_t> blocks;
 
-  /// Of `cells_wide` by `cells_high` cells from cell (x0, y0) on, both even.
+  /// Of `cells_wide` by `cells_high` cells, from cell (x0, y0) on. x0 and y0 are even.
   template <class CellAt>
   Walls(std::uint32_t x0, std::uint32_t y0, std::uint32_t cells_wide, std::uint32_t cells_high,
         const CellAt& cell_at)

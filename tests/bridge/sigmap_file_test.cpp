@@ -3,7 +3,10 @@
 #include "sigloc/io/map_files.h"
 
 #include <gtest/gtest.h>
+#include <mrpt/io/CMemoryStream.h>
+#include <mrpt/serialization/CArchive.h>
 
+#include <algorithm>
 #include <random>
 #include <stdexcept>
 
@@ -141,6 +144,42 @@ TEST(SigmapFile, ReadsTheGzipOfOlderVersions)
                          writeFeatureMap(map, archive);
                        });
   expectSameMap(loadSigmap(folder / "old.sigmap"), map);
+}
+
+// Older versions wrote distances in steps of 5 mm up to 1.27 m, and anybody may write anything.
+TEST(SigmapFile, ReadsEveryDistanceOfEveryState)
+{
+  constexpr std::uint32_t kBytes = 256;
+  constexpr std::uint32_t kStates = 4;
+  DenseField field;
+  field.frame = {{0, 0}, 0.05, kBytes, kStates};
+  for (std::uint32_t k = 0; k < kBytes * kStates; ++k)
+    field.cells.emplace_back(static_cast<CellState>(k / kBytes));
+  field.free_area = kBytes * 0.05 * 0.05;
+  field.wall_cells = 2 * kBytes;
+  mrpt::io::CMemoryStream written;
+  auto out = mrpt::serialization::archiveFrom(written);
+  writeFeatureMap(FeatureMap({}, field), out);
+  // The planes of the distances, two offsets and the states come last.
+  auto* bytes = static_cast<std::uint8_t*>(written.getRawBufferData());
+  std::uint8_t* plane = bytes + written.getTotalBytesCount() - 4 * field.cells.size();
+  for (std::uint32_t k = 0; k < kBytes * kStates; ++k) plane[k] = static_cast<std::uint8_t>(k);
+  written.Seek(0);
+  auto in = mrpt::serialization::archiveFrom(written);
+  const FeatureMap read = readFeatureMap(in);
+  for (std::uint32_t k = 0; k < kBytes * kStates; ++k)
+  {
+    const DenseCell& cell = read.field()->cells[k];
+    const auto state = static_cast<CellState>(k / kBytes);
+    const int byte = static_cast<int>(k % kBytes);
+    ASSERT_EQ(cell.state(), state) << k;
+    if (isWall(state))
+      ASSERT_EQ(cell.distance(), 0) << k;
+    else if (byte == 255)
+      ASSERT_EQ(cell.distance(), DenseCell::kFar);
+    else
+      ASSERT_EQ(cell.distance(), std::clamp((byte + 1) / 2, 1, 126)) << k;
+  }
 }
 
 TEST(SigmapFile, SaysWhetherAMapIsTooOldOrTooNew)

@@ -38,10 +38,8 @@ constexpr std::uint64_t kMostSkipped = 1ULL << 28U;  // bytes, which take half a
 constexpr std::size_t kBlockCells = 1U << 16U;
 constexpr std::uint32_t kLongestText = 1U << 16U;
 
-// Cells are written in blocks of four planes. Equal bytes are next to each other, so that the
-// lowest level of compression is both quick and small. A reader allocates no more than the file has
-// data for.
-// A file has distances in half the field's unit, and 255 for all that are farther.
+// A file has distances in half the field's unit, and 255 for all that are farther. Odd ones are of
+// older versions.
 constexpr std::uint8_t kFarByte = 255;
 
 std::uint8_t distanceByte(std::uint8_t distance)
@@ -55,6 +53,9 @@ std::uint8_t distanceOfByte(std::uint8_t byte)
   return byte < kFarByte ? static_cast<std::uint8_t>(nearest) : DenseCell::kFar;
 }
 
+// Cells are written in blocks of four planes. Equal bytes are next to each other, so that the
+// lowest level of compression is both quick and small. A reader allocates no more than the file has
+// data for.
 void writeCells(const std::vector<DenseCell>& cells, std::size_t from, CArchive& out)
 {
   std::vector<std::uint8_t> planes(4 * kBlockCells);

@@ -86,8 +86,7 @@ inline void lookAround(const RasterFrame& frame, const ClearBlocks& clear_blocks
                        std::size_t first, const WideFloat& along, WideInt& in_wall,
                        WideFloat& clear)
 {
-  constexpr std::int32_t kHalf = ClearBlocks::kSide / 2;
-  static_assert(kHalf == 1, "a block is two cells wide");
+  static_assert(ClearBlocks::kSide == 2, "the lowest bits of column and row tell cells of a block");
   WideFloat x, y, dx, dy, per_column, per_row;
   loadWide(&rays.x[first], kWideFloats, x);
   loadWide(&rays.y[first], kWideFloats, y);
@@ -122,18 +121,19 @@ inline void lookAround(const RasterFrame& frame, const ClearBlocks& clear_blocks
     block = WideInt{bytes[at[0]], bytes[at[1]], bytes[at[2]], bytes[at[3]],
                     bytes[at[4]], bytes[at[5]], bytes[at[6]], bytes[at[7]]};
   }
-  // Between walls only the own cell is known to be clear, elsewhere all blocks up to the nearest.
-  const WideInt has_walls = block <= std::int32_t{ClearBlocks::kWalls};
+  // Beside a wall, and outside, only the own cell is known to be clear. Elsewhere all blocks up to
+  // the nearest with a wall are.
+  const WideInt beside_wall = block <= std::int32_t{ClearBlocks::kWalls};
   const WideInt in_row = 1 + (column & 1);
   const WideInt own_bit = (row & 1) != 0 ? in_row << ClearBlocks::kSide : in_row;
-  in_wall = has_walls & ((block & own_bit) != 0);
+  in_wall = beside_wall & ((block & own_bit) != 0);
   const WideFloat blocks =
       __builtin_convertvector(block - std::int32_t{ClearBlocks::kWalls}, WideFloat);
-  const WideFloat reach = has_walls ? WideFloat{} + 0.5F : 2.0F * blocks - 1.0F;
-  const WideFloat middle_x = has_walls ? __builtin_convertvector(column, WideFloat) + 0.5F
-                                       : __builtin_convertvector(column | 1, WideFloat);
-  const WideFloat middle_y = has_walls ? __builtin_convertvector(row, WideFloat) + 0.5F
-                                       : __builtin_convertvector(row | 1, WideFloat);
+  const WideFloat reach = beside_wall ? WideFloat{} + 0.5F : 2.0F * blocks - 1.0F;
+  const WideFloat middle_x = beside_wall ? __builtin_convertvector(column, WideFloat) + 0.5F
+                                         : __builtin_convertvector(column | 1, WideFloat);
+  const WideFloat middle_y = beside_wall ? __builtin_convertvector(row, WideFloat) + 0.5F
+                                         : __builtin_convertvector(row | 1, WideFloat);
   const WideFloat right = x - middle_x;
   const WideFloat up = y - middle_y;
   const WideFloat to_column =

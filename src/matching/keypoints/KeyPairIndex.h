@@ -79,7 +79,7 @@ class KeyPairIndex
     std::uint16_t low_x, low_y;  // the lower bytes of the middle, in units of the index
     std::uint16_t distance;  // of kDistanceUnit
     std::uint16_t bearing;  // of a full turn
-    std::uint16_t deviations;  // three times five bits: indices of kDeviations
+    std::uint16_t deviations;  // three times five bits: codes of standard deviations
     std::uint8_t high_x, high_y;  // the highest bytes of the middle
     std::uint8_t first, second;  // within the bin of the row
   };
