@@ -57,8 +57,7 @@ class CellView
     static constexpr std::size_t kSize = 64;
     std::array<std::int32_t, kSize> ix, iy;  ///< cell; for a point outside, any cell outside
     std::array<float, kSize> fx, fy;  ///< [cells] from the middle of the cell
-    std::array<std::uint32_t, kSize>
-        packed;  ///< dx, dy and code of the cell, the first in the lowest byte
+    std::array<std::uint32_t, kSize> packed;  ///< dx, dy and code of the cell, dx lowest
 
     /// Finds the cells of `count` <= kSize points [m] of the robot frame, placed at `place`.
     void fill(const CellView& view, const Placement& place, const float* x, const float* y,
