@@ -40,7 +40,6 @@ constexpr std::size_t kFinalRays = 24;  // beams tested for passing through wall
 // Stage 4, final refinement:
 constexpr std::size_t kFinallyRefined = 4;  // poses that are refined
 constexpr int kLastSteps = 12;  // of refinement on all returns
-constexpr double kLastLoss = 0.01;  // of the score that it may cost
 // All stages:
 constexpr double kTie = 0.03;  // of the score behind the best, up to which poses tie
 constexpr double kApartDistance = 0.08;  // [m] between distinct poses after stage 2
@@ -167,16 +166,19 @@ std::vector<RankedPose> DenseVerifier::rank(const DenseScan& scan,
   const std::size_t usual = std::min(kUsuallyRanked, max_ranked);
   keepDistinct(poses, usual, max_ranked);
 
-  // 4. Refine those that may win or be the runner-up on all returns, and all that tie.
-  const DenseScan balanced = balancedScan(scan);
+  // 4. Refine those that may win or be the runner-up on all returns, and all that tie. Equal places
+  // end at equal poses, so each is scored where it ends, even if it scored better before.
   const double contender = std::max(bestScore(poses), bestScore(before)) - kContender;
   const double tied = std::max(bestScore(poses), bestScore(before)) - kTie;
+  std::vector<TPose2D> settled;
   for (std::size_t k = 0; k < poses.size(); ++k)
   {
-    RankedPose& pose = poses[k];
-    if (pose.evidence.score < (k < kFinallyRefined ? contender : tied)) break;
-    refineFinally(scan, balanced, pose);
+    if (poses[k].evidence.score < (k < kFinallyRefined ? contender : tied)) break;
+    settled.push_back(poses[k].pose);
   }
+  refineAll(balancedScan(scan), settled, kLastSteps, scan.size());
+  for (std::size_t k = 0; k < settled.size(); ++k)
+    poses[k] = {settled[k], evaluate(scan, settled[k])};
   poses.insert(poses.end(), before.begin(), before.end());
   keepDistinct(poses, usual, max_ranked);
   return poses;
@@ -272,25 +274,5 @@ std::vector<RankedPose> DenseVerifier::bestOf(const DenseScan& scan, std::vector
     std::push_heap(raced.begin(), raced.end(), after);
   }
   return distinct.take();
-}
-
-/// Refines a pose on all returns. They fix it better than a small difference of the score does, so
-/// a small loss is accepted. The pose ranks by the better of the two scores.
-void DenseVerifier::refineFinally(const DenseScan& scan, const DenseScan& balanced,
-                                  RankedPose& pose) const
-{
-  RankedPose settled;
-  settled.pose = refine(balanced, pose.pose, kLastSteps, scan.size());
-  settled.evidence = evaluate(scan, settled.pose);
-  // Beams through walls only lower a score. So the returns alone often show that the start is not
-  // better.
-  const double of_ends = pose.evidence.score + DenseEvidence::kPenalty * pose.evidence.through_wall;
-  if (settled.evidence.score < of_ends)
-  {
-    pose.evidence = evaluate(scan, pose.pose);
-    if (settled.evidence.score < pose.evidence.score - kLastLoss) return;
-    if (settled.evidence.score < pose.evidence.score) settled.evidence = pose.evidence;
-  }
-  pose = settled;
 }
 }  // namespace sigloc

@@ -88,7 +88,6 @@ class DenseVerifier
                                  std::size_t most_tied) const;
   void refineAll(const DenseScan& scan, std::vector<mrpt::math::TPose2D>& poses, int steps,
                  std::size_t beams, float least = 0, float* most_weight = nullptr) const;
-  void refineFinally(const DenseScan& scan, const DenseScan& balanced, RankedPose& pose) const;
   DenseEvidence evaluate(const DenseScan& scan, const mrpt::math::TPose2D& pose,
                          std::size_t returns, std::size_t rays) const;
   void testRays(const DenseScan& scan, const mrpt::math::TPose2D& pose, std::size_t rays,
