@@ -46,6 +46,16 @@ std::vector<const CLI::App*> commandsOf(const CLI::App& app)
   return app.get_subcommands([](const CLI::App* command) { return !command->get_name().empty(); });
 }
 
+/// A required option as it is typed, with the name of its value: -i INPUT.
+std::string typedWithValue(const CLI::Option& option)
+{
+  std::string value = option.get_lnames().empty() ? "VALUE" : option.get_lnames().back();
+  std::transform(value.begin(), value.end(), value.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  const bool is_short = !option.get_snames().empty();
+  return (is_short ? "-" + option.get_snames().front() : option.get_name()) + " " + value;
+}
+
 std::string synopsis(const CLI::App& command, const std::string& called)
 {
   std::string line = called;
@@ -53,8 +63,9 @@ std::string synopsis(const CLI::App& command, const std::string& called)
   for (const CLI::Option* option : shownOptions(command))
   {
     const std::string name = option->get_name();
-    if (!option->get_positional()) continue;
-    positionals += option->get_required() ? " " + name : " [" + name + "]";
+    const bool required = option->get_required();
+    if (option->get_positional()) positionals += required ? " " + name : " [" + name + "]";
+    if (!option->get_positional() && required) line += " " + typedWithValue(*option);
   }
   line += " [OPTIONS]" + positionals;
   if (!commandsOf(command).empty()) line += " COMMAND ...";

@@ -128,11 +128,26 @@ TEST(CommandLine, misspeltOptionsAndCommandsAreTold)
                 "[DATASET.rawlog]");
   expectOneLine(folder, "sigloc-map", {"info", "x.sigmap", "y.sigmap"},
                 "one argument too many: y.sigmap; type: sigloc-map info [OPTIONS] file");
+  expectOneLine(folder, "sigloc-map", {"build", "x.simplemap", "x.sigmap"},
+                "one argument too many: x.simplemap; type: sigloc-map build -i INPUT -o OUTPUT "
+                "[OPTIONS]");
   expectOneLine(folder, "sigloc-localize", {"--frobnicate"},
                 "no such option: --frobnicate; see --help");
   expectOneLine(folder, "sigloc-map", {"buidl"}, "no such command: buidl; did you mean 'build'?");
   expectOneLine(folder, "sigloc-map", {"info", "x.sigmap", "--jsno"},
                 "no such option: --jsno; did you mean '--json'?");
+}
+
+TEST(CommandLine, aRawlogIsNoMap)
+{
+  const TemporaryFolder folder;
+  for (const char* const name : {"drive.rawlog", "drive.rawlog.gz"})
+  {
+    writeText(folder / name, "x");
+    expectOneLine(folder, "sigloc-map", {"info", name},
+                  std::string(name) +
+                      ": a rawlog is the log of a drive, not a map; icp-slam makes a map of it");
+  }
 }
 
 TEST(CommandLine, whatIsMissingOrTooManyIsToldByName)
