@@ -10,7 +10,6 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <random>
 
 #include "bridge/rawlog_files.h"
@@ -18,6 +17,7 @@
 #include "io/archive/checked_archive.h"
 #include "io/archive/UnreadObservation.h"
 #include "sigloc/io/RawlogReader.h"
+#include "support/golden.h"
 
 using namespace sigloc;
 using namespace sigloc::test;
@@ -218,7 +218,7 @@ TEST(MixedLog, TheStoredOneGivesTheStepsOfTheOffice)
 {
   const std::filesystem::path office = SIGLOC_GOLDEN_FOLDER "/../../rawlogs/office.rawlog";
   const std::filesystem::path stored = SIGLOC_GOLDEN_FOLDER "/mixed.rawlog";
-  if (std::getenv("SIGLOC_UPDATE_GOLDEN") != nullptr)
+  if (test::writesGolden())
   {
     auto entries = entriesOf(office);
     auto entry = entries.begin();

@@ -6,12 +6,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <sstream>
 
 #include "command_line.h"
 #include "io/text_rows.h"
+#include "support/golden.h"
 
 namespace sigloc
 {
@@ -107,7 +107,7 @@ TEST_P(GoldenSteps, AreAsTheyWere)
   ASSERT_EQ(result.exit_code, 0) << result.errors;
   const std::string kept = keptOf(readBytes(folder / "out/steps.csv"));
   const auto golden = kSources / "tests/golden/steps" / (std::string(GetParam().name) + ".csv");
-  if (std::getenv("SIGLOC_UPDATE_GOLDEN") != nullptr) writeText(golden, kept);
+  if (test::writesGolden()) writeText(golden, kept);
   expectSame(kept, readBytes(golden));
 }
 

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <functional>
 
@@ -24,6 +23,7 @@
 #include "sigloc/io/map_files.h"
 #include "sigloc/localize/LocalizationSetup.h"
 #include "sigloc/plugin/ObservationSignatures.h"
+#include "support/golden.h"
 #include "support/mixed_log.h"
 
 namespace sigloc::fuzz
@@ -163,7 +163,7 @@ TEST(FuzzSamples, AreAccepted)
   {
     const std::string bytes = sample.bytes();
     EXPECT_TRUE(targetNamed(sample.target)(bytes)) << sample.target << " " << sample.name;
-    if (std::getenv("SIGLOC_UPDATE_GOLDEN") == nullptr) continue;
+    if (!test::writesGolden()) continue;
     const auto folder = std::filesystem::path(SIGLOC_CORPUS) / sample.target;
     std::filesystem::create_directories(folder);
     test::writeText(folder / sample.name, bytes);
