@@ -214,9 +214,12 @@ function show(k) {
 }
 function play() {
   if (timer) { clearInterval(timer); timer = null; }
-  else timer = setInterval(() => {
-    if (current + 1 < steps.length) show(current + 1); else play();
-  }, 100);
+  else {
+    if (current + 1 === steps.length) show(0);
+    timer = setInterval(() => {
+      if (current + 1 < steps.length) show(current + 1); else play();
+    }, 100);
+  }
   get("play").textContent = timer ? "pause" : "play";
 }
 for (const id of ["strip", "times"])
@@ -262,7 +265,7 @@ if (steps.some(step => step.t)) meanings.push(["truth", colors.truth]);
 if (data.map.marks.length > 0) meanings.unshift(["mapped", colors.mapped]);
 for (const [name, color] of meanings) addKey("meanings", color, name);
 wholeMap();
-show(0);
+show(steps.length - 1);
 </script>
 </body>
 </html>

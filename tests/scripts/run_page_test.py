@@ -18,6 +18,7 @@ from selenium import webdriver
 from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
+from selenium.webdriver.support.ui import WebDriverWait
 
 
 def browser():
@@ -124,6 +125,12 @@ def check_left_out_scan(driver):
 
 def walk(driver, rows):
     count = len(rows)
+    check_step(driver, rows[-1], count, count)  # the answer
+    play = driver.find_element(By.ID, "play")
+    play.click()
+    WebDriverWait(driver, 10).until(lambda _: 1 < int(shown(driver, "number").split()[0]) < count)
+    play.click()
+    driver.find_element(By.ID, "slider").send_keys(Keys.HOME)
     check_step(driver, rows[0], 1, count)
     driver.find_element(By.ID, "next").click()
     check_step(driver, rows[1], 2, count)
