@@ -20,7 +20,7 @@ bool agree(std::uint32_t cells, float from, float to, float resolution)
 {
   const double spanned = (static_cast<double>(to) - from) / resolution;
   constexpr double kRounding = 1.5;  // of both bounds, and of single floats
-  if (!(std::abs(spanned - cells) <= kRounding)) return false;  // NaN too
+  if (!(to > from && std::abs(spanned - cells) <= kRounding)) return false;  // NaN too
   const mrpt::maps::COccupancyGridMap2D row(from, to, 0, resolution, resolution);
   return row.getSizeX() == cells;
 }
