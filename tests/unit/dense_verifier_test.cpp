@@ -214,7 +214,8 @@ TEST(DenseVerifier, ReturnsAreExplainedAsSharplyAsTheScoreSays)
   const DenseScan scan = makeDenseScan(room.scene(truth, 9), 180);
   const auto mean_at = [&](const TPose2D& pose)
   {
-    const std::vector<ExplainedReturn> explained = verifier.explainedReturns(scan, pose);
+    const std::vector<ExplainedReturn> explained =
+        verifier.explainedReturns(scan, pose, verifier.beamsThroughWalls(scan, pose));
     EXPECT_EQ(explained.size(), scan.size());
     double sum = 0;
     for (std::size_t i = 0; i < explained.size(); ++i)

@@ -184,9 +184,9 @@ TEST(FieldTiles, AreJudgedLikeTheWholeField)
     proposals.push_back(
         {static_cast<float>(pose.x), static_cast<float>(pose.y), static_cast<float>(pose.phi)});
     ASSERT_EQ(tiled.evaluate(scan, pose).score, whole.evaluate(scan, pose).score) << pose;
-    const double through = whole_crossings.throughShare(scan, pose, 60);
-    ASSERT_EQ(tiled_crossings.throughShare(scan, pose, 60), through) << pose;
-    crossed += through > 0 ? 1 : 0;
+    const std::uint64_t through = whole_crossings.throughBits(scan, pose, 60);
+    ASSERT_EQ(tiled_crossings.throughBits(scan, pose, 60), through) << pose;
+    crossed += through != 0 ? 1 : 0;
     if (k % 10 == 0)
     {
       ASSERT_EQ(tiled.refine(scan, pose, 5, 64), whole.refine(scan, pose, 5, 64)) << pose;

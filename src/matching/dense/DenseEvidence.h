@@ -4,6 +4,8 @@
 
 #include <mrpt/math/TPose2D.h>
 
+#include <cstdint>
+
 namespace sigloc
 {
 /// A pose that the dense field is to score.
@@ -27,6 +29,7 @@ struct DenseEvidence
   double in_free = 0;  ///< share that ends in free cells, more than 0.4 m from any wall
   double unknown = 0;  ///< share that ends in unknown cells, more than 0.4 m from any wall
   double score = 0;  ///< poses are ranked by it, in about [-1, 1], \cite algorithm eq. (6.8)
+  std::uint64_t through = 0;  ///< bit i: of the beams that were tested, the i-th passes a wall
 };
 
 /// How the map explains one return.

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <bitset>
 
 #include "geometry/simd.h"
 #include "matching/dense/CellView.h"
@@ -75,8 +76,14 @@ double DenseVerifier::fineLikelihood(const DenseScan& scan, const TPose2D& pose)
   return static_cast<double>(sumsOfEnds(field_, sharp_, scan, Placement(pose), scan.size()).fine);
 }
 
+std::uint64_t DenseVerifier::beamsThroughWalls(const DenseScan& scan, const TPose2D& pose) const
+{
+  return wall_crossings_->throughBits(scan, pose, kRayBeams);
+}
+
 std::vector<ExplainedReturn> DenseVerifier::explainedReturns(const DenseScan& scan,
-                                                             const TPose2D& pose) const
+                                                             const TPose2D& pose,
+                                                             std::uint64_t through) const
 {
   constexpr double kOffWall = 0.25;  // [m] from any wall, from which a return is on none
   constexpr auto kOffAnyWall = static_cast<std::uint8_t>(kOffWall / DenseField::kDistanceUnit);
@@ -86,7 +93,6 @@ std::vector<ExplainedReturn> DenseVerifier::explainedReturns(const DenseScan& sc
   const Placement place(pose);
   const LikelihoodTable& fine = fineTable();
   const LikelihoodTable& coarse = coarseTable();
-  const std::uint64_t through = wall_crossings_->throughBits(scan, pose, kRayBeams);
   std::vector<ExplainedReturn> explained(scan.size());
   CellView::Block block;
   for (std::size_t first = 0; first < scan.size(); first += CellView::Block::kSize)
@@ -117,6 +123,17 @@ DenseEvidence DenseVerifier::evaluate(const DenseScan& scan, const TPose2D& pose
   return evaluate(scan, pose, scan.spaced, kRayBeams);
 }
 
+DenseEvidence DenseVerifier::evaluateEnds(const DenseScan& scan, const TPose2D& pose) const
+{
+  return evaluate(scan, pose, scan.spaced, 0);
+}
+
+void DenseVerifier::testRays(const DenseScan& scan, const TPose2D& pose,
+                             DenseEvidence& evidence) const
+{
+  testRays(scan, pose, kRayBeams, evidence);
+}
+
 /// Returns the evidence of the first `returns` of the spaced ones, with `rays` beams tested for
 /// passing through walls. Eq. (6.8)
 DenseEvidence DenseVerifier::evaluate(const DenseScan& scan, const TPose2D& pose,
@@ -138,11 +155,17 @@ DenseEvidence DenseVerifier::evaluate(const DenseScan& scan, const TPose2D& pose
 }
 
 /// Tests up to `rays` beams for passing through walls, and scores the evidence with what is found.
+/// Only those of spaced returns count.
 void DenseVerifier::testRays(const DenseScan& scan, const TPose2D& pose, std::size_t rays,
                              DenseEvidence& evidence) const
 {
-  const std::size_t tested = std::min(rays, scan.spaced);
-  if (tested > 0) evidence.through_wall = wall_crossings_->throughShare(scan, pose, tested);
+  const std::size_t counted = std::min(rays, scan.spaced);
+  if (counted > 0)
+  {
+    evidence.through = wall_crossings_->throughBits(scan, pose, rays);
+    const std::bitset<kRayBeams> crossed(evidence.through << (kRayBeams - counted));
+    evidence.through_wall = static_cast<double>(crossed.count()) / static_cast<double>(counted);
+  }
   evidence.score = (evidence.sharp + evidence.coarse) / 2 -
                    DenseEvidence::kPenalty * evidence.through_wall -
                    DenseEvidence::kPenalty * evidence.in_free;

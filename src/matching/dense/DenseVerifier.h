@@ -55,11 +55,20 @@ class DenseVerifier
   /// Returns the full evidence for a pose. \cite algorithm eq. (6.8)
   DenseEvidence evaluate(const DenseScan& scan, const mrpt::math::TPose2D& pose) const;
 
+  /// Returns the same without beams through walls, which only lower a score. `testRays` adds them.
+  DenseEvidence evaluateEnds(const DenseScan& scan, const mrpt::math::TPose2D& pose) const;
+  void testRays(const DenseScan& scan, const mrpt::math::TPose2D& pose,
+                DenseEvidence& evidence) const;
+
+  /// Returns which of the first 64 beams pass through walls, as DenseEvidence::through does.
+  std::uint64_t beamsThroughWalls(const DenseScan& scan, const mrpt::math::TPose2D& pose) const;
+
   /// Returns how far the map explains each return of the scan, as the score (6.8) does. A narrower
-  /// likelihood is added, and only the first 64 returns are tested for passing through walls.
+  /// likelihood is added. `through` tells of the first 64 beams which pass through walls there.
   /// \cite algorithm section 8, "Weigh"
   std::vector<ExplainedReturn> explainedReturns(const DenseScan& scan,
-                                                const mrpt::math::TPose2D& pose) const;
+                                                const mrpt::math::TPose2D& pose,
+                                                std::uint64_t through) const;
 
   /// Returns the 3x3 covariance of a refined pose [m^2, m rad, rad^2], from the tempered
   /// information of the returns, with a sigma of 0.05 m each. It leaves out the map's own error.

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bitset>
 #include <cmath>
 
 #include "geometry/simd.h"
@@ -145,20 +144,6 @@ inline void lookAround(const RasterFrame& frame, const ClearBlocks& clear_blocks
 }  // namespace
 
 WallCrossings::WallCrossings(const DenseField& field) : frame_(field.frame), clear_blocks_(field) {}
-
-double WallCrossings::throughShare(const DenseScan& scan, const TPose2D& pose,
-                                   std::size_t beams) const
-{
-  const std::size_t count = std::min(beams, scan.size());
-  const Placement place(pose);
-  std::size_t crossed = 0;
-  for (std::size_t first = 0; first < count; first += kRays)
-  {
-    const std::uint64_t bits = crossings(scan, place, first, std::min(kRays, count - first));
-    crossed += std::bitset<kRays>(bits).count();
-  }
-  return static_cast<double>(crossed) / static_cast<double>(count);
-}
 
 std::uint64_t WallCrossings::throughBits(const DenseScan& scan, const TPose2D& pose,
                                          std::size_t beams) const

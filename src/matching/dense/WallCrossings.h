@@ -23,12 +23,8 @@ class WallCrossings
 
   explicit WallCrossings(const DenseField& field);
 
-  /// Returns the share, in [0, 1], of the first `beams` of a scan that pass a solid wall more than
-  /// 0.4 m before their end when the robot is at `pose`. \cite algorithm eq. (6.8)
-  double throughShare(const DenseScan& scan, const mrpt::math::TPose2D& pose,
-                      std::size_t beams) const;
-
-  /// Returns which of the first `beams` <= kRays do so: bit i is set for the i-th.
+  /// Returns which of the first `beams` <= kRays of a scan pass a solid wall more than 0.4 m before
+  /// their end when the robot is at `pose`: bit i is set for the i-th. \cite algorithm eq. (6.8)
   std::uint64_t throughBits(const DenseScan& scan, const mrpt::math::TPose2D& pose,
                             std::size_t beams) const;
 

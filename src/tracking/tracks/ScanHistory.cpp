@@ -34,10 +34,10 @@ class ScanHistory::Replay
     const TPose2D predicted = pose_ + (stored.odometry - odometry_);
     pose_ = verifier_.refine(stored.scan, predicted, kSteps, stored.scan.size());
     odometry_ = stored.odometry;
-    auto explained = verifier_.explainedReturns(stored.scan, pose_);
+    const DenseEvidence evidence = verifier_.evaluate(stored.scan, pose_);
+    auto explained = verifier_.explainedReturns(stored.scan, pose_, evidence.through);
     const double unexplained = explained_.addScan(stored.view, explained, -stored.travelled);
-    return {pose_, logLikelihoodOfScore(verifier_.evaluate(stored.scan, pose_).score), unexplained,
-            std::move(explained)};
+    return {pose_, logLikelihoodOfScore(evidence.score), unexplained, std::move(explained)};
   }
 
  private:

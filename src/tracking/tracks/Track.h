@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 
 #include "matching/dense/DenseVerifier.h"
 #include "sigloc/tracking/Belief.h"
@@ -53,6 +54,7 @@ struct Track
   mrpt::math::TPose2D moved;  // from there to the updated pose; none before the update
   DenseEvidence evidence;  // of the last scan
   mrpt::math::TPose2D evaluated_at;  // pose at which the observed cells are evaluated
+  std::uint64_t through = 0;  // beams that pass walls there, as bits
   double mean_score = 0;  // over the last kMemory of travel, without doubt
   bool found = false;  // this step's relocation found it best of the whole map
   double confirmed = 0;  // log-odds from relocations: kappa of eq. (8.7)

@@ -102,6 +102,7 @@ void TrackSet::score(const DenseScan& scan, const DenseVerifier& verifier)
     const TPose2D& pose = track.hypothesis.pose.mean;
     track.evaluated_at = verifier.refine(scan, pose, kUpdateSteps, scan.size());
     track.evidence = verifier.evaluate(scan, track.evaluated_at);
+    track.through = track.evidence.through;
     track.score = track.evidence.score;
   }
   look(scan);
@@ -175,7 +176,7 @@ std::vector<double> TrackSet::showToAll(const DenseScan& scan, const DenseVerifi
   std::vector<double> unexplained;
   for (Track& track : tracks)
   {
-    const auto explained = verifier.explainedReturns(scan, track.evaluated_at);
+    const auto explained = verifier.explainedReturns(scan, track.evaluated_at, track.through);
     unexplained.push_back(track.explained.addScan(view_, explained, travelled));
   }
   return unexplained;
@@ -184,7 +185,9 @@ std::vector<double> TrackSet::showToAll(const DenseScan& scan, const DenseVerifi
 void TrackSet::showTo(Track& track, const DenseScan& scan, const DenseVerifier& verifier,
                       double travelled) const
 {
-  const auto explained = verifier.explainedReturns(scan, track.hypothesis.pose.mean);
+  const TPose2D& pose = track.hypothesis.pose.mean;
+  const auto explained =
+      verifier.explainedReturns(scan, pose, verifier.beamsThroughWalls(scan, pose));
   track.explained.addScan(view_, explained, travelled);
 }
 

@@ -57,7 +57,8 @@ void updatePose(Track& track, const DenseScan& scan, const DenseVerifier& verifi
 {
   constexpr double kClearlyBetter = 0.3;  // lead in score that replaces the prediction
   GaussianPose& pose = track.hypothesis.pose;
-  const DenseEvidence predicted = verifier.evaluate(scan, pose.mean);
+  const TPose2D predicted_at = pose.mean;
+  DenseEvidence predicted = verifier.evaluateEnds(scan, predicted_at);
   GaussianPose measured;
   measured.mean = has_odometry ? verifier.refine(scan, pose.mean, kUpdateSteps, scan.size())
                                : searchedPose(pose.mean, scan, verifier, options);
@@ -68,12 +69,17 @@ void updatePose(Track& track, const DenseScan& scan, const DenseVerifier& verifi
   const double fit = has_odometry ? std::max(kLeastFit, found.score) : 1.0;
   measured.covariance *= kSharedErrors / fit;
   const bool agrees = squaredMahalanobisDistance(pose, measured) < kUpdateGate;
+  // Often the ends alone show that the prediction is no better.
+  if (!agrees || found.score <= predicted.score) verifier.testRays(scan, predicted_at, predicted);
   const bool slipped = !agrees && found.score > predicted.score + kClearlyBetter;
   if (agrees) pose = fusePoses(pose, measured);
   if (slipped) pose = measured;
   const bool at_measured = slipped || (agrees && found.score > predicted.score);
   track.evidence = at_measured ? found : predicted;
   track.evaluated_at = at_measured ? measured.mean : pose.mean;
+  track.through = at_measured ? found.through
+                  : agrees    ? verifier.beamsThroughWalls(scan, pose.mean)
+                              : predicted.through;
   track.score = track.evidence.score;
 }
 }  // namespace sigloc
