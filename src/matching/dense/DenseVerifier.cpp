@@ -54,6 +54,8 @@ bool better(const RankedPose& a, const RankedPose& b)
   return a.pose.phi < b.pose.phi;
 }
 
+}  // namespace
+
 /// Distinct poses. They are offered best first. The first `count` are kept, and beyond these those
 /// that tie with the best, up to `most_tied` in all.
 class DistinctPoses
@@ -88,6 +90,8 @@ class DistinctPoses
   std::vector<RankedPose> kept_;
 };
 
+namespace
+{
 void keepDistinct(std::vector<RankedPose>& poses, std::size_t count, std::size_t most_tied)
 {
   std::sort(poses.begin(), poses.end(), better);
@@ -145,9 +149,13 @@ std::vector<RankedPose> DenseVerifier::rank(const DenseScan& scan,
   std::vector<CoarseScore> scores = coarse_field_->score(scan, tried);
   counters.poses_scored += are_many ? proposals.size() : scores.size();
 
-  // 2. Refine the best of each neighbourhood on some of the returns.
+  // 2. Refine the best of each neighbourhood on some of the returns. Neighbouring poses that did
+  // not converge stay rivals until all returns have scored them. Which of them wins must not depend
+  // on where the proposals were.
   std::vector<Raced> raced = race(scan, tried, std::move(scores), before, counters);
-  std::vector<RankedPose> poses = bestOf(scan, std::move(raced), kFinalKept + max_ranked);
+  std::vector<RankedPose> poses =
+      bestOf(scan, std::move(raced), kMiddleRays,
+             DistinctPoses(kFinalKept, kFinalKept + max_ranked, kApartDistance));
 
   // 3. Refine the best of those on more returns, and score them by all.
   const double promising = std::max(bestScore(poses), bestScore(before)) - kFinalLead;
@@ -158,13 +166,14 @@ std::vector<RankedPose> DenseVerifier::rank(const DenseScan& scan,
     refined.push_back(pose.pose);
   }
   refineAll(scan, refined, kFinalSteps, kFinalBeams);
+  raced.clear();
   for (std::size_t k = 0; k < poses.size(); ++k)
   {
-    if (k < refined.size()) poses[k].pose = refined[k];
-    poses[k].evidence = evaluate(scan, poses[k].pose, scan.spaced, kFinalRays);
+    const TPose2D& pose = k < refined.size() ? refined[k] : poses[k].pose;
+    raced.push_back({{pose, evaluateEnds(scan, pose)}, false});
   }
   const std::size_t usual = std::min(kUsuallyRanked, max_ranked);
-  keepDistinct(poses, usual, max_ranked);
+  poses = bestOf(scan, std::move(raced), kFinalRays, DistinctPoses(usual, max_ranked));
 
   // 4. Refine those that may win or be the runner-up on all returns, and all that tie. Equal places
   // end at equal poses, so each is scored where it ends, even if it scored better before.
@@ -231,7 +240,7 @@ std::vector<DenseVerifier::Raced> DenseVerifier::race(const DenseScan& scan,
       // Beams through walls only lower a score.
       const double most = next.ranked.evidence.score;
       if (most < best_middle - kFinalLead) continue;
-      if (most > best_middle) testRays(scan, next);
+      if (most > best_middle) testRays(scan, kMiddleRays, next);
       if (next.rays_tested) best_middle = std::max(best_middle, next.ranked.evidence.score);
       raced.push_back(next);
     }
@@ -240,17 +249,16 @@ std::vector<DenseVerifier::Raced> DenseVerifier::race(const DenseScan& scan,
   return raced;
 }
 
-void DenseVerifier::testRays(const DenseScan& scan, Raced& raced) const
+void DenseVerifier::testRays(const DenseScan& scan, std::size_t rays, Raced& raced) const
 {
-  testRays(scan, raced.ranked.pose, kMiddleRays, raced.ranked.evidence);
+  testRays(scan, raced.ranked.pose, rays, raced.ranked.evidence);
   raced.rays_tested = true;
 }
 
-/// Returns the best distinct poses of the race, with their beams tested for passing through walls.
-/// Neighbouring poses that did not converge stay rivals until all returns have scored them. Which
-/// of them wins must not depend on where the proposals were.
+/// Returns the best distinct poses, with up to `rays` of their beams tested for passing through
+/// walls.
 std::vector<RankedPose> DenseVerifier::bestOf(const DenseScan& scan, std::vector<Raced> raced,
-                                              std::size_t most_tied) const
+                                              std::size_t rays, DistinctPoses distinct) const
 {
   // The test only lowers a score. So it is made of those that are best without it, and most poses
   // are never tested.
@@ -260,7 +268,6 @@ std::vector<RankedPose> DenseVerifier::bestOf(const DenseScan& scan, std::vector
     return tie && a.rays_tested != b.rays_tested ? a.rays_tested : better(b.ranked, a.ranked);
   };
   std::make_heap(raced.begin(), raced.end(), after);
-  DistinctPoses distinct(kFinalKept, most_tied, kApartDistance);
   while (!raced.empty())
   {
     std::pop_heap(raced.begin(), raced.end(), after);
@@ -270,7 +277,7 @@ std::vector<RankedPose> DenseVerifier::bestOf(const DenseScan& scan, std::vector
       raced.pop_back();
       continue;
     }
-    testRays(scan, raced.back());
+    testRays(scan, rays, raced.back());
     std::push_heap(raced.begin(), raced.end(), after);
   }
   return distinct.take();

@@ -18,6 +18,7 @@ namespace sigloc
 {
 struct CoarseScore;
 class CoarseField;
+class DistinctPoses;
 class WallCrossings;
 
 /// Scores and refines poses in the dense field. It never searches: every pose comes from a proposal
@@ -93,15 +94,15 @@ class DenseVerifier
   std::vector<Raced> race(const DenseScan& scan, const std::vector<PoseProposal>& proposals,
                           std::vector<CoarseScore> scores, const std::vector<RankedPose>& before,
                           MatchingCounters& counters) const;
-  std::vector<RankedPose> bestOf(const DenseScan& scan, std::vector<Raced> raced,
-                                 std::size_t most_tied) const;
+  std::vector<RankedPose> bestOf(const DenseScan& scan, std::vector<Raced> raced, std::size_t rays,
+                                 DistinctPoses distinct) const;
   void refineAll(const DenseScan& scan, std::vector<mrpt::math::TPose2D>& poses, int steps,
                  std::size_t beams, float least = 0, float* most_weight = nullptr) const;
   DenseEvidence evaluate(const DenseScan& scan, const mrpt::math::TPose2D& pose,
                          std::size_t returns, std::size_t rays) const;
   void testRays(const DenseScan& scan, const mrpt::math::TPose2D& pose, std::size_t rays,
                 DenseEvidence& evidence) const;
-  void testRays(const DenseScan& scan, Raced& raced) const;
+  void testRays(const DenseScan& scan, std::size_t rays, Raced& raced) const;
   double fineLikelihood(const DenseScan& scan, const mrpt::math::TPose2D& pose) const;
 
   const DenseField& field_;
