@@ -17,13 +17,13 @@ constexpr double kMisfitPower = 5.0;  // power of the unexplained share, eq. (7.
 constexpr double kMisfitFloor =
     0.02;  // share that even the right pose leaves unexplained, eq. (7.1)
 // The log-odds of being in the map, fitted on simulated worlds too, eq. (7.2).
-constexpr double kExplainedSlope = 12.7;  // per share of explained or occluded returns
-constexpr double kThroughSlope = 15.2;  // per share of beams through walls
-constexpr double kWallSlope = 0.36;  // per explained wall
-constexpr double kMissingWallSlope = 0.6;  // per wall that is not mapped
-constexpr double kWallEndSlope = 0.89;  // per explained wall end
-constexpr double kLeadSlope = 0.29;  // per unit of log-likelihood ahead of the best rival
-constexpr double kFitOffset = 14.6;  // constant of eq. (7.2) without the prior of 2.6
+constexpr double kExplainedSlope = 12.52;  // per share of explained or occluded returns
+constexpr double kThroughSlope = 14.93;  // per share of beams through walls
+constexpr double kWallSlope = 0.363;  // per explained wall
+constexpr double kMissingWallSlope = 0.611;  // per wall that is not mapped
+constexpr double kWallEndSlope = 0.882;  // per explained wall end
+constexpr double kLeadSlope = 0.287;  // per unit of log-likelihood ahead of the best rival
+constexpr double kFitOffset = 14.36;  // constant of eq. (7.2) without the prior of 2.6
 // A scan with little angular coverage fits elsewhere by chance. The scans that were fitted on cover
 // 180 degrees and more, so a further term is needed.
 constexpr double kFullCoverage = M_PI / 2;  // [rad] angular coverage from which the term is 0
