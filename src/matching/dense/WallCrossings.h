@@ -23,8 +23,9 @@ class WallCrossings
 
   explicit WallCrossings(const DenseField& field);
 
-  /// Returns which of the first `beams` <= kRays of a scan pass a solid wall more than 0.4 m before
-  /// their end when the robot is at `pose`: bit i is set for the i-th. \cite algorithm eq. (6.8)
+  /// Tests the first `beams` <= kRays of a scan with the robot at `pose`. Returns which of them
+  /// pass a solid wall more than 0.4 m before their end: bit i is set for the i-th. \cite algorithm
+  /// eq. (6.8)
   std::uint64_t throughBits(const DenseScan& scan, const mrpt::math::TPose2D& pose,
                             std::size_t beams) const;
 
