@@ -133,6 +133,11 @@ std::string manPage(const CLI::App& app, const std::string& source)
   return page;
 }
 
+std::string HelpFormatter::make_usage(const CLI::App* app, std::string name) const
+{
+  return "Usage: " + synopsis(*app, name) + "\n";
+}
+
 std::string usage(const CLI::App& app)
 {
   const auto given = app.get_subcommands();

@@ -15,6 +15,13 @@ std::string manPage(const CLI::App& app, const std::string& source);
 /// file".
 std::string usage(const CLI::App& app);
 
+/// Writes --help as CLI11 does, but its line of usage as `usage` does: with the required options.
+class HelpFormatter : public CLI::Formatter
+{
+ public:
+  std::string make_usage(const CLI::App* app, std::string name) const override;
+};
+
 /// A program's completion for bash: its commands, and the options of the one that was typed.
 std::string bashCompletion(const CLI::App& app);
 }  // namespace sigloc

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <functional>
 #include <iostream>
+#include <memory>
 #include <stdexcept>
 #include <string>
 
@@ -39,6 +40,9 @@ inline int runApp(CLI::App& app, int argc, char** argv, const std::function<int(
   {
     int code = 0;
     app.set_version_flag("--version", app.get_name() + " " + SIGLOC_VERSION);
+    const auto help = std::make_shared<HelpFormatter>();
+    app.formatter(help);
+    for (CLI::App* command : app.get_subcommands({})) command->formatter(help);
     try
     {
       if (!printManual(app, argc, argv))
@@ -47,9 +51,9 @@ inline int runApp(CLI::App& app, int argc, char** argv, const std::function<int(
         code = work();
       }
     }
-    catch (const CLI::Success& help)
+    catch (const CLI::Success& asked)
     {
-      code = app.exit(help);
+      code = app.exit(asked);
     }
     catch (const CLI::ParseError& error)
     {

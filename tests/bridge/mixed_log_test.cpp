@@ -213,7 +213,7 @@ TEST(MixedLog, NoChangedByteHurtsTheReader)
 }
 
 // The office's log with one of these observations in each frame, as it was written once. With
-// SIGLOC_UPDATE_GOLDEN set it is written anew: scripts/mutants is fed with it.
+// SIGLOC_UPDATE_GOLDEN=1 it is written anew: scripts/mutants is fed with it.
 TEST(MixedLog, TheStoredOneGivesTheStepsOfTheOffice)
 {
   const std::filesystem::path office = SIGLOC_GOLDEN_FOLDER "/../../rawlogs/office.rawlog";

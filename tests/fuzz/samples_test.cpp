@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Good inputs in today's formats, which fuzzing begins with. With SIGLOC_UPDATE_GOLDEN set those
+// Good inputs in today's formats, which fuzzing begins with. With SIGLOC_UPDATE_GOLDEN=1 those
 // that programs write are put into tests/corpus anew.
 #include <gtest/gtest.h>
 #include <mrpt/maps/COccupancyGridMap2D.h>

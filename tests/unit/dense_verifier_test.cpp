@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <bitset>
 #include <cmath>
 #include <memory>
 #include <random>
@@ -144,6 +145,36 @@ TEST(DenseVerifier, CountsBeamsThatPassASolidWall)
   EXPECT_EQ(verifier.evaluate(makeDenseScan(behind, 400), inside).through_wall, 0);
   // A robot outside the raster, looking in.
   EXPECT_GT(verifier.evaluate(makeDenseScan(far, 400), {-3, 4, 0}).through_wall, 0.1);
+}
+
+// Few returns may be spaced: only their beams count, but others are known to pass walls, too.
+TEST(DenseVerifier, EndsAndBeamsMakeTheWholeEvidence)
+{
+  const Room room;
+  const DenseVerifier verifier(room.field());
+  ObservedScene scene = room.scene({4, 4, 0.3});
+  for (std::size_t k = 0; k < scene.beams.size(); k += 3) scene.beams[k].point *= 1.5;
+  DenseScan scan = makeDenseScan(scene, 180);
+  const TPose2D pose(4.1, 3.9, 0.25);
+  const std::bitset<64> through(verifier.beamsThroughWalls(scan, pose));
+  ASSERT_GT(through.count(), 10U);
+  ASSERT_LT(through.count(), 54U);
+  for (std::size_t spaced = 1; spaced <= scan.size(); ++spaced)
+  {
+    scan.spaced = spaced;
+    const DenseEvidence whole = verifier.evaluate(scan, pose);
+    DenseEvidence evidence = verifier.evaluateEnds(scan, pose);
+    EXPECT_EQ(evidence.through_wall, 0);
+    EXPECT_GE(evidence.score, whole.score);
+    verifier.testRays(scan, pose, evidence);
+    EXPECT_EQ(evidence.score, whole.score);
+    EXPECT_EQ(evidence.through, through.to_ullong());
+    std::size_t crossed = 0;
+    const std::size_t counted = std::min<std::size_t>(64, spaced);
+    for (std::size_t k = 0; k < counted; ++k) crossed += through[k] ? 1 : 0;
+    EXPECT_DOUBLE_EQ(whole.through_wall,
+                     static_cast<double>(crossed) / static_cast<double>(counted));
+  }
 }
 
 // A proposal in the border of the coarse field once made the verifier read beyond its cells.

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <random>
 #include <vector>
 
 #include "matching/dense/DenseVerifier.h"
@@ -108,6 +110,39 @@ TEST(TrackSetUpdate, AScanThatFitsBadlySaysLessOfThePose)
   EXPECT_LT(drawn_back(5), 0.4 * well);
   EXPECT_GT(drawn_back(5), 0);
   EXPECT_NEAR(drawn_back(10), 0, 0.05) << "nothing is explained, and nothing breaks";
+}
+
+TEST(TrackSetUpdate, BeamsThroughWallsAreThoseOfThePoseThatIsEvaluated)
+{
+  const DenseField field = room();
+  const DenseVerifier verifier(field);
+  std::mt19937 random(71);
+  std::uniform_real_distribution<double> off(-0.6, 0.6);
+  int measured = 0;
+  int passing = 0;
+  for (int k = 0; k < 200; ++k)
+  {
+    TrackSet set{TrackerOptions{}};
+    set.tracks.resize(1);
+    Track& track = set.tracks[0];
+    track.through = ~std::uint64_t{0};
+    const mrpt::math::TPose2D start(5 + off(random), 4 + off(random), off(random));
+    track.hypothesis.pose.mean = start;
+    const double sigma = k % 2 == 0 ? 0.03 : 0.5;
+    track.hypothesis.pose.covariance = mrpt::math::CMatrixDouble33::Identity();
+    track.hypothesis.pose.covariance *= sigma * sigma;
+    MotionIncrement motion;
+    motion.covariance = mrpt::math::CMatrixDouble33::Zero();
+    set.predict(motion);
+    const DenseScan scan = makeDenseScan(lookAround(k % 4), 180);
+    set.update(scan, verifier);
+    EXPECT_EQ(track.through, verifier.beamsThroughWalls(scan, track.evaluated_at));
+    measured += track.evaluated_at == start ? 0 : 1;
+    passing += track.through != 0 ? 1 : 0;
+  }
+  EXPECT_GT(measured, 50);
+  EXPECT_LT(measured, 200) << "some stay at the prediction";
+  EXPECT_GT(passing, 20);
 }
 
 TEST(TrackSetUpdate, WithoutOdometryATrackDrivesOnAsItDidAndKeepsItsHeading)

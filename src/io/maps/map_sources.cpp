@@ -101,7 +101,10 @@ MapKind kindOf(const std::filesystem::path& path)
   if (const auto kind = detail::mapKindOf(path)) return *kind;
   refuseFolder(path);
   if (detail::extensionOf(path) == ".rawlog")
+  {
+    detail::requireFile(path);
     detail::fail(path, "a rawlog is the log of a drive, not a map; icp-slam makes a map of it");
+  }
   std::vector<std::string> known;
   for (const detail::MapFormat& format : detail::mapFormats())
     known.insert(known.end(), format.extensions.begin(), format.extensions.end());
