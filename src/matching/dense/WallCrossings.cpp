@@ -32,10 +32,10 @@ struct Rays
   std::array<float, kRays> per_column, per_row;  // signed length of the ray per column and row
 };
 
-/// Returns the `count` beams from `first` on, up to the margin before their ends and within the
+/// Returns the first `count` beams, up to the margin before their ends and within the
 /// frame. Rays that fill up the last eight have no length.
 Rays raysOf(const RasterFrame& frame, const DenseScan& scan, const Placement& place,
-            std::size_t first, std::size_t count)
+            std::size_t count)
 {
   const auto scale = static_cast<float>(1.0 / frame.resolution);
   const auto width = static_cast<float>(frame.width);
@@ -46,13 +46,13 @@ Rays raysOf(const RasterFrame& frame, const DenseScan& scan, const Placement& pl
   rays.count = (count + kWideFloats - 1) / kWideFloats * kWideFloats;
   for (std::size_t i = 0; i < count; ++i)
   {
-    const TPoint2D& origin = scan.origins[scan.origin[first + i]];
+    const TPoint2D& origin = scan.origins[scan.origin[i]];
     const auto ox = static_cast<float>(origin.x);
     const auto oy = static_cast<float>(origin.y);
     rays.x[i] = (place.placedX(ox, oy) - x0) * scale;
     rays.y[i] = (place.placedY(ox, oy) - y0) * scale;
-    rays.dx[i] = (place.placedX(scan.x[first + i], scan.y[first + i]) - x0) * scale - rays.x[i];
-    rays.dy[i] = (place.placedY(scan.x[first + i], scan.y[first + i]) - y0) * scale - rays.y[i];
+    rays.dx[i] = (place.placedX(scan.x[i], scan.y[i]) - x0) * scale - rays.x[i];
+    rays.dy[i] = (place.placedY(scan.x[i], scan.y[i]) - y0) * scale - rays.y[i];
   }
   for (std::size_t i = count; i < rays.count; ++i)
   {
@@ -148,15 +148,14 @@ WallCrossings::WallCrossings(const DenseField& field) : frame_(field.frame), cle
 std::uint64_t WallCrossings::throughBits(const DenseScan& scan, const TPose2D& pose,
                                          std::size_t beams) const
 {
-  return crossings(scan, Placement(pose), 0, std::min({beams, kRays, scan.size()}));
+  return crossings(scan, Placement(pose), std::min({beams, kRays, scan.size()}));
 }
 
-/// Returns which of the beams meet a solid wall, as bits. They advance eight at a time, and the
-/// groups of eight in turn. A ray's next look-up waits for its last one, but not for those of other
-/// rays.
+/// Returns which of the first `count` beams meet a solid wall, as bits. They advance eight at a
+/// time, and the groups of eight in turn. A ray's next look-up waits for its last one, but not for
+/// those of other rays.
 SIGLOC_WIDE_VECTORS std::uint64_t WallCrossings::crossings(const DenseScan& scan,
                                                            const Placement& place,
-                                                           std::size_t first,
                                                            std::size_t count) const
 {
   struct Eight
@@ -165,7 +164,7 @@ SIGLOC_WIDE_VECTORS std::uint64_t WallCrossings::crossings(const DenseScan& scan
     WideFloat along;  // [cells] by which they have advanced
     WideInt under_way;  // all bits set for those that still advance
   };
-  const Rays rays = raysOf(frame_, scan, place, first, count);
+  const Rays rays = raysOf(frame_, scan, place, count);
   std::array<Eight, kRays / kWideFloats> eights;
   std::size_t advancing = 0;
   for (std::size_t i = 0; i < rays.count; i += kWideFloats)

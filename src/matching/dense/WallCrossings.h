@@ -30,8 +30,7 @@ class WallCrossings
                             std::size_t beams) const;
 
  private:
-  std::uint64_t crossings(const DenseScan& scan, const Placement& place, std::size_t first,
-                          std::size_t count) const;
+  std::uint64_t crossings(const DenseScan& scan, const Placement& place, std::size_t count) const;
 
   RasterFrame frame_;
   ClearBlocks clear_blocks_;
