@@ -176,7 +176,8 @@ std::vector<RankedPose> DenseVerifier::rank(const DenseScan& scan,
   poses = bestOf(scan, std::move(raced), kFinalRays, DistinctPoses(usual, max_ranked));
 
   // 4. Refine those that may win or be the runner-up on all returns, and all that tie. Equal places
-  // end at equal poses, so each is scored where it ends, even if it scored better before.
+  // end at equal poses, so each is scored where it ends, even if it scored better before. Plain
+  // weights are those of tracking: a place then scores no less than if it had been followed.
   const double contender = std::max(bestScore(poses), bestScore(before)) - kContender;
   const double tied = std::max(bestScore(poses), bestScore(before)) - kTie;
   std::vector<TPose2D> settled;
@@ -185,9 +186,14 @@ std::vector<RankedPose> DenseVerifier::rank(const DenseScan& scan,
     if (poses[k].evidence.score < (k < kFinallyRefined ? contender : tied)) break;
     settled.push_back(poses[k].pose);
   }
+  std::vector<TPose2D> plain = settled;
   refineAll(balancedScan(scan), settled, kLastSteps, scan.size());
+  refineAll(scan, plain, kLastSteps, scan.size());
   for (std::size_t k = 0; k < settled.size(); ++k)
-    poses[k] = {settled[k], evaluate(scan, settled[k])};
+  {
+    poses[k] = std::min(RankedPose{settled[k], evaluate(scan, settled[k])},
+                        RankedPose{plain[k], evaluate(scan, plain[k])}, better);
+  }
   poses.insert(poses.end(), before.begin(), before.end());
   keepDistinct(poses, usual, max_ranked);
   return poses;
