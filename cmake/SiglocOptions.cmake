@@ -48,7 +48,8 @@ if(SIGLOC_FUZZ)
     "-fsanitize-coverage-ignorelist=${PROJECT_SOURCE_DIR}/tests/fuzz/driver/uncounted.txt")
 endif()
 if(SIGLOC_COVERAGE)
-  target_compile_options(sigloc_flags INTERFACE --coverage)
+  # Threads count together.
+  target_compile_options(sigloc_flags INTERFACE --coverage -fprofile-update=atomic)
   target_link_options(sigloc_flags INTERFACE --coverage)
 endif()
 

@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
-#include <sstream>
 #include <stdexcept>
+#include <string>
 #include <system_error>
 
 #include "arguments.h"
@@ -25,14 +25,17 @@ namespace
 /// Whether an ini leaves pictures out. Where that cannot be told, the run says what is wrong.
 bool wantsStatisticsOnly(const std::filesystem::path& path)
 {
+  constexpr std::streamsize kMostOfIni = 1U << 20U;  // bytes; a longer one is refused anyway
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) return false;  // a pipe is read once only
-  std::stringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
+  std::string text(kMostOfIni, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(text.data(), kMostOfIni);
+  text.resize(static_cast<std::size_t>(file.gcount()));
   try
   {
     mrpt::config::CConfigFileMemory ini;
-    ini.setContent(text.str());
+    ini.setContent(text);
     const std::string value =
         ini.read_string_first_word("LocalizationExperiment", "SAVE_STATS_ONLY", "false");
     return sigloc::detail::parseValue<bool>(value).value_or(false);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "laser_of_map.h"
 
-#include <mrpt/config/CConfigFile.h>
+#include <mrpt/config/CConfigFileMemory.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -10,6 +10,7 @@
 
 #include "map_errors.h"
 #include "sigloc/io/file_output.h"
+#include "sigloc/localize/LocalizationSetup.h"
 
 namespace sigloc
 {
@@ -64,11 +65,11 @@ SimulatedLaserOptions laserOfMap(const MapSource& source)
 SimulatedLaserOptions readLaser(const std::filesystem::path& ini,
                                 const SimulatedLaserOptions& defaults)
 {
-  if (!std::filesystem::is_regular_file(ini))
-    throw std::runtime_error(ini.string() + ": no such file");
+  const std::string text = readIniText(ini);
   try
   {
-    const mrpt::config::CConfigFile file(ini.string());
+    mrpt::config::CConfigFileMemory file;
+    file.setContent(text);
     if (!file.sectionExists(kSection)) throw std::runtime_error("no section [laser]");
     return loadOptions<SimulatedLaserOptions>(file, kSection, defaults);
   }

@@ -16,6 +16,7 @@
 #include <tuple>
 
 #include "config/nearest_word.h"
+#include "io/archive/file_fault.h"
 #include "io/archive/gzip_input.h"
 #include "io/carmen_log.h"
 #include "io/maps/map_formats.h"
@@ -44,21 +45,6 @@ constexpr const char* kReport = "sigloc.localize";
 constexpr const char* kMapAndLog = "; for a map and a log: --map MAP --log LOG";
 constexpr std::array<const char*, 7> kSections = {kMatcher, kTracker, kParticles, kFeatures,
                                                   kMap,     kReading, kReport};
-
-/// Returns the text of a file that exists; throws std::runtime_error where it is no file.
-std::string readText(const fs::path& path, const std::string& hint)
-{
-  constexpr std::uintmax_t kMost = 1U << 20U;  // bytes
-  if (fs::file_size(path) > kMost)
-    throw std::runtime_error("not an ini file: more than 1 MB" + hint);
-  std::ifstream file(path, std::ios::binary);
-  std::stringstream text;
-  text << file.rdbuf();
-  if (!file) throw std::runtime_error("cannot be read, or is empty");
-  if (text.str().find('\0') != std::string::npos)
-    throw std::runtime_error("not an ini file" + hint);
-  return text.str();
-}
 
 /// Throws for a key of [LocalizationExperiment] in a section of ours, such as `tracker`.
 void refuseExperimentKeys(const CConfigFileMemory& ini, const std::string& section)
@@ -305,11 +291,10 @@ void readExperiment(const CConfigFileMemory& ini, const fs::path& path, const fs
 template <class Read>
 LocalizationSetup parsed(const fs::path& path, const std::string& hint, Read&& read)
 {
-  detail::requireFile(path);
+  const std::string text = readIniText(path, hint);
   try
   {
     CConfigFileMemory ini;
-    const std::string text = readText(path, hint);
     ini.setContent(text);
     LocalizationSetup setup;
     std::vector<std::string> sections(kSections.begin(), kSections.end());
@@ -326,6 +311,19 @@ LocalizationSetup parsed(const fs::path& path, const std::string& hint, Read&& r
   }
 }
 }  // namespace
+
+std::string readIniText(const fs::path& path, const std::string& advice)
+{
+  constexpr std::uintmax_t kMost = 1U << 20U;  // bytes
+  detail::requireFile(path);
+  if (fs::file_size(path) > kMost) detail::fail(path, "not an ini file: more than 1 MB" + advice);
+  std::ifstream file(path, std::ios::binary);
+  std::stringstream text;
+  text << file.rdbuf();
+  if (!file) detail::fail(path, "cannot be read");
+  if (text.str().find('\0') != std::string::npos) detail::fail(path, "not an ini file" + advice);
+  return text.str();
+}
 
 std::vector<fs::path> LocalizationSetup::inputFiles() const
 {

@@ -216,7 +216,7 @@ TEST(ZstdFiles, numbersThatUnpackToFarMoreAreRefused)
        {std::pair<const char*, std::string>{"points.txt", ""}, {"points.ply", ply}})
   {
     std::string rows = head;
-    while (rows.size() <= detail::kAlwaysUnpacked) rows += "1 2 0\n";
+    while (rows.size() <= detail::kUsualLimits.always) rows += "1 2 0\n";
     writeText(folder / name, packed(rows));
     EXPECT_EQ(mapErrorOf(folder / name),
               (folder / name).string() + ": unpacks to more than 50 times its size");
@@ -228,7 +228,7 @@ TEST(ZstdFiles, unpackedBytesAreLimitedByTheFilesSize)
   const auto unpackedBytes = [](const std::filesystem::path& path, std::uint64_t always)
   {
     detail::GzipInput input(path);
-    input.limitTo(always);
+    input.limitTo({detail::kUsualLimits.most, always});
     return detail::restOf(input);
   };
   constexpr std::size_t kSize = 1U << 20U;

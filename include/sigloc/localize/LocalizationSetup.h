@@ -108,6 +108,10 @@ LocalizationSetup readLocalizationSetup(const std::filesystem::path& ini,
 /// Throws std::runtime_error where the names of map and log tell that they are swapped.
 void requireMapAndLog(const LocalizationSetup& setup);
 
+/// Returns the text of an ini file, of at most 1 MB. Throws std::runtime_error "path: reason" for
+/// any other file; `advice` then ends the reason where there is text or data of another kind.
+std::string readIniText(const std::filesystem::path& ini, const std::string& advice = {});
+
 /// Reads only the [sigloc.*] sections of an ini; the same errors.
 LocalizationSetup readOptionSections(const std::filesystem::path& ini);
 

@@ -92,7 +92,7 @@ void readObjectFile(const std::filesystem::path& path, mrpt::serialization::CSer
     fail(path, "holds a '" + name + "', not a '" + expected->className + "'");
   }
   const bool grid = dynamic_cast<mrpt::maps::COccupancyGridMap2D*>(&object) != nullptr;
-  requireIntact(path, grid ? kUsualGrid : kAlwaysUnpacked);
+  requireIntact(path, grid ? kGridLimits : kUsualLimits);
   MapReader reader = MapReader::of_mrpt;
   try
   {

@@ -23,7 +23,6 @@ constexpr unsigned kBufferBytes = 256U * 1024U;
 constexpr std::uint64_t kLeastChunk = 4096;
 // Numbers are packed to a third or a tenth. A small file that holds far more is none of numbers,
 // and is refused before it takes the memory or the time.
-constexpr std::uint64_t kMostRatio = 50;
 
 bool isClassNameCharacter(char c)
 {
@@ -103,12 +102,12 @@ void requireFile(const std::filesystem::path& path)
   if (std::filesystem::file_size(path, error) == 0) fail(path, "is empty");
 }
 
-void requireIntact(const std::filesystem::path& path, std::uint64_t always)
+void requireIntact(const std::filesystem::path& path, const UnpackLimits& limits)
 {
   GzipInput input(path);
   if (input.isPlain()) return;  // it has no checksum
-  input.limitTo(always);
-  input.skipToEnd(kMostUnpacked);
+  input.limitTo(limits);
+  input.skipToEnd(limits.most);
   if (input.isWrong()) fail(path, "damaged");
 }
 
@@ -141,18 +140,18 @@ GzipInput::GzipInput(const std::filesystem::path& path) : path_(path)
 
 GzipInput::~GzipInput() = default;
 
-void GzipInput::limitTo(std::uint64_t always, std::uint64_t most)
+void GzipInput::limitTo(const UnpackLimits& limits)
 {
-  most_ = most;
-  by_ratio_ = std::max(always, kMostRatio * file_->fileSize());
+  limits_ = limits;
   requireWithin(std::max(unpacked_, file_->plain() ? file_->fileSize() : 0));
 }
 
 void GzipInput::requireWithin(std::uint64_t bytes) const
 {
-  if (bytes > most_) fail(path_, fmt::format("holds more than {} MB", most_ >> 20U));
-  if (bytes > by_ratio_)
-    fail(path_, fmt::format("unpacks to more than {} times its size", kMostRatio));
+  if (bytes > limits_.most)
+    fail(path_, fmt::format("holds more than {} MB", limits_.most >> 20U));
+  if (bytes > std::max(limits_.always, limits_.ratio * file_->fileSize()))
+    fail(path_, fmt::format("unpacks to more than {} times its size", limits_.ratio));
 }
 
 std::size_t GzipInput::Read(void* buffer, std::size_t count)

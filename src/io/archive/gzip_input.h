@@ -19,10 +19,17 @@ namespace sigloc::detail
 constexpr std::size_t kLongestClassName = 120;
 constexpr std::size_t kLongestObjectHeader = kLongestClassName + 4;
 
-constexpr std::uint64_t kAlwaysUnpacked = std::uint64_t{1} << 26U;  // bytes
-/// The same for a grid map, which may be far smaller than its cells: most are alike.
-constexpr std::uint64_t kUsualGrid = std::uint64_t{1} << 29U;
-constexpr std::uint64_t kMostUnpacked = std::uint64_t{1} << 32U;
+/// What a file may unpack to: at most `most` bytes, and at most `always` bytes or `ratio` times its
+/// size, whichever is more. Files of hostile sizes are refused before memory is taken for them.
+struct UnpackLimits
+{
+  std::uint64_t most = std::uint64_t{1} << 32U;  // bytes
+  std::uint64_t always = std::uint64_t{1} << 26U;  // bytes
+  std::uint64_t ratio = 50;
+};
+constexpr UnpackLimits kUsualLimits;
+/// Of a grid map, most cells are alike.
+constexpr UnpackLimits kGridLimits{std::uint64_t{1} << 30U, std::uint64_t{1} << 26U, 1000};
 
 /// What an MRPT object begins with: the name of its class. Its version follows.
 struct ObjectHeader
@@ -47,10 +54,9 @@ class GzipInput final : public mrpt::io::CStream
   GzipInput(const GzipInput&) = delete;
   GzipInput& operator=(const GzipInput&) = delete;
 
-  /// From here on, reading throws std::runtime_error "path: reason" for a file that holds more than
-  /// `most` bytes, or more than both `always` bytes and 50 times its size. Of a file that is not
-  /// compressed that is known at once.
-  void limitTo(std::uint64_t always, std::uint64_t most = kMostUnpacked);
+  /// From here on, reading throws std::runtime_error "path: reason" for a file that holds more. Of a
+  /// file that is not compressed that is known at once.
+  void limitTo(const UnpackLimits& limits);
   /// Returns the bytes read, fewer than `count` at the end or where the file is damaged.
   std::size_t Read(void* buffer, std::size_t count) override;
   /// True when not one more byte can be read.
@@ -90,8 +96,7 @@ class GzipInput final : public mrpt::io::CStream
   std::unique_ptr<PackedFile> file_;
   std::uint64_t position_ = 0;
   std::uint64_t unpacked_ = 0;  // so far
-  std::uint64_t most_ = UINT64_MAX;  // of it
-  std::uint64_t by_ratio_ = UINT64_MAX;
+  UnpackLimits limits_{UINT64_MAX, UINT64_MAX};
   std::string ahead_;  // read from the file ...
   std::size_t ahead_from_ = 0;  // ... and handed out up to here
   bool damaged_ = false;
@@ -100,12 +105,12 @@ class GzipInput final : public mrpt::io::CStream
 /// Throws std::runtime_error "path: damaged" for a compressed file whose content fails its own
 /// check; one that is merely cut off passes. MRPT's readers may crash on objects with wrong
 /// bytes in them, so this is called before them. Costs one decompression of the file. Refuses one
-/// that unpacks to more than both `always` bytes and 50 times its size.
-void requireIntact(const std::filesystem::path& path, std::uint64_t always = kAlwaysUnpacked);
+/// that unpacks to more than the limits.
+void requireIntact(const std::filesystem::path& path, const UnpackLimits& limits = kUsualLimits);
 
 /// Returns the next bytes of a file: `most`, or a few more, or all that are left. Throws
 /// std::runtime_error "path: reason" for a file that is damaged.
-std::string restOf(GzipInput& input, std::uint64_t most = kMostUnpacked);
+std::string restOf(GzipInput& input, std::uint64_t most = kUsualLimits.most);
 
 /// Returns "; did you mean '...'?" with the entry of the path's folder whose name is nearest to
 /// that of a file that does not exist, or an empty text.

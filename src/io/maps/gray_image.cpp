@@ -25,9 +25,11 @@ using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 /// Throws for a picture that is empty or larger than a map may be.
 void requireSize(const std::filesystem::path& path, double width, double height)
 {
-  if (width * height >= 1 && width * height <= kMostCells) return;
-  fail(path, fmt::format("a picture of {:.0f} x {:.0f} pixels, not of 1 to {:g}", width, height,
-                         kMostCells));
+  constexpr double kLongestSide = 1e6;
+  const bool usual = std::max(width, height) <= kLongestSide;
+  if (usual && width * height >= 1 && width * height <= kMostCells) return;
+  fail(path, fmt::format("a picture of {:.0f} x {:.0f} pixels, not of 1 to {:g}, at most {:g} a side",
+                         width, height, kMostCells, kLongestSide));
 }
 
 /// Returns the next number of a PGM's head or text, behind blanks and comments, or -1 for none.
@@ -190,6 +192,11 @@ void readPng(std::FILE* file, const std::filesystem::path& path, const TakeRow& 
   row.width = png_get_image_width(reader.png, reader.info);
   row.height = png_get_image_height(reader.png, reader.info);
   requireSize(path, row.width, row.height);
+  constexpr double kBestPacking = 1100;  // no picture gets smaller than by this
+  const double row_bits = static_cast<double>(row.width) *
+                          png_get_bit_depth(reader.png, reader.info) *
+                          png_get_channels(reader.png, reader.info);
+  requireData(path, row_bits / 8 * row.height / kBestPacking);
   if (!startPngRows(reader)) fail(path, "its picture is damaged");
   const std::size_t channels = png_get_channels(reader.png, reader.info);
   const std::size_t row_bytes = png_get_rowbytes(reader.png, reader.info);
@@ -197,8 +204,6 @@ void readPng(std::FILE* file, const std::filesystem::path& path, const TakeRow& 
   {
     fail(path, "a PNG picture of an unknown kind");
   }
-  constexpr double kBestPacking = 1100;  // no picture gets smaller than by this
-  requireData(path, static_cast<double>(row_bytes) * row.height / kBestPacking);
   row.shades.resize(row.width);
   if (channels % 2 == 0) row.alphas.resize(row.width);
   const bool interlaced = png_get_interlace_type(reader.png, reader.info) != PNG_INTERLACE_NONE;

@@ -129,7 +129,6 @@ struct Found
 /// Looks for the grid map in a file, else for the first map of points, and for landmarks.
 Found lookIn(const std::filesystem::path& path)
 {
-  constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30U;
   GzipInput input(path);
   const auto header = objectHeaderIn(input.peek(kLongestObjectHeader));
   if (!header || header->old) fail(path, "not an MRPT file");
@@ -142,8 +141,8 @@ Found lookIn(const std::filesystem::path& path)
                    (name == kLandmarks ? kAdvice : ""));
   }
   const std::size_t head = header->size;
-  requireIntact(path, kUsualGrid);
-  input.limitTo(kUsualGrid, kMostBytes);
+  requireIntact(path, kGridLimits);
+  input.limitTo(kGridLimits);
   const std::string all = restOf(input);
   const std::string_view bytes = all;
   if (bytes.back() != kObjectEnd) fail(path, "truncated or damaged");

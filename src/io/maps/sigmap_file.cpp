@@ -260,6 +260,7 @@ namespace
 FeatureMap readSigmap(const std::filesystem::path& path)
 {
   detail::GzipInput input(path);
+  input.limitTo(detail::kUsualLimits);
   char magic[kMagicSize] = {};
   const std::size_t got = input.Read(magic, kMagicSize);
   if (std::memcmp(magic, kMagic, std::max<std::size_t>(got, 1)) != 0) fail(path, "not a .sigmap");

@@ -201,14 +201,14 @@ PointData dataOf(const PcdHeader& header)
   // A digit and what ends it.
   if (header.data == "ascii") return {2 * points * fields, kMostHead + points * kLongestRow};
   if (header.data == "binary") return {bytes, kMostHead + bytes};
-  return {0, kMostUnpacked};
+  return {0, kUsualLimits.most};
 }
 }  // namespace
 
 PointList readPcd(const std::filesystem::path& path)
 {
   GzipInput input(path);
-  input.limitTo(kAlwaysUnpacked);
+  input.limitTo(kUsualLimits);
   std::string_view begin = input.peek(kMostHead).substr(0, kMostHead);
   const std::string bytes = bytesOfPoints(input, dataOf(takePcdHeader(begin, path)));
   std::string_view data = bytes;

@@ -123,7 +123,7 @@ PointData dataOf(const PlyHeader& header)
       const NumberKind& kind = property.length == nullptr ? *property.kind : *property.length;
       least += text ? 2.0 : static_cast<double>(kind.bytes);  // a digit and what ends it
       if (!text)
-        most += property.length == nullptr ? static_cast<double>(kind.bytes) : kMostUnpacked;
+        most += property.length == nullptr ? static_cast<double>(kind.bytes) : kUsualLimits.most;
     }
     data.least += static_cast<double>(element.count) * least;
     data.most += static_cast<double>(element.count) * most;
@@ -136,7 +136,7 @@ PointData dataOf(const PlyHeader& header)
 PointList readPly(const std::filesystem::path& path)
 {
   GzipInput input(path);
-  input.limitTo(kAlwaysUnpacked);
+  input.limitTo(kUsualLimits);
   std::string_view begin = input.peek(kMostHead).substr(0, kMostHead);
   const std::string bytes = bytesOfPoints(input, dataOf(takePlyHeader(begin, path)));
   std::string_view data = bytes;
