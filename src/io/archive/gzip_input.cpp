@@ -148,8 +148,7 @@ void GzipInput::limitTo(const UnpackLimits& limits)
 
 void GzipInput::requireWithin(std::uint64_t bytes) const
 {
-  if (bytes > limits_.most)
-    fail(path_, fmt::format("holds more than {} MB", limits_.most >> 20U));
+  if (bytes > limits_.most) fail(path_, fmt::format("holds more than {} MB", limits_.most >> 20U));
   if (bytes > std::max(limits_.always, limits_.ratio * file_->fileSize()))
     fail(path_, fmt::format("unpacks to more than {} times its size", limits_.ratio));
 }

@@ -29,7 +29,7 @@ struct UnpackLimits
 };
 constexpr UnpackLimits kUsualLimits;
 /// Of a grid map, most cells are alike.
-constexpr UnpackLimits kGridLimits{std::uint64_t{1} << 30U, std::uint64_t{1} << 26U, 1000};
+constexpr UnpackLimits kGridLimits{std::uint64_t{1} << 30U, std::uint64_t{1} << 29U};
 
 /// What an MRPT object begins with: the name of its class. Its version follows.
 struct ObjectHeader
@@ -54,8 +54,8 @@ class GzipInput final : public mrpt::io::CStream
   GzipInput(const GzipInput&) = delete;
   GzipInput& operator=(const GzipInput&) = delete;
 
-  /// From here on, reading throws std::runtime_error "path: reason" for a file that holds more. Of a
-  /// file that is not compressed that is known at once.
+  /// From here on, reading throws std::runtime_error "path: reason" for a file that holds more. Of
+  /// a file that is not compressed that is known at once.
   void limitTo(const UnpackLimits& limits);
   /// Returns the bytes read, fewer than `count` at the end or where the file is damaged.
   std::size_t Read(void* buffer, std::size_t count) override;

@@ -28,8 +28,9 @@ void requireSize(const std::filesystem::path& path, double width, double height)
   constexpr double kLongestSide = 1e6;
   const bool usual = std::max(width, height) <= kLongestSide;
   if (usual && width * height >= 1 && width * height <= kMostCells) return;
-  fail(path, fmt::format("a picture of {:.0f} x {:.0f} pixels, not of 1 to {:g}, at most {:g} a side",
-                         width, height, kMostCells, kLongestSide));
+  fail(path,
+       fmt::format("a picture of {:.0f} x {:.0f} pixels, not of 1 to {:g}, at most {:g} a side",
+                   width, height, kMostCells, kLongestSide));
 }
 
 /// Returns the next number of a PGM's head or text, behind blanks and comments, or -1 for none.
