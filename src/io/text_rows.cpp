@@ -25,8 +25,7 @@ constexpr std::string_view kUtf8Mark = "\xEF\xBB\xBF";
 
 TextLines::TextLines(const std::filesystem::path& path, std::uint64_t most) : input_(path)
 {
-  constexpr std::uint64_t kAlways = 1U << 22U;  // bytes; rows may take 30 times as much memory
-  input_.limitTo({most, kAlways});
+  input_.limitTo({most});
   refill();
   // Some editors begin UTF-8 with a mark.
   if (text_.compare(0, kUtf8Mark.size(), kUtf8Mark) == 0) from_ = kUtf8Mark.size();

@@ -57,6 +57,11 @@ void writeBomb(const fs::path& path, const std::string& head)
 
 TEST(LargeFiles, AreRefusedByTheirBeginningOrSize)
 {
+  // One row of so many pixels, which libpng would take 447 MB for.
+  using namespace std::string_literals;
+  const std::string wide =
+      "\x89PNG\r\n\x1a\n\0\0\0\rIHDR\x17\xd7\x84\0\0\0\0\1\b\0\0\0\0\xf3\xd4\xca\x97"
+      "\0\0\0\fIDAT"s;
   const TemporaryFolder folder;
   ReadingOptions reading;
   reading.image_resolution = 0.05;
@@ -74,6 +79,7 @@ TEST(LargeFiles, AreRefusedByTheirBeginningOrSize)
       {"m.ply", "ply\nformat ascii 1.0\nelement vertex 3\n", "header"},
       {"m.pcd", "# .PCD\n", "not a PCD file"},
       {"m.png", "\x89PNG\r\n\x1a\n", "not a PNG picture"},
+      {"m.png", wide, "400000000 x 1 pixels"},
       {"m.pgm", "P5\n10 10\n255\n", "has no free cell"},
       {"m.pgm", "P5\n90000 90000\n255\n", "90000 x 90000 pixels"},
       {"m.yaml", "image: m.pgm\n", "more than 64 kB"},

@@ -51,6 +51,23 @@ FeatureMap mapInTiles()
   return FeatureMap(sampleFeatures(), inTilesWhereSparse(buildDenseField(raster), 0));
 }
 
+// It packs to a thousandth, as hostile files do.
+TEST(SigmapFile, RoundTripsAnEmptyHall)
+{
+  constexpr std::uint32_t kSide = 4200;
+  OccupancyRaster raster;
+  raster.frame = {{-3, 5}, 0.05, kSide, kSide};
+  raster.cells.assign(std::size_t{kSide} * kSide, CellState::free);
+  std::fill_n(raster.cells.begin(), kSide, CellState::wall);
+  const FeatureMap map(sampleFeatures(), buildDenseField(raster));
+  const TemporaryFolder folder;
+  saveSigmap(map, folder / "m.sigmap");
+  EXPECT_LT(std::filesystem::file_size(folder / "m.sigmap"), 1U << 20U);
+  const FeatureMap loaded = loadSigmap(folder / "m.sigmap");
+  EXPECT_EQ(loaded.field()->free_area, map.field()->free_area);
+  EXPECT_EQ(loaded.field()->wall_cells, kSide);
+}
+
 TEST(SigmapFile, RoundTripsFieldsInTiles)
 {
   const TemporaryFolder folder;

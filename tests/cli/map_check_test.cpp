@@ -252,6 +252,9 @@ TEST(MapCheck, badInputIsRefusedInOneLine)
   refused({office, "--laser", "bad.ini"}, "did you mean 'beams'");
   refused({office, "--laser", "none.ini"}, "no section [laser]");
   refused({office, "--laser", "missing.ini"}, "missing.ini");
+  refused({office, "--laser", "mine"}, "mine: is a folder");
+  std::filesystem::resize_file(folder / "bad.ini", std::uintmax_t{1} << 32U);  // a hole
+  refused({office, "--laser", "bad.ini"}, "more than 1 MB");
   refused({office, "--at", "poses.txt"}, "row 1");
   refused({office, "--out", "mine"}, "places.csv");
   EXPECT_EQ(readBytes(folder / "mine/places.csv"), "my own\n");

@@ -21,8 +21,6 @@ namespace
 {
 constexpr unsigned kBufferBytes = 256U * 1024U;
 constexpr std::uint64_t kLeastChunk = 4096;
-// Numbers are packed to a third or a tenth. A small file that holds far more is none of numbers,
-// and is refused before it takes the memory or the time.
 
 bool isClassNameCharacter(char c)
 {

@@ -25,7 +25,7 @@ struct UnpackLimits
 {
   std::uint64_t most = std::uint64_t{1} << 32U;  // bytes
   std::uint64_t always = std::uint64_t{1} << 26U;  // bytes
-  std::uint64_t ratio = 50;
+  std::uint64_t ratio = 50;  // numbers are packed to a third or a tenth
 };
 constexpr UnpackLimits kUsualLimits;
 /// Of a grid map, most cells are alike.

@@ -34,7 +34,11 @@ constexpr std::size_t kMagicSize = sizeof(kMagic) - 1;
 constexpr std::uint8_t kBodyVersion = 4;  // the field is in tiles
 constexpr std::uint8_t kWholeVersion = 3;  // the field's whole frame is stored
 constexpr std::uint8_t kOldestBodyVersion = 2;  // it lacks the error of the map's turn
-constexpr std::uint64_t kMostSkipped = 1ULL << 28U;  // bytes, which take half a second
+constexpr std::uint64_t kMostSkipped = 1ULL << 28U;  // bytes, which take half a second.
+// A hall that is empty packs to a thousandth or less, so a map of the largest raster, of four bytes
+// a cell, is always read. More than that is no map unless its file is large, too.
+constexpr detail::UnpackLimits kLimits{detail::kUsualLimits.most,
+                                       4 * static_cast<std::uint64_t>(kMostCells)};
 constexpr std::size_t kBlockCells = 1U << 16U;
 constexpr std::uint32_t kLongestText = 1U << 16U;
 
@@ -260,7 +264,7 @@ namespace
 FeatureMap readSigmap(const std::filesystem::path& path)
 {
   detail::GzipInput input(path);
-  input.limitTo(detail::kUsualLimits);
+  input.limitTo(kLimits);
   char magic[kMagicSize] = {};
   const std::size_t got = input.Read(magic, kMagicSize);
   if (std::memcmp(magic, kMagic, std::max<std::size_t>(got, 1)) != 0) fail(path, "not a .sigmap");

@@ -177,7 +177,7 @@ std::vector<RankedPose> DenseVerifier::rank(const DenseScan& scan,
 
   // 4. Refine those that may win or be the runner-up on all returns, and all that tie. Equal places
   // end at equal poses, so each is scored where it ends, even if it scored better before. Plain
-  // weights are those of tracking: a place then scores no less than if it had been followed.
+  // weights are those of tracking: a place is then not scored lower than one that is followed.
   const double contender = std::max(bestScore(poses), bestScore(before)) - kContender;
   const double tied = std::max(bestScore(poses), bestScore(before)) - kTie;
   std::vector<TPose2D> settled;
