@@ -128,10 +128,7 @@ TEST(LargeFiles, WhatUnpacksToGigabytesIsRefusedOnTheWay)
   {
     writeBomb(folder / name, head);
     const std::string message = mapErrorOf(folder / name);
-    const bool text = std::string(name) == "m.csv.gz";
-    EXPECT_EQ(message,
-              (folder / name).string() +
-                  (text ? ": not a text file" : ": unpacks to more than 50 times its size"));
+    EXPECT_EQ(message, (folder / name).string() + ": unpacks to more than 50 times its size");
   }
   writeBomb(folder / "m.rawlog", unpacked(kLog, std::size_t{1} << 20U));
   EXPECT_EQ(messageOf<std::runtime_error>([&] { RawlogReader(folder / "m.rawlog"); }),

@@ -10,6 +10,7 @@
 #include "bridge/map_error.h"
 #include "bridge/rawlog_files.h"
 #include "io/archive/gzip_input.h"
+#include "io/archive/zstd_walk.h"
 #include "sigloc/io/RawlogReader.h"
 
 namespace sigloc
@@ -241,6 +242,68 @@ TEST(ZstdFiles, unpackedBytesAreLimitedByTheFilesSize)
   EXPECT_EQ(unpackedBytes(path, kSize / 4).size(), kSize) << "which is not packed";
   std::filesystem::resize_file(path, (std::uintmax_t{1} << 32U) + 1);  // takes no room on the disk
   EXPECT_THROW(unpackedBytes(path, kSize), std::runtime_error);
+}
+
+detail::PackedContents walkOver(const std::string& bytes)
+{
+  return detail::walkZstd(
+      [&bytes](std::uint64_t place, std::size_t count)
+      { return place < bytes.size() ? bytes.substr(place, count) : std::string(); });
+}
+
+TEST(ZstdFiles, aWalkOverTheHeadsTellsTheSizeAndWhatIsCutOff)
+{
+  for (const std::size_t size : {0U, 1U, 255U, 256U, 70000U, 1000000U})
+  {
+    const std::string frame = packed(noise(size));
+    EXPECT_EQ(walkOver(frame).least, size);
+    EXPECT_GE(walkOver(frame).most, size);
+    EXPECT_FALSE(walkOver(frame).cut_off);
+    const std::string more = frame + skippable(3, 20) + packed(std::string(size, '0'));
+    EXPECT_EQ(walkOver(more).least, 2 * size);
+    EXPECT_FALSE(walkOver(more).cut_off);
+    for (std::size_t end = 1; end < frame.size(); end += 1 + end / 3)
+      EXPECT_TRUE(walkOver(frame.substr(0, end)).cut_off) << end << " of " << size;
+  }
+  EXPECT_FALSE(walkOver(packed("a") + "no zstd").cut_off);
+}
+
+TEST(ZstdFiles, whatIsToldToUnpackToMuchIsRefusedBeforeAnythingIsRead)
+{
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder / "zeros";
+  constexpr std::size_t kSize = 1U << 20U;
+  writeText(path, packed(std::string(kSize, '0')));
+  detail::GzipInput input(path);
+  EXPECT_NO_THROW(input.limitTo({detail::kUsualLimits.most, kSize}));
+  EXPECT_THROW(input.limitTo({detail::kUsualLimits.most, kSize / 4}), std::runtime_error);
+  EXPECT_EQ(input.getPosition(), 0U);
+}
+
+TEST(ZstdFiles, whatUnpacksToTooMuchIsRefusedBeforeItIsRead)
+{
+  // A stream does not tell its size, and its zeros are packed blocks.
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder / "stream";
+  constexpr std::size_t kSize = 1U << 20U;
+  const std::string zeros(kSize / 2, '0');
+  ZSTD_CCtx* const context = ZSTD_createCCtx();
+  std::string out(2 * ZSTD_compressBound(kSize), '\0');
+  ZSTD_outBuffer to{out.data(), out.size(), 0};
+  for (const ZSTD_EndDirective end : {ZSTD_e_continue, ZSTD_e_end})
+  {
+    ZSTD_inBuffer from{zeros.data(), zeros.size(), 0};
+    ASSERT_EQ(ZSTD_isError(ZSTD_compressStream2(context, &to, &from, end)), 0U);
+  }
+  ZSTD_freeCCtx(context);
+  out.resize(to.pos);
+  writeText(path, out);
+  detail::GzipInput input(path);
+  EXPECT_NO_THROW(input.limitTo({detail::kUsualLimits.most, kSize}));
+  EXPECT_EQ(detail::restOf(input).size(), kSize);
+  detail::GzipInput again(path);
+  EXPECT_THROW(again.limitTo({detail::kUsualLimits.most, kSize / 4}), std::runtime_error);
+  EXPECT_EQ(again.getPosition(), 0U);
 }
 }  // namespace
 }  // namespace sigloc

@@ -104,7 +104,7 @@ void requireIntact(const std::filesystem::path& path, const UnpackLimits& limits
 {
   GzipInput input(path);
   if (input.isPlain()) return;  // it has no checksum
-  input.limitTo(limits);
+  input.limitTo(limits, false);
   input.skipToEnd(limits.most);
   if (input.isWrong()) fail(path, "damaged");
 }
@@ -138,10 +138,32 @@ GzipInput::GzipInput(const std::filesystem::path& path) : path_(path)
 
 GzipInput::~GzipInput() = default;
 
-void GzipInput::limitTo(const UnpackLimits& limits)
+void GzipInput::limitTo(const UnpackLimits& limits, bool at_once)
 {
   limits_ = limits;
-  requireWithin(std::max(unpacked_, file_->plain() ? file_->fileSize() : 0));
+  requireWithin(std::max(unpacked_, file_->contents().least));
+  if (at_once && file_->contents().most > allowed()) requireContentsWithin();
+}
+
+std::uint64_t GzipInput::allowed() const
+{
+  return std::min(limits_.most, std::max(limits_.always, limits_.ratio * file_->fileSize()));
+}
+
+/// Unpacks the file once and keeps nothing, so that memory is taken for none that holds too much.
+void GzipInput::requireContentsWithin() const
+{
+  const auto again = openPacked(path_, kBufferBytes);
+  if (!again) fail(path_, "cannot be opened");
+  std::vector<char> piece(kBufferBytes);
+  std::uint64_t unpacked = 0;
+  for (bool more = true; more;)
+  {
+    const unsigned got = again->read(piece.data(), kBufferBytes);
+    unpacked += got;
+    requireWithin(unpacked);
+    more = got == kBufferBytes;
+  }
 }
 
 void GzipInput::requireWithin(std::uint64_t bytes) const

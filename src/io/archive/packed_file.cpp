@@ -19,6 +19,7 @@ namespace sigloc::detail
 namespace
 {
 constexpr std::size_t kMostHeader = 18;  // bytes of a zstd frame's header
+constexpr std::uint64_t kMostOfGzip = 1032;  // times its size: what a byte unpacks to at most
 constexpr std::uint64_t kUsualRatio = 3;  // of logs
 constexpr int kMostWindow = 27;  // log2 of the bytes that unpacking zstd may take, as its program
 constexpr std::uint64_t kLeastBuffer = 4096;
@@ -125,7 +126,9 @@ class PlainFile final : public PackedFile
 {
  public:
   PlainFile(File file, unsigned buffer)
-      : PackedFile(file.size(), file.size()), file_(std::move(file)), buffer_(buffer)
+      : PackedFile(file.size(), file.size(), {file.size(), file.size(), false}),
+        file_(std::move(file)),
+        buffer_(buffer)
   {
   }
 
@@ -160,7 +163,8 @@ class GzipFile final : public PackedFile
 {
  public:
   GzipFile(File file, std::uint64_t unpacked_size, unsigned buffer)
-      : PackedFile(file.size(), unpacked_size), file_(gzdopen(file.release(), "rb"))
+      : PackedFile(file.size(), unpacked_size, {0, kMostOfGzip * file.size(), false}),
+        file_(gzdopen(file.release(), "rb"))
   {
     gzbuffer(file_, buffer);  // it takes three times this
   }
@@ -194,7 +198,9 @@ class ZstdFile final : public PackedFile
 {
  public:
   ZstdFile(File file, std::uint64_t unpacked_size, unsigned buffer)
-      : PackedFile(file.size(), unpacked_size),
+      : PackedFile(file.size(), unpacked_size,
+                   walkZstd([&file](std::uint64_t place, std::size_t count)
+                            { return file.bytesAt(place, count); })),
         file_(std::move(file)),
         buffer_(buffer),
         stream_(ZSTD_createDStream())

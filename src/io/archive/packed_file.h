@@ -7,6 +7,8 @@
 #include <memory>
 #include <string_view>
 
+#include "io/archive/zstd_walk.h"
+
 namespace sigloc::detail
 {
 /// The contents of a file that may be compressed, front to back: by gzip, by zstd, as MRPT does by
@@ -14,8 +16,8 @@ namespace sigloc::detail
 class PackedFile
 {
  public:
-  PackedFile(std::uint64_t file_size, std::uint64_t unpacked_size)
-      : file_size_(file_size), unpacked_size_(unpacked_size)
+  PackedFile(std::uint64_t file_size, std::uint64_t unpacked_size, const PackedContents& contents)
+      : file_size_(file_size), unpacked_size_(unpacked_size), contents_(contents)
   {
   }
   virtual ~PackedFile() = default;
@@ -32,10 +34,13 @@ class PackedFile
   std::uint64_t fileSize() const { return file_size_; }
   /// Bytes that the file holds when unpacked; a guess for one that is truncated or does not tell.
   std::uint64_t unpackedSize() const { return unpacked_size_; }
+  /// What is known of the contents at once. Of gzip that is little.
+  const PackedContents& contents() const { return contents_; }
 
  private:
   std::uint64_t file_size_;
   std::uint64_t unpacked_size_;
+  PackedContents contents_;
 };
 
 /// True for bytes that begin a file compressed by gzip or zstd: four or more of them.

@@ -268,6 +268,7 @@ FeatureMap readSigmap(const std::filesystem::path& path)
   char magic[kMagicSize] = {};
   const std::size_t got = input.Read(magic, kMagicSize);
   if (std::memcmp(magic, kMagic, std::max<std::size_t>(got, 1)) != 0) fail(path, "not a .sigmap");
+  if (input.isCutOff()) fail(path, "truncated or damaged");
   std::string reason;
   try
   {
