@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <zstd.h>
 
+#include <algorithm>
 #include <random>
 
 #include "bridge/map_error.h"
@@ -266,6 +267,21 @@ TEST(ZstdFiles, aWalkOverTheHeadsTellsTheSizeAndWhatIsCutOff)
       EXPECT_TRUE(walkOver(frame.substr(0, end)).cut_off) << end << " of " << size;
   }
   EXPECT_FALSE(walkOver(packed("a") + "no zstd").cut_off);
+}
+
+TEST(ZstdFiles, aWalkOverAHoleEnds)
+{
+  const std::string head("(\xb5/\xfd\0X", 6);  // zeros are blocks of nothing from here on
+  std::uint64_t farthest = 0;
+  const auto contents = detail::walkZstd(
+      [&](std::uint64_t place, std::size_t count)
+      {
+        farthest = std::max(farthest, place + count);
+        return place == 0 ? head + std::string(count - head.size(), '\0')
+                          : std::string(count, '\0');
+      });
+  EXPECT_FALSE(contents.cut_off);
+  EXPECT_LT(farthest, detail::kMostWithoutOutput + (1U << 16U));
 }
 
 TEST(ZstdFiles, whatIsToldToUnpackToMuchIsRefusedBeforeAnythingIsRead)

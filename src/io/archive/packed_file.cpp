@@ -23,8 +23,6 @@ constexpr std::uint64_t kMostOfGzip = 1032;  // times its size: what a byte unpa
 constexpr std::uint64_t kUsualRatio = 3;  // of logs
 constexpr int kMostWindow = 27;  // log2 of the bytes that unpacking zstd may take, as its program
 constexpr std::uint64_t kLeastBuffer = 4096;
-// A hole in a file may be read as blocks of nothing, for ever. Frames that are skipped are shorter.
-constexpr std::uint64_t kMostWithoutOutput = 1U << 24U;  // bytes
 
 /// An open file. Opened once, it is the same file for all that looks at it.
 class File

@@ -104,13 +104,17 @@ void walkFrame(PackedBytes& bytes, PackedContents& contents)
   if (told > kMostTold) throw WalkDamaged();
 
   const std::uint64_t before = contents.least;
+  std::uint64_t without_output = 0;
   for (bool last = false; !last;)
   {
     const std::uint64_t head = bytes.number(3);
     last = (head & 1U) != 0;
     const std::uint64_t type = head >> 1U & 3U;
     const std::uint64_t size = head >> 3U;
-    if (type > compressed || size > kMostOfBlock) throw WalkDamaged();
+    constexpr std::uint64_t kHeadBytes = 3;
+    without_output = size > 0 ? 0 : without_output + kHeadBytes;
+    if (type > compressed || size > kMostOfBlock || without_output > kMostWithoutOutput)
+      throw WalkDamaged();
     bytes.skip(type == repeated ? 1 : size);
     contents.least += type == compressed ? 0 : size;
     contents.most += type == compressed ? kMostOfBlock : size;

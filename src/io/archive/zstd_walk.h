@@ -20,6 +20,10 @@ struct PackedContents
   bool cut_off = false;  ///< it ends within a frame
 };
 
+/// A hole in a file may be read as blocks of nothing, for ever. So many bytes without output are
+/// damage. Frames that are skipped are shorter.
+constexpr std::uint64_t kMostWithoutOutput = 1U << 24U;
+
 /// Walks over the heads of all frames and blocks of zstd (RFC 8878, section 3.1) and unpacks none,
 /// so a hostile file costs neither memory nor time. Sizes end where the walk meets damage, which
 /// unpacking will tell of.
