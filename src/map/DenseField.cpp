@@ -94,42 +94,73 @@ std::vector<std::int16_t> columnOffsets(const OccupancyRaster& raster, std::int3
   return offsets;
 }
 
-/// Returns for every wall cell the vector [m] from its middle to the ridge of its wall, which is
-/// the mean of the hits in the wall cells around. Noise makes mapped walls several cells thick, and
-/// the ridge is where most hits were. Eq. (6.12)
-std::vector<TPoint2Df> wallRidges(const OccupancyRaster& raster)
+/// The ridges of walls, row by row: no more rows are kept than a distance reaches.
+class RidgeRows
 {
-  const double resolution = raster.frame.resolution;
-  const auto width = static_cast<std::int32_t>(raster.frame.width);
-  const auto height = static_cast<std::int32_t>(raster.frame.height);
-  const std::int32_t radius = ridgeRadius(resolution);
-  const auto at = [&](std::int32_t x, std::int32_t y)
-  { return static_cast<std::size_t>(y) * raster.frame.width + static_cast<std::size_t>(x); };
-  std::vector<TPoint2Df> ridges(raster.cells.size());
-  for (std::int32_t y = 0; y < height; ++y)
+ public:
+  /// The raster must outlive it. A ridge can be asked for up to `reach` rows from the last one.
+  RidgeRows(const OccupancyRaster& raster, std::int32_t reach)
+      : raster_(raster),
+        width_(static_cast<std::int32_t>(raster.frame.width)),
+        height_(static_cast<std::int32_t>(raster.frame.height)),
+        kept_(2 * reach + 1),
+        reach_(reach),
+        ridges_(raster.frame.width * static_cast<std::size_t>(std::min(kept_, height_)))
   {
-    for (std::int32_t x = 0; x < width; ++x)
+  }
+
+  /// Goes on to row y. Rows must be visited in order.
+  void advanceTo(std::int32_t y)
+  {
+    for (; made_ < std::min(y + reach_ + 1, height_); ++made_)
     {
-      if (!isWall(raster.cells[at(x, y)])) continue;
-      std::int32_t sum = 0;
-      TPoint2D moment(0, 0);
-      for (std::int32_t j = std::max(-radius, -y); j <= std::min(radius, height - 1 - y); ++j)
+      for (std::int32_t x = 0; x < width_; ++x)
       {
-        for (std::int32_t i = std::max(-radius, -x); i <= std::min(radius, width - 1 - x); ++i)
-        {
-          const std::size_t beside = at(x + i, y + j);
-          if (!isWall(raster.cells[beside])) continue;
-          const WallHits hits = raster.hits.empty() ? WallHits{} : raster.hits[beside];
-          sum += hits.weight;
-          moment += TPoint2D(i + WallHits::kUnit * hits.x, j + WallHits::kUnit * hits.y) *
-                    static_cast<double>(hits.weight);
-        }
+        if (isWall(raster_.cells[cellOf(x, made_)])) ridges_[placeOf(x, made_)] = ridgeAt(x, made_);
       }
-      ridges[at(x, y)] = TPoint2Df(moment * (resolution / sum));
     }
   }
-  return ridges;
-}
+
+  /// Returns the vector [m] from the middle of the wall cell (x, y) to the ridge of its wall.
+  const TPoint2Df& at(std::int32_t x, std::int32_t y) const { return ridges_[placeOf(x, y)]; }
+
+ private:
+  std::size_t cellOf(std::int32_t x, std::int32_t y) const
+  {
+    return static_cast<std::size_t>(y) * raster_.frame.width + static_cast<std::size_t>(x);
+  }
+  std::size_t placeOf(std::int32_t x, std::int32_t y) const { return cellOf(x, y % kept_); }
+
+  /// The ridge is the mean of the hits in the wall cells around. Noise makes mapped walls several
+  /// cells thick, and the ridge is where most hits were. Eq. (6.12)
+  TPoint2Df ridgeAt(std::int32_t x, std::int32_t y) const
+  {
+    const std::int32_t radius = ridgeRadius(raster_.frame.resolution);
+    std::int32_t sum = 0;
+    TPoint2D moment(0, 0);
+    for (std::int32_t j = std::max(-radius, -y); j <= std::min(radius, height_ - 1 - y); ++j)
+    {
+      for (std::int32_t i = std::max(-radius, -x); i <= std::min(radius, width_ - 1 - x); ++i)
+      {
+        const std::size_t beside = cellOf(x + i, y + j);
+        if (!isWall(raster_.cells[beside])) continue;
+        const WallHits hits = raster_.hits.empty() ? WallHits{} : raster_.hits[beside];
+        sum += hits.weight;
+        moment += TPoint2D(i + WallHits::kUnit * hits.x, j + WallHits::kUnit * hits.y) *
+                  static_cast<double>(hits.weight);
+      }
+    }
+    return TPoint2Df(moment * (raster_.frame.resolution / sum));
+  }
+
+  const OccupancyRaster& raster_;
+  std::int32_t width_;
+  std::int32_t height_;
+  std::int32_t kept_;
+  std::int32_t reach_;
+  std::int32_t made_ = 0;  // rows so far
+  std::vector<TPoint2Df> ridges_;
+};
 
 /// The lower envelope of parabolas over one row, which gives the exact nearest wall cell within the
 /// radius.
@@ -208,7 +239,7 @@ DenseField buildDenseField(const OccupancyRaster& raster)
   field.cells.resize(raster.cells.size());
 
   const std::vector<std::int16_t> offsets = columnOffsets(raster, radius);
-  const std::vector<TPoint2Df> ridges = wallRidges(raster);
+  RidgeRows ridges(raster, radius);
   RowEnvelope envelope(raster.frame.width);
   std::vector<std::int32_t> nearest(raster.frame.width);
   std::size_t free_cells = 0;
@@ -216,6 +247,7 @@ DenseField buildDenseField(const OccupancyRaster& raster)
   {
     const std::size_t row = y * raster.frame.width;
     envelope.solve(&offsets[row], width, nearest);
+    ridges.advanceTo(static_cast<std::int32_t>(y));
     for (std::int32_t x = 0; x < width; ++x)
     {
       const auto column = static_cast<std::size_t>(x);
@@ -231,9 +263,7 @@ DenseField buildDenseField(const OccupancyRaster& raster)
       const double distance = resolution * std::sqrt(static_cast<double>(dx * dx + dy * dy));
       const auto units = std::lround(distance / DenseField::kDistanceUnit);
       cell = DenseCell(state, static_cast<std::uint8_t>(units));
-      const TPoint2Df& ridge =
-          ridges[static_cast<std::size_t>(static_cast<std::int32_t>(y) + dy) * raster.frame.width +
-                 static_cast<std::size_t>(nearest[column])];
+      const TPoint2Df& ridge = ridges.at(nearest[column], static_cast<std::int32_t>(y) + dy);
       cell.dx = offsetByte(dx * resolution + static_cast<double>(ridge.x));
       cell.dy = offsetByte(dy * resolution + static_cast<double>(ridge.y));
     }

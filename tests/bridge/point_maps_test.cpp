@@ -198,6 +198,26 @@ TEST(PointMaps, PointsThatLieFarApartGetCoarserCells)
   EXPECT_EQ(rasterIn(folder / "m.txt").frame.resolution, 0.2);
 }
 
+TEST(PointMaps, PlacesWithWallsToOneSideOnlyAreNotFree)
+{
+  const TemporaryFolder folder;
+  // Two walls with a corridor between them, and a third one that is far from both.
+  std::string rows = "x y z\n";
+  for (int i = 0; i < 2000; ++i)
+  {
+    const std::string at = std::to_string(0.04 * i);
+    rows += at + " 0 1\n" + at + " 3 1\n" + at + " 80 1\n";
+  }
+  writeText(folder / "m.txt", rows);
+  const OccupancyRaster raster = rasterIn(folder / "m.txt");
+  for (const float x : {10.0F, 40.0F, 70.0F})
+  {
+    EXPECT_EQ(stateAt(raster, x, 1.5F), CellState::free) << x;
+    for (const float y : {4.5F, 30.0F, 45.0F, 78.5F})
+      EXPECT_EQ(stateAt(raster, x, y), CellState::unknown) << x << " " << y;
+  }
+}
+
 TEST(PointMaps, RowsThatAreFarApartStayLandmarks)
 {
   const TemporaryFolder folder;

@@ -158,12 +158,92 @@ bool areLines(const std::vector<Hit>& hits, std::size_t width)
   return static_cast<double>(linked) >= kMost * static_cast<double>(walls.size());
 }
 
+constexpr double kBlock = 0.4;  // [m] side of the blocks that are guessed to be free or not
+constexpr double kRange = 30;  // [m] how far from a place its walls may be
+
+/// The blocks of cells that are guessed to be free or not, each by its middle.
+class Blocks
+{
+ public:
+  Blocks(const std::vector<Hit>& hits, const RasterFrame& frame)
+      : half_(static_cast<std::uint32_t>(std::lround(kBlock / 2 / frame.resolution))),
+        reach_(static_cast<std::uint32_t>(kRange / (half_ * frame.resolution)) + 2),
+        columns_((frame.width + half_ - 1) / half_),
+        rows_((frame.height + half_ - 1) / half_),
+        sums_(std::size_t{columns_ + 1} * (rows_ + 1))
+  {
+    for (const Hit& hit : hits)
+    {
+      const auto x = static_cast<std::uint32_t>(hit.cell % frame.width);
+      const auto y = static_cast<std::uint32_t>(hit.cell / frame.width);
+      ++sums_[indexOf(x / half_ + 1, y / half_ + 1)];
+    }
+    for (std::uint32_t y = 1; y <= rows_; ++y)
+    {
+      for (std::uint32_t x = 1; x <= columns_; ++x)
+      {
+        sums_[indexOf(x, y)] +=
+            sums_[indexOf(x - 1, y)] + sums_[indexOf(x, y - 1)] - sums_[indexOf(x - 1, y - 1)];
+      }
+    }
+  }
+
+  std::uint32_t side() const { return 2 * half_; }  // [cells]
+  std::uint32_t columns() const { return columns_ / 2; }  // whose middle is in the frame
+  std::uint32_t rows() const { return rows_ / 2; }
+
+  /// Returns whether there are walls to each of the four sides of a block's middle. Without them,
+  /// the rays to one side all meet none.
+  bool hasWallsAround(std::uint32_t column, std::uint32_t row) const
+  {
+    const std::uint32_t x = 2 * column + 1;
+    const std::uint32_t y = 2 * row + 1;
+    const std::uint32_t left = x - std::min(x, reach_);
+    const std::uint32_t below = y - std::min(y, reach_);
+    const std::uint32_t right = std::min(x + reach_, columns_);
+    const std::uint32_t above = std::min(y + reach_, rows_);
+    return anyIn(left, x, below, above) && anyIn(x, right, below, above) &&
+           anyIn(left, right, below, y) && anyIn(left, right, y, above);
+  }
+
+  /// Returns whether a place has walls around it.
+  bool anyHasWallsAround() const
+  {
+    for (std::uint32_t row = 0; row < rows(); ++row)
+    {
+      for (std::uint32_t column = 0; column < columns(); ++column)
+      {
+        if (hasWallsAround(column, row)) return true;
+      }
+    }
+    return false;
+  }
+
+ private:
+  std::size_t indexOf(std::uint32_t x, std::uint32_t y) const
+  {
+    return std::size_t{y} * (columns_ + 1) + x;
+  }
+  bool anyIn(std::uint32_t left, std::uint32_t right, std::uint32_t below,
+             std::uint32_t above) const
+  {
+    return sums_[indexOf(right, above)] + sums_[indexOf(left, below)] !=
+           sums_[indexOf(left, above)] + sums_[indexOf(right, below)];
+  }
+
+  // Walls are counted in squares of half a side, so that a middle is a corner of four.
+  std::uint32_t half_;  // [cells]
+  std::uint32_t reach_;  // [squares] of a ray
+  std::uint32_t columns_;
+  std::uint32_t rows_;
+  std::vector<std::uint32_t> sums_;  // walls in all squares to the left and below
+};
+
 /// Returns whether a place is among walls: most rays from it meet one.
 bool isEnclosed(const RayCaster& caster, const TPoint2D& place)
 {
   constexpr int kRays = 24;
-  constexpr int kMostOpen = 10;
-  constexpr double kRange = 30;  // [m]
+  constexpr int kMostOpen = 10;  // fewer than go to one side
   int open = 0;
   int closed = 0;
   for (int i = 0; open <= kMostOpen && closed < kRays - kMostOpen; ++i)
@@ -173,25 +253,27 @@ bool isEnclosed(const RayCaster& caster, const TPoint2D& place)
   return open <= kMostOpen;
 }
 
-/// Makes free what is guessed to be: by blocks of cells, each by its middle.
-void guessFreeSpace(OccupancyRaster& raster)
+/// Makes free what is guessed to be, each block by its middle.
+void guessFreeSpace(const Blocks& blocks, OccupancyRaster& raster)
 {
-  constexpr double kBlock = 0.4;  // [m]
   const DenseField field = buildDenseField(raster);
   const RayCaster caster(field);
   const RasterFrame& frame = raster.frame;
-  const auto block = static_cast<std::uint32_t>(std::lround(kBlock / frame.resolution));
-  for (std::uint32_t y0 = 0; y0 < frame.height; y0 += block)
+  const std::uint32_t side = blocks.side();
+  for (std::uint32_t row = 0; row < blocks.rows(); ++row)
   {
-    for (std::uint32_t x0 = 0; x0 < frame.width; x0 += block)
+    for (std::uint32_t column = 0; column < blocks.columns(); ++column)
     {
-      const TPoint2D middle(frame.origin.x + (x0 + 0.5 * block) * frame.resolution,
-                            frame.origin.y + (y0 + 0.5 * block) * frame.resolution);
+      if (!blocks.hasWallsAround(column, row)) continue;
+      const std::uint32_t x0 = column * side;
+      const std::uint32_t y0 = row * side;
+      const TPoint2D middle(frame.origin.x + (x0 + 0.5 * side) * frame.resolution,
+                            frame.origin.y + (y0 + 0.5 * side) * frame.resolution);
       const DenseCell* const cell = cellAt(field, middle);
       if (cell == nullptr || isWall(cell->state()) || !isEnclosed(caster, middle)) continue;
-      for (std::uint32_t y = y0; y < std::min(y0 + block, frame.height); ++y)
+      for (std::uint32_t y = y0; y < std::min(y0 + side, frame.height); ++y)
       {
-        for (std::uint32_t x = x0; x < std::min(x0 + block, frame.width); ++x)
+        for (std::uint32_t x = x0; x < std::min(x0 + side, frame.width); ++x)
         {
           CellState& state = raster.cells[std::size_t{y} * frame.width + x];
           if (state == CellState::unknown) state = CellState::free;
@@ -224,8 +306,10 @@ OccupancyRaster rasterOfPoints(const PointList& points, const ReadingOptions& re
          fmt::format("{} points scattered over {:.0f} m x {:.0f} m, which make no walls",
                      kept.size(), frame.width * frame.resolution, frame.height * frame.resolution));
   }
+  const Blocks blocks(hits, frame);
+  if (!blocks.anyHasWallsAround()) fail(path, "the grid has no free cell");
   OccupancyRaster raster = wallsOf(hits, frame);
-  guessFreeSpace(raster);
+  guessFreeSpace(blocks, raster);
   return raster;
 }
 }  // namespace sigloc::detail
