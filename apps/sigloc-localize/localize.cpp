@@ -29,8 +29,9 @@ constexpr const char* kDefaultsHeader =
     "# The tracker is chosen in pf-localization's section [LocalizationExperiment]:\n"
     "# tracker = gaussians ([sigloc.tracker]), or particles ([sigloc.particles])\n";
 
-/// Runs once, adding to `outcomes`; returns the exit code.
-int localize(const sigloc::LocalizationSetup& setup, bool quiet,
+/// Runs once, adding to `outcomes`; returns the exit code. Prints what is held once the run has
+/// begun.
+int localize(const sigloc::LocalizationSetup& setup, bool quiet, sigloc::HeldWarnings& held,
              std::vector<sigloc::ExperimentOutcome>& outcomes)
 {
   std::optional<sigloc::RunWriter> writer;
@@ -39,6 +40,7 @@ int localize(const sigloc::LocalizationSetup& setup, bool quiet,
   sigloc::LocalizationRun run(setup, sigloc::mapCacheFile(setup.map_file),
                               [&](double share) { progress.showMap(share); });
   progress.finish();
+  held.print(kProgram);
   if (!run.summary().map_reused)
     sigloc::warn(kProgram, setup.map_file, sigloc::warningOfMapSource(setup.map_file));
   sigloc::warn(kProgram, setup.map_file, sigloc::warningOfMap(run.map()));
@@ -135,8 +137,7 @@ int runAll(const sigloc::LocalizeArguments& arguments)
 {
   sigloc::LocalizationSetup setup = setupOf(arguments);
   sigloc::requireMapAndLog(setup);
-  for (const std::string& warning : setup.warnings)
-    sigloc::warn(kProgram, arguments.config, warning);
+  sigloc::HeldWarnings held(arguments.config, setup.warnings);
   if (arguments.output) setup.output_folder = *arguments.output;
   setup.reading = arguments.reading.in({setup.map_file}, setup.reading);
   if (arguments.seed) setup.matcher.seed = *arguments.seed;
@@ -149,7 +150,7 @@ int runAll(const sigloc::LocalizeArguments& arguments)
     std::vector<sigloc::ExperimentOutcome> outcomes;
     for (const auto& run : experiment)
     {
-      exit_code = std::max(exit_code, localize(run, arguments.quiet, outcomes));
+      exit_code = std::max(exit_code, localize(run, arguments.quiet, held, outcomes));
     }
     summary += sigloc::experimentSummary(outcomes, setup.confidence_share);
   }

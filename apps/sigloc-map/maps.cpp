@@ -101,8 +101,8 @@ void build(const sigloc::MapArguments& arguments)
   sigloc::LocalizationSetup setup;
   if (!config.empty()) setup = sigloc::readOptionSections(config);
   setup.reading = arguments.reading.in({input}, setup.reading);
-  for (const std::string& warning : setup.warnings) sigloc::warn(kProgram, config, warning);
   const sigloc::FeatureMap map = anyMap(input, setup);
+  sigloc::HeldWarnings(config, setup.warnings).print(kProgram);
   sigloc::saveSigmap(map, output);
   std::cout << output.string() << ": " << map.features().size() << " features\n";
 }

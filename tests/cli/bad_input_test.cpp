@@ -180,6 +180,26 @@ TEST(BadInput, unknownKeyIsNamed)
   EXPECT_NE(result.errors.find("max_hypothesis"), std::string::npos) << result.errors;
 }
 
+TEST(BadInput, aWarningIsNotSaidBeforeAnError)
+{
+  const TemporaryFolder folder;
+  const std::string twice = "logOutputdir = x\n[sigloc.map]\nmerge_gap = 1\nmerge_gap = 2\n";
+  writeText(folder / "bad.rawlog", "no rawlog");
+  writeConfig(folder, kLabMap.string(), (folder / "bad.rawlog").string(), twice);
+  writeText(folder / "bad.simplemap", "no map");
+  const auto before = listing(folder);
+  expectRefused(folder, before, localize(folder), "bad.rawlog");
+  const Arguments build = {"build", "-i", "bad.simplemap", "-o", "m.sigmap", "--config", "run.ini"};
+  expectRefused(folder, before, run(folder, "sigloc-map", build), "bad.simplemap");
+  // Of sound inputs they are said, and once, however many runs there are.
+  writeConfig(folder, kLabMap.string(), kLabLog.string(),
+              "experimentRepetitions = 2\nlogOutputdir = x\n");
+  const auto sound = run(folder, "sigloc-localize", {"run.ini", "--quiet"});
+  EXPECT_EQ(sound.exit_code, 0);
+  EXPECT_EQ(countLines(sound.errors), 1) << sound.errors;
+  EXPECT_NE(sound.errors.find("logOutputdir"), std::string::npos) << sound.errors;
+}
+
 TEST(BadInput, unknownSectionIsNamed)
 {
   const TemporaryFolder folder;
