@@ -7,6 +7,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "geometry/cell_key.h"
+
 namespace sigloc
 {
 namespace
@@ -68,6 +70,14 @@ std::optional<std::string> flawOf(const Feature& feature, std::size_t count)
     return fmt::format("has the parent {}, and there are {} features", feature.parent, count);
   }
   return std::nullopt;
+}
+
+std::optional<std::string> Crowding::add(const Feature& feature)
+{
+  const auto cell = [](double at) { return static_cast<std::int64_t>(std::floor(at / kSide)); };
+  std::uint32_t& count = counts_[cellKey(cell(feature.position.x), cell(feature.position.y))];
+  if (++count <= kMost) return std::nullopt;
+  return fmt::format("has more than {} others within {:g} m x {:g} m", kMost, kSide, kSide);
 }
 
 double outlineLength(const Feature& feature)

@@ -38,6 +38,12 @@ void writeLarge(const fs::path& path, const std::string& head)
   fs::resize_file(path, kSize);
 }
 
+template <class T>
+void appendValue(std::string& bytes, T value)
+{
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof(T));
+}
+
 std::string unpacked(const fs::path& path, std::size_t most)
 {
   detail::GzipInput input(path);
@@ -46,13 +52,13 @@ std::string unpacked(const fs::path& path, std::size_t most)
   return bytes;
 }
 
-/// Writes some bytes and 600 MB of zeros, packed by gzip.
-void writeBomb(const fs::path& path, const std::string& head)
+/// Writes some bytes and so many MB of zeros, packed by gzip.
+void writeBomb(const fs::path& path, const std::string& head, int megabytes = 600)
 {
   mrpt::io::CFileGZOutputStream file(path.string(), mrpt::io::OpenMode::TRUNCATE, 1);
   file.Write(head.data(), head.size());
   const std::string zeros(std::size_t{1} << 20U, '\0');
-  for (int i = 0; i < 600; ++i) file.Write(zeros.data(), zeros.size());
+  for (int i = 0; i < megabytes; ++i) file.Write(zeros.data(), zeros.size());
 }
 
 TEST(LargeFiles, AreRefusedByTheirBeginningOrSize)
@@ -133,6 +139,36 @@ TEST(LargeFiles, WhatUnpacksToGigabytesIsRefusedOnTheWay)
   writeBomb(folder / "m.rawlog", unpacked(kLog, std::size_t{1} << 20U));
   EXPECT_EQ(messageOf<std::runtime_error>([&] { RawlogReader(folder / "m.rawlog"); }),
             (folder / "m.rawlog").string() + ": unpacks to more than 50 times its size");
+  EXPECT_LT(peak() - before, 150000) << "[kB]";
+}
+
+TEST(LargeFiles, ASigmapOfGzipIsSoundToItsEndBeforeItIsRead)
+{
+  const TemporaryFolder folder;
+  // A map without a feature, with a field of a frame that is stored whole.
+  std::string head = "sigloc-map\n\3" + std::string(12 + 4 * 8 + 4, '\0') + "\1";
+  for (const double value : {0.0, 0.0, 0.05}) appendValue(head, value);
+  for (const std::uint32_t side : {8192U, 8192U}) appendValue(head, side);
+  appendValue(head, 0.0);
+  appendValue(head, std::uint32_t{0});
+  const long before = peak();
+  writeBomb(folder / "m.sigmap", head, 256);
+  fs::resize_file(folder / "m.sigmap", fs::file_size(folder / "m.sigmap") - 6);
+  EXPECT_EQ(mapErrorOf(folder / "m.sigmap"),
+            (folder / "m.sigmap").string() + ": truncated or damaged");
+  EXPECT_LT(peak() - before, 150000) << "[kB]";
+}
+
+TEST(LargeFiles, AGridOfCellsThatAreAlikeIsRefusedBeforeItIsRead)
+{
+  const TemporaryFolder folder;
+  std::string head = "\x9fmrpt::maps::COccupancyGridMap2D\6\b";
+  for (const std::uint32_t side : {16384U, 16384U}) appendValue(head, side);
+  for (const float bound : {0.0F, 16384.0F, 0.0F, 16384.0F, 1.0F}) appendValue(head, bound);
+  const long before = peak();
+  writeBomb(folder / "m.gridmap", head, 256);
+  EXPECT_EQ(mapErrorOf(folder / "m.gridmap"),
+            (folder / "m.gridmap").string() + ": all cells of its grid are alike");
   EXPECT_LT(peak() - before, 150000) << "[kB]";
 }
 

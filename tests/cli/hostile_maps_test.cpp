@@ -124,6 +124,13 @@ std::vector<HostileMap> hostileMaps()
          m.announced = 200;
        },
        "m long together"},
+      {"crowd",
+       [](M& m)
+       {
+         m.features.assign(1001, WrittenFeature{0, 0, 0, 0, 1, 1, 0, 0});
+         m.announced = 1001;
+       },
+       "feature 1000 has more than 1000 others within 5 m x 5 m"},
       {"turned_beyond", [](M& m) { m.features[0].direction = 1e300; }, "has the direction"},
       {"turned_nowhere", [](M& m) { m.features[0].direction = kNan; }, "has the direction"},
       {"place_nowhere", [](M& m) { m.features[0].x = kNan; }, "has the position"},
@@ -189,6 +196,22 @@ TEST(HostileMap, IsRefusedInOneLineWithFileAndReason)
     EXPECT_NE(result.errors.find(hostile.reason), std::string::npos) << result.errors;
     EXPECT_EQ(listing(folder), before) << name;
   }
+}
+
+TEST(HostileMap, LandmarksInOnePlaceAreRefused)
+{
+  const TemporaryFolder folder;
+  std::string rows;
+  for (int i = 0; i < 1000; ++i) rows += "1,2\n";
+  writeText(folder / "crowd.csv", "x,y\n" + rows + "6,2\n");
+  const Arguments build = {"build", "-i", "crowd.csv", "-o", "m.sigmap"};
+  EXPECT_EQ(runBounded(folder, build).exit_code, 0);
+  writeText(folder / "crowd.csv", "x,y\n" + rows + "1.5,2.5\n");
+  const auto result = runBounded(folder, build);
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_NE(result.errors.find("crowd.csv: line 1002: a landmark that has more than 1000 others"),
+            std::string::npos)
+      << result.errors;
 }
 
 TEST(HostileMap, DecimalCommasAreNotTakenForColumns)

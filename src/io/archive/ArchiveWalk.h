@@ -88,6 +88,13 @@ class ArchiveWalk
     return value;
   }
 
+  /// Bytes that come next, and are not skipped.
+  std::string_view peeked(std::size_t bytes)
+  {
+    need(bytes);
+    return ahead_.substr(at_, bytes);
+  }
+
   /// A truth value as MRPT writes it.
   bool flag() { return value<std::uint8_t>() != 0; }
 
@@ -128,6 +135,7 @@ class ArchiveWalk
   void simplemap(int version);
   void optionalTwist();
   void gridMap(int version);
+  void gridCells(std::size_t count, std::size_t bytes);
   void mapParameters(int version);
 
   /// A change that makes an object older, in bytes from where the walk began.

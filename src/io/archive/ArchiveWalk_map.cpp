@@ -5,7 +5,10 @@
 #include <fmt/core.h>
 #include <mrpt/maps/COccupancyGridMap2D.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
+#include <string_view>
 
 #include "io/archive/ArchiveWalk.h"
 #include "map/map_values.h"
@@ -78,7 +81,7 @@ void ArchiveWalk::gridMap(int version)
     throw Unsound(fmt::format("a raster of {} x {} cells that spans {:g} m x {:g} m", width, height,
                               x_max - x_min, y_max - y_min));
   }
-  skip(std::size_t{width} * height * static_cast<std::size_t>(bits / 8));
+  gridCells(std::size_t{width} * height, static_cast<std::size_t>(bits / 8));
   if (version == 0) return;
   constexpr std::size_t kInsertionOptions = 20;
   constexpr std::size_t kLikelihoodOptions = 58;
@@ -88,6 +91,26 @@ void ArchiveWalk::gridMap(int version)
   version >= 6 ? object(only(ArchivePart::map_parameters)) : skip(1);
   if (version >= 4) floats(2);
   if (version >= 5) skip(1);
+}
+
+/// Throws Unsound for a grid that holds nothing, before memory is taken for it: such grids pack
+/// best.
+void ArchiveWalk::gridCells(std::size_t count, std::size_t bytes)
+{
+  constexpr std::size_t kPiece = 1U << 16U;  // cells
+  const std::string first(peeked(bytes));
+  bool alike = true;
+  for (std::size_t left = count; left > 0;)
+  {
+    const std::size_t n = std::min(left, kPiece);
+    const std::string_view cells = peeked(n * bytes);
+    // Cells are alike where each equals the one before it.
+    alike = alike && cells.substr(0, bytes) == first &&
+            cells.substr(bytes) == cells.substr(0, cells.size() - bytes);
+    skip(n * bytes);
+    left -= n;
+  }
+  if (alike) throw Unsound("all cells of its grid are alike");
 }
 
 void ArchiveWalk::mapParameters(int)

@@ -142,7 +142,7 @@ void GzipInput::limitTo(const UnpackLimits& limits, bool at_once)
 {
   limits_ = limits;
   requireWithin(std::max(unpacked_, file_->contents().least));
-  if (at_once && file_->contents().most > allowed()) requireContentsWithin();
+  if (at_once && file_->contents().most > allowed()) static_cast<void>(isWhole());
 }
 
 std::uint64_t GzipInput::allowed() const
@@ -150,8 +150,7 @@ std::uint64_t GzipInput::allowed() const
   return std::min(limits_.most, std::max(limits_.always, limits_.ratio * file_->fileSize()));
 }
 
-/// Unpacks the file once and keeps nothing, so that memory is taken for none that holds too much.
-void GzipInput::requireContentsWithin() const
+bool GzipInput::isWhole() const
 {
   const auto again = openPacked(path_, kBufferBytes);
   if (!again) fail(path_, "cannot be opened");
@@ -164,6 +163,7 @@ void GzipInput::requireContentsWithin() const
     requireWithin(unpacked);
     more = got == kBufferBytes;
   }
+  return !again->broken();
 }
 
 void GzipInput::requireWithin(std::uint64_t bytes) const

@@ -58,6 +58,9 @@ class GzipInput final : public mrpt::io::CStream
   /// a file that is not compressed, or whose zstd tells it, that is known at once.
   /// Of a packed file that may hold more it is found out `at_once`, at the cost of unpacking it.
   void limitTo(const UnpackLimits& limits, bool at_once = true);
+  /// Unpacks the file once and keeps nothing, so that memory is taken for none that holds more than
+  /// its limits. Returns whether it is whole.
+  bool isWhole() const;
   /// Returns the bytes read, fewer than `count` at the end or where the file is damaged.
   std::size_t Read(void* buffer, std::size_t count) override;
   /// True when not one more byte can be read.
@@ -66,8 +69,8 @@ class GzipInput final : public mrpt::io::CStream
   void skipToEnd(std::uint64_t most);
   /// True when the compressed data broke off or failed its check.
   bool damaged() const { return damaged_; }
-  /// True when zstd is known to break off before anything is read.
-  bool isCutOff() const { return file_->contents().cut_off; }
+  /// What is known before anything is read.
+  const PackedContents& contents() const { return file_->contents(); }
   /// True when it failed its check; false where it merely broke off.
   bool isWrong() const { return file_->wrong(); }
   bool isPlain() const { return file_->plain(); }
@@ -95,7 +98,6 @@ class GzipInput final : public mrpt::io::CStream
   std::size_t readFile(char* buffer, std::size_t count);
   void requireWithin(std::uint64_t bytes) const;
   std::uint64_t allowed() const;
-  void requireContentsWithin() const;
 
   std::filesystem::path path_;
   std::unique_ptr<PackedFile> file_;

@@ -58,11 +58,14 @@ std::vector<Feature> readFeatures(CArchive& in)
   std::uint32_t count = 0;
   in >> count;
   std::vector<Feature> features;
+  Crowding crowding;
   // Grown as they come: a hostile count must not allocate memory that the file has no data for.
   for (std::uint32_t k = 0; k < count; ++k)
   {
     features.push_back(readFields(in));
-    if (const auto flaw = flawOf(features.back(), count))
+    auto flaw = flawOf(features.back(), count);
+    if (!flaw) flaw = crowding.add(features.back());
+    if (flaw)
     {
       throw BadContent("feature " + std::to_string(k) + " " + *flaw);
     }

@@ -75,6 +75,7 @@ Feature toLandmark(const std::vector<std::string_view>& row, const Columns& colu
 FeatureMap readLandmarks(const std::filesystem::path& path)
 {
   std::vector<Feature> landmarks;
+  Crowding crowding;
   Columns columns;
   for (TextLines lines(path); lines.next();)
   {
@@ -95,6 +96,8 @@ FeatureMap readLandmarks(const std::filesystem::path& path)
         failAtLine(path, i, "both ',' and ';' in it: write decimal points");
       }
       landmarks.push_back(toLandmark(row, columns, path, i));
+      if (const auto flaw = crowding.add(landmarks.back()))
+        failAtLine(path, i, "a landmark that " + *flaw);
     }
   }
   if (landmarks.empty()) fail(path, "no landmark in it");

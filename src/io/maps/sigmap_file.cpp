@@ -39,6 +39,7 @@ constexpr std::uint64_t kMostSkipped = 1ULL << 28U;  // bytes, which take half a
 // a cell, is always read. More than that is no map unless its file is large, too.
 constexpr detail::UnpackLimits kLimits{detail::kUsualLimits.most,
                                        4 * static_cast<std::uint64_t>(kMostCells)};
+constexpr std::uint64_t kLarge = 1ULL << 26U;  // bytes
 constexpr std::size_t kBlockCells = 1U << 16U;
 constexpr std::uint32_t kLongestText = 1U << 16U;
 
@@ -264,11 +265,14 @@ namespace
 FeatureMap readSigmap(const std::filesystem::path& path)
 {
   detail::GzipInput input(path);
-  input.limitTo(kLimits);
+  input.limitTo(kLimits, false);
   char magic[kMagicSize] = {};
   const std::size_t got = input.Read(magic, kMagicSize);
   if (std::memcmp(magic, kMagic, std::max<std::size_t>(got, 1)) != 0) fail(path, "not a .sigmap");
-  if (input.isCutOff()) fail(path, "truncated or damaged");
+  // Before memory is taken for a large map, it must be sound to its end.
+  const detail::PackedContents& contents = input.contents();
+  if (contents.cut_off || (contents.most > kLarge && !input.isWhole()))
+    fail(path, "truncated or damaged");
   std::string reason;
   try
   {
