@@ -82,14 +82,13 @@ std::vector<ScanHistory::Visit> ScanHistory::replayFrom(const TPose2D& pose, std
   return visits;
 }
 
-/// Sums up the two measures of (8.5) backwards as far as the two ways differ. Returns nothing where
-/// they do not favour the new track. Eq. (8.24)
+/// Sums up the two measures of (8.5) backwards as far as the two ways differ, or until they refute
+/// the new track. Returns nothing where the ways meet and they do not favour it. Eq. (8.24)
 std::optional<ScanHistory::Comparison> ScanHistory::compareWith(const std::vector<Visit>& rival,
                                                                 const TPose2D& pose,
                                                                 double cost_of_unexplained,
                                                                 const DenseVerifier& verifier) const
 {
-  const double least = std::log(options_.prune_weight);
   Replay way(pose, odometry_, verifier);
   std::vector<Visit> visits;
   LogLikelihoodDeficit sum;
@@ -109,9 +108,14 @@ std::optional<ScanHistory::Comparison> ScanHistory::compareWith(const std::vecto
     sum.by_score +=
         shareBetweenRivals(travel, options_) * (own.log_likelihood - rival[k].log_likelihood);
     sum.by_cells += cost_of_unexplained * (rival[k].unexplained - own.unexplained);
-    if (sum.smaller() < least) return {};
+    if (refutes(sum)) return Comparison{sum, false, {}};
   }
   return Comparison{sum, false, rememberedOf(visits)};
+}
+
+bool ScanHistory::refutes(const LogLikelihoodDeficit& sum) const
+{
+  return sum.smaller() < std::log(options_.prune_weight);
 }
 
 /// Returns the cell evidence of a track that had come this way, with its sums set back to 0.
@@ -141,11 +145,18 @@ void ScanHistory::weighNewcomers(TrackSet& set, const DenseScan& scan,
   if (parent.isNew() || born < known_since_) return;
   const std::vector<Visit> rival = replayFrom(heaviest.pose.mean, born, verifier);
   if (rival.empty()) return;
+  // Only a robot that was carried away can be where it cannot have driven to, and that shows.
+  const bool drove = parent.retained(sureLogOdds(options_)) && !set.isSuspicious();
   for (Track& track : set.tracks)
   {
     if (!track.isNew()) continue;
     auto way = compareWith(rival, track.hypothesis.pose.mean, set.costOfUnexplained(), verifier);
     if (!way) continue;
+    if (refutes(way->sum))
+    {
+      if (drove) track.hypothesis.weight = 0;
+      continue;
+    }
     track.deficit = parent.deficit + way->sum;
     if (way->branched)
     {

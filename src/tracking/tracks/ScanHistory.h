@@ -34,7 +34,8 @@ class ScanHistory
 
   /// Gives the tracks that started with this step the weight that they would have if they had been
   /// tracked as long as the heaviest older track, at most its own. A new track that shares the way
-  /// of that one up to a slip takes over its evidence. `scan` is the last one, after `travelled`
+  /// of that one up to a slip takes over its evidence. One that the way refutes gets no weight
+  /// while the older track is retained and not suspected. `scan` is the last one, after `travelled`
   /// [m] in all. \cite algorithm eq. (8.24)
   void weighNewcomers(TrackSet& set, const DenseScan& scan, const DenseVerifier& verifier,
                       double travelled) const;
@@ -70,6 +71,7 @@ class ScanHistory
   std::optional<Comparison> compareWith(const std::vector<Visit>& rival,
                                         const mrpt::math::TPose2D& pose, double cost_of_unexplained,
                                         const DenseVerifier& verifier) const;
+  bool refutes(const LogLikelihoodDeficit& sum) const;
   CellEvidence rememberedOf(const std::vector<Visit>& way) const;
   const StoredScan& storedScan(std::size_t k) const { return scans_[scans_.size() - 1 - k]; }
 
