@@ -216,15 +216,6 @@ void LocalMap::add(const MotionIncrement& motion, const std::vector<Feature>& ob
   forget();
 }
 
-void LocalMap::clear()
-{
-  places_.clear();
-  born_.clear();
-  segments_.clear();
-  travelled_ = 0;
-  steps_ = 0;
-}
-
 std::vector<Feature> LocalMap::features(std::uint32_t min_sightings) const
 {
   std::vector<Feature> out = segments_;

@@ -53,8 +53,6 @@ class LocalMap
   /// frame.
   void add(const MotionIncrement& motion, const std::vector<Feature>& observed);
 
-  void clear();
-
   /// Returns the features seen at least `min_sightings` times, in the current robot frame.
   std::vector<Feature> features(std::uint32_t min_sightings = 1) const;
 

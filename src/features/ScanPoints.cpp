@@ -8,6 +8,8 @@
 
 namespace sigloc
 {
+using mrpt::math::TPoint2D;
+
 namespace
 {
 bool coversFullCircle(const LaserScan& scan)
@@ -51,6 +53,31 @@ std::optional<Neighbour> neighbourOf(const ScanPoints& scan, std::size_t edge, i
   return Neighbour{other,
                    step > 0 ? beamsBetween(scan, edge, other) : beamsBetween(scan, other, edge)};
 }
+/// Returns the return farthest off the chord of a range, or nullopt where none is off by more than
+/// the split distance.
+std::optional<std::size_t> splitOf(const ScanPoints& scan, const PointRange& range,
+                                   const FeatureExtractorOptions& options)
+{
+  const TPoint2D a = scan.points[range.first];
+  const TPoint2D chord = scan.points[range.last] - a;
+  const double length = chord.norm();
+  // A closed outline has no usable chord.
+  const bool is_closed = length < options.split_distance;
+  double farthest = 0;
+  std::size_t at = range.first;
+  for (std::size_t i = range.first + 1; i < range.last; ++i)
+  {
+    const TPoint2D d = scan.points[i] - a;
+    const double off = is_closed ? d.norm() : std::abs(chord.x * d.y - chord.y * d.x) / length;
+    if (off > farthest)
+    {
+      farthest = off;
+      at = i;
+    }
+  }
+  return farthest > options.split_distance ? std::optional(at) : std::nullopt;
+}
+
 }  // namespace
 
 ScanPoints validPoints(const LaserScan& scan, const FeatureExtractorOptions& options)
@@ -171,5 +198,26 @@ bool standsFree(const ScanPoints& scan, std::size_t edge, int step,
   const std::size_t to_the_end =
       step > 0 ? scan.beam_count - scan.beams[edge] : scan.beams[edge] + 1;
   return (next ? next->beams : to_the_end) > kSky;
+}
+
+void splitRange(const ScanPoints& scan, PointRange range, const FeatureExtractorOptions& options,
+                std::vector<PointRange>& pieces)
+{
+  std::vector<PointRange> left = {range};
+  while (!left.empty())
+  {
+    const PointRange piece = left.back();
+    left.pop_back();
+    if (piece.last < piece.first + 1) continue;
+    if (const auto at = splitOf(scan, piece, options))
+    {
+      left.push_back({*at, piece.last});
+      left.push_back({piece.first, *at});
+    }
+    else
+    {
+      pieces.push_back(piece);
+    }
+  }
 }
 }  // namespace sigloc

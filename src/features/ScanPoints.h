@@ -44,9 +44,15 @@ void startAtBreak(ScanPoints& scan, const FeatureExtractorOptions& options);
 /// Returns the runs of neighbouring returns without a break between them. \cite algorithm eq. (2.1)
 std::vector<PointRange> clustersOf(const ScanPoints& scan, const FeatureExtractorOptions& options);
 
-/// True when the neighbouring return beyond `edge` (towards `step`) was measured by the next beam
-/// and is farther by the jump. Then the wall really ends here. A lost or nearer beam is no
-/// evidence. In a full-circle scan the first and the last return are neighbours.
+/// Splits a range again and again, at the return farthest off the chord, and appends the pieces
+/// from the first to the last. A zigzag may split once for every return, in a time of their square,
+/// but takes no stack. \cite algorithm section 2
+void splitRange(const ScanPoints& scan, PointRange range, const FeatureExtractorOptions& options,
+                std::vector<PointRange>& pieces);
+
+/// True when the neighbouring return beyond `edge` (towards `step`) was measured at most two beams
+/// on and is farther by the jump. Then the wall really ends here. More lost beams, or a nearer one,
+/// are no evidence. In a full-circle scan the first and the last return are neighbours.
 bool jumpsFarther(const ScanPoints& scan, std::size_t edge, int step,
                   const FeatureExtractorOptions& options);
 

@@ -22,37 +22,6 @@ constexpr double kSurfaceSigma = 0.008;  // [m] roughness of walls and mixed pix
 constexpr double kRadiusPriorSigma = 0.12;  // [m] of the prior of a radius, eq. (2.2)
 constexpr double kMinCornerAngle = 0.35;  // [rad] below which a joint is no corner
 
-/// Splits a range recursively at the return farthest off its chord. \cite algorithm section 2
-void splitRange(const ScanPoints& scan, PointRange range, const FeatureExtractorOptions& options,
-                std::vector<PointRange>& pieces)
-{
-  if (range.last < range.first + 1) return;
-  const TPoint2D a = scan.points[range.first];
-  const TPoint2D chord = scan.points[range.last] - a;
-  const double length = chord.norm();
-  // A closed outline has no usable chord.
-  const bool is_closed = length < options.split_distance;
-  double farthest = 0;
-  std::size_t at = range.first;
-  for (std::size_t i = range.first + 1; i < range.last; ++i)
-  {
-    const TPoint2D d = scan.points[i] - a;
-    const double off = is_closed ? d.norm() : std::abs(chord.x * d.y - chord.y * d.x) / length;
-    if (off > farthest)
-    {
-      farthest = off;
-      at = i;
-    }
-  }
-  if (farthest <= options.split_distance)
-  {
-    pieces.push_back(range);
-    return;
-  }
-  splitRange(scan, {range.first, at}, options, pieces);
-  splitRange(scan, {at, range.last}, options, pieces);
-}
-
 Feature makeSegment(const ScanPoints& scan, PointRange range, double range_sigma)
 {
   const LineFit fit =

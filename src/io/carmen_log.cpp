@@ -10,6 +10,7 @@
 #include <string>
 
 #include "io/archive/gzip_input.h"
+#include "io/scan_conversion.h"
 #include "io/text_rows.h"
 
 namespace sigloc::detail
@@ -18,7 +19,6 @@ namespace
 {
 constexpr double kDegree = M_PI / 180.0;
 constexpr double kFlaserMaxRange = 80.0;  // [m], a SICK LMS; it writes 81.83 for "no return"
-constexpr std::size_t kMostBeams = 100000;
 constexpr double kLatest = 1e10;  // [s] of a clock
 
 /// The words of one message, taken front to back; a missing or bad one is an error of the line.

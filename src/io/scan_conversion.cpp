@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <Eigen/Dense>
 #include <stdexcept>
 
 #include "io/archive/UnreadObservation.h"
@@ -17,6 +18,7 @@ namespace
 {
 constexpr double kMaxTilt = 10.0 * M_PI / 180.0;  // [rad]
 constexpr double kSameAngle = 1e-6;  // [rad]
+constexpr double kMostView = 1.01 * 2 * M_PI;  // [rad]: rounding may carry it beyond a whole turn
 constexpr double kMaxRangeSigma = 1.0;  // [m], a greater one counts as not given
 
 double rangeSigmaOf(const mrpt::obs::CObservation2DRangeScan& scan)
@@ -39,6 +41,10 @@ std::optional<PlanarMount> planarMountOf(const mrpt::poses::CPose3D& robot_from_
   // The third column of the rotation is the scan plane's normal: up, down (upside-down mounting) or
   // tilted.
   const auto rotation = robot_from_sensor.getRotationMatrix();
+  constexpr double kRounding = 1e-3;  // of files in single floats
+  const Eigen::Matrix3d turned = rotation.asEigen();
+  const Eigen::Matrix3d unit = turned * turned.transpose();
+  if (!((unit - Eigen::Matrix3d::Identity()).norm() <= kRounding)) return std::nullopt;
   const double up = rotation(2, 2);
   if (std::abs(up) < std::cos(kMaxTilt)) return std::nullopt;
   const double heading = std::atan2(rotation(1, 0), rotation(0, 0));
@@ -55,11 +61,12 @@ std::optional<LaserScan> toLaserScan(const mrpt::obs::CObservation2DRangeScan& s
 {
   const std::size_t n = scan.getScanSize();
   const auto mount = planarMountOf(scan.sensorPose);
-  if (n < 2 || !mount) return std::nullopt;
+  if (n < 2 || n > kMostBeams || !mount) return std::nullopt;
 
   LaserScan out;
   out.angle_step = static_cast<double>(scan.aperture) / static_cast<double>(n - 1);
-  if (!(out.angle_step > 0 && out.angle_step < M_PI)) return std::nullopt;
+  const auto view = static_cast<double>(scan.aperture);
+  if (!(out.angle_step > 0 && out.angle_step < M_PI && view <= kMostView)) return std::nullopt;
   out.first_angle = -0.5 * static_cast<double>(scan.aperture);
   out.max_range = std::min(static_cast<double>(scan.maxRange), kFarthestReturn);
   out.range_sigma = rangeSigmaOf(scan);
@@ -91,10 +98,8 @@ LaserScan toLaserScan(const RangeReadings& readings)
   require(n >= 2, "a scan has at least two beams");
   require(std::isfinite(readings.first_angle) && std::abs(readings.first_angle) <= kWholeTurn,
           "the angle of the first beam is not within a turn");
-  // A float's rounding may carry the last beam a little beyond the whole turn.
   const double view = std::abs(readings.angle_step) * static_cast<double>(n - 1);
-  require(view > 0 && view <= 1.01 * kWholeTurn,
-          "the beams do not cover more than 0 and at most one turn");
+  require(view > 0 && view <= kMostView, "the beams do not cover more than 0 and at most one turn");
   require(readings.min_range >= 0 && readings.max_range > readings.min_range,
           "the limits of the range are not 0 <= least < greatest");
   require(readings.range_sigma > 0 && readings.range_sigma <= kMaxRangeSigma,

@@ -16,13 +16,16 @@
 namespace sigloc
 {
 constexpr double kDefaultRangeSigma = 0.01;  ///< [m], of a scan that tells none
+/// Beams of a scan at most: the finest lasers have 25 200. A zigzag of n returns is split in a time
+/// of n^2.
+constexpr std::size_t kMostBeams = 30000;
 
 /// Returns the scan in the core's form, counter-clockwise: clockwise and upside-down scans are
 /// reversed. NaN, infinite, non-positive and max-range beams are invalid, and those beyond
 /// kFarthestReturn too. A noise of zero, or of more than a metre, counts as not given. Returns
-/// nullopt for a scan with fewer than two beams or whose plane is tilted by more than 10 degrees.
-/// Returns nullopt, too, where the aperture or the sensor pose is not finite, or the sensor is more
-/// than 100 m from the robot.
+/// nullopt for a scan with fewer than two beams, or more than kMostBeams, or whose plane is tilted
+/// by more than 10 degrees. Returns nullopt, too, where the aperture is no part of a turn, or the
+/// sensor pose is none or more than 100 m from the robot.
 std::optional<LaserScan> toLaserScan(const mrpt::obs::CObservation2DRangeScan& scan);
 
 /// A scan as programs hand it over: the message of ROS, or an array.

@@ -252,6 +252,15 @@ TEST(RawlogReader, LeavesOutWhatASensorCannotBe)
   add([&](Scan& scan) { scan.sensorPose = {1e30, 0, 0, 0, 0, 0}; });
   add([&](Scan& scan) { scan.aperture = infinity; });
   add([&](Scan& scan) { scan.aperture = 1e38F; });
+  add([&](Scan& scan) { scan.aperture = 7.0F; });
+  add([&](Scan& scan) { scan.resizeScanAndAssign(30001, 3, true); });
+  add(
+      [&](Scan& scan)
+      {
+        mrpt::math::CMatrixDouble33 shear = mrpt::math::CMatrixDouble33::Identity();
+        shear(0, 1) = 5;
+        scan.sensorPose.setRotationMatrix(shear);
+      });
   add([&](Scan& scan) { scan.stdError = infinity; });
   add(
       [&](Scan& scan)
@@ -263,7 +272,7 @@ TEST(RawlogReader, LeavesOutWhatASensorCannotBe)
   RawlogReader reader(path);
   const auto steps = readAll(reader);
   ASSERT_EQ(steps.size(), 3U);
-  EXPECT_EQ(reader.leftOut().observations, 5U);
+  EXPECT_EQ(reader.leftOut().observations, 8U);
   EXPECT_LT(steps[1].scans[0].range_sigma, 0.1) << "as if the log gave none";
   EXPECT_EQ(steps[2].scans[0].valid[7], 0);
   EXPECT_EQ(steps[2].scans[0].valid[8], 1);

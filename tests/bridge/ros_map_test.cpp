@@ -251,6 +251,19 @@ TEST(RosMap, RefusesHostileFilesInOneLine)
   }
 }
 
+// It fits when it lies along the axes; turned, its box has 2.4e9 cells.
+TEST(RosMap, AThinImageThatIsTurnedIsJudgedBeforeItsBoxIsFilled)
+{
+  const TemporaryFolder folder;
+  std::string image = "P5\n70000 4\n255\n" + std::string(280000, '\xfe');
+  image.replace(image.size() - 100, 50, 50, '\0');
+  writeText(folder / "m.pgm", image);
+  writeText(folder / "m.yaml", yamlWith("", "[0, 0, 0.785]"));
+  EXPECT_EQ(mapErrorOf(folder / "m.yaml"), (folder / "m.yaml").string() +
+                                               ": a raster of 49521 x 49481 cells, not of 1 to "
+                                               "4e+08");
+}
+
 TEST(RosMap, RefusesHostilePictures)
 {
   const TemporaryFolder folder;

@@ -34,7 +34,6 @@ OccupancyRaster rasterOfOccupancy(const OccupancyGrid& grid)
                                                 : stateOfOccupancy(static_cast<double>(occupied)));
   }
   raster = turned(std::move(raster), grid.origin.phi);
-  if (const auto flaw = flawOf(raster.frame)) throw std::invalid_argument(*flaw);
   if (const auto reason = unusableGrid(raster)) throw std::invalid_argument(*reason);
   return raster;
 }
@@ -74,6 +73,8 @@ OccupancyRaster turned(OccupancyRaster image, double yaw)
   raster.frame.resolution = from.resolution;
   raster.frame.width = static_cast<std::uint32_t>(std::ceil((high.x - low.x) / from.resolution));
   raster.frame.height = static_cast<std::uint32_t>(std::ceil((high.y - low.y) / from.resolution));
+  // A thin image takes much room when it is turned.
+  if (const auto flaw = flawOf(raster.frame)) throw std::invalid_argument(*flaw);
   raster.cells.reserve(std::size_t{raster.frame.width} * raster.frame.height);
   for (std::uint32_t y = 0; y < raster.frame.height; ++y)
   {

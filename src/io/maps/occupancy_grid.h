@@ -39,6 +39,6 @@ std::optional<std::string> unusableGrid(const OccupancyRaster& raster);
 
 /// Returns a raster whose lower left corner is at its frame's origin and whose rows are turned by
 /// `yaw` [rad], as one along the axes. A cell has the state of the turned cell in which its middle
-/// is.
+/// is. Throws std::invalid_argument where that has too many cells, or reaches too far.
 OccupancyRaster turned(OccupancyRaster raster, double yaw);
 }  // namespace sigloc::detail

@@ -144,7 +144,14 @@ OccupancyRaster rasterOfImage(const std::filesystem::path& image, const RosMapHe
 OccupancyRaster placed(OccupancyRaster raster, const RosMapHeader& header,
                        const std::filesystem::path& path)
 {
-  raster = turned(std::move(raster), header.origin.phi);
+  try
+  {
+    raster = turned(std::move(raster), header.origin.phi);
+  }
+  catch (const std::invalid_argument& error)
+  {
+    fail(path, error.what());
+  }
   requireWallAndFree(raster, path);
   return raster;
 }
