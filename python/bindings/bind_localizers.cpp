@@ -168,8 +168,8 @@ void bindTracker(py::module_& module)
           "motion: since the step before, in the frame of the robot then, shape (3,) [m, m, rad]. "
           "None where odometry is unknown; a wide prior is used.\n"
           "motion_covariance: shape (3, 3) [m^2, m rad, rad^2]; None: by MRPT's odometry model.\n\n"
-          "Raises ValueError for other shapes, numbers that are not finite or a negative variance; "
-          "all stays as it was.")
+          "Raises ValueError for other shapes, numbers that are not finite, or a matrix that is no "
+          "covariance; all stays as it was.")
       .def_property_readonly("answer", &LockedTracker::answer, "After the latest step.")
       .def_property_readonly("relocated", &LockedTracker::relocated,
                              "True when the last step ran a relocation.")

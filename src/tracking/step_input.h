@@ -6,6 +6,7 @@
 
 namespace sigloc
 {
-/// Throws std::invalid_argument for a value that is not finite or a negative variance.
+/// Throws std::invalid_argument for a value that is not finite, and for a covariance that is not
+/// symmetric and positive semi-definite.
 void checkMotion(const MotionIncrement& motion);
 }  // namespace sigloc

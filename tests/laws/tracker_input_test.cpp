@@ -43,8 +43,10 @@ TEST(Tracker, TellsTheMapsCommonErrorOnce)
 TEST(Tracker, RefusesWhatIsNotFiniteAndForgetsNothing)
 {
   HypothesisTracker tracker(office().matcher());
+  HypothesisTracker undisturbed(office().matcher());
   const auto drive = driveThrough(office().world(), 6, 96);
   follow(tracker, drive);
+  follow(undisturbed, drive);
   const std::string before = tracker.belief().reason;
   const ObservedScene scene = observeScene({*drive.back().scan});
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -54,12 +56,27 @@ TEST(Tracker, RefusesWhatIsNotFiniteAndForgetsNothing)
   motion = {};
   motion.covariance(1, 1) = -1;
   EXPECT_THROW(tracker.step(motion, scene), std::invalid_argument);
+  // Neither negative nor infinite, but no covariance: the variances are too small for xy, and yx
+  // differs from it.
+  motion.covariance(0, 0) = motion.covariance(1, 1) = 1e-6;
+  motion.covariance(0, 1) = motion.covariance(1, 0) = 1;
+  EXPECT_THROW(tracker.step(motion, scene), std::invalid_argument);
+  motion.covariance(0, 0) = motion.covariance(1, 1) = 2;
+  motion.covariance(1, 0) = -1;
+  EXPECT_THROW(tracker.step(motion, scene), std::invalid_argument);
   ObservedScene broken = scene;
   broken.beams.back().point.y = kNan;
   EXPECT_THROW(tracker.step(MotionIncrement{}, broken), std::invalid_argument);
   EXPECT_EQ(tracker.belief().reason, before);
   const Belief& after = tracker.step(MotionIncrement{}, scene);
   expectWellFormed(after);
+  const Belief& expected = undisturbed.step(MotionIncrement{}, scene);
+  ASSERT_EQ(after.hypotheses.size(), expected.hypotheses.size());
+  for (std::size_t k = 0; k < expected.hypotheses.size(); ++k)
+  {
+    EXPECT_EQ(after.hypotheses[k].weight, expected.hypotheses[k].weight);
+    EXPECT_EQ(after.hypotheses[k].pose.mean, expected.hypotheses[k].pose.mean);
+  }
   EXPECT_TRUE(isRight(after.hypotheses.front().pose.mean, drive.back().world_from_robot));
 }
 
