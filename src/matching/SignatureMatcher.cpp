@@ -127,8 +127,9 @@ RelocationResult SignatureMatcher::localize(const ObservedScene& scene,
 {
   checkScene(scene);
   RelocationResult result;
+  // Without returns, only a search by features can find anything.
   const bool enough = scene.beams.size() >= options_.min_beams ||
-                      (scene.beams.empty() && scene.features.size() >= kMinLandmarks);
+                      (generator_ && scene.beams.empty() && scene.features.size() >= kMinLandmarks);
   if (!enough)
   {
     result.verdict = Verdict::too_little_seen;

@@ -80,6 +80,7 @@ void ModeTracker::gather(const std::vector<ParticleMode>& modes, const Signature
     {
       set_.tracks.push_back(matcher.verifier() != nullptr ? unprovenTrack(mode.pose) : Track{});
       set_.tracks.back().hypothesis.id = next_id_++;
+      set_.tracks.back().hypothesis.age = 1;  // no relocation has started it
       set_.tracks.back().searched_distance = schedule_.searched();
     }
     Track& track = set_.tracks.back();
@@ -153,7 +154,7 @@ bool ModeTracker::relocateByFeatures(const ObservedScene& scene, const Signature
                  Track fresh;
                  fresh.hypothesis.pose = candidate.pose;
                  fresh.hypothesis.id = next_id_++;
-                 fresh.confirmed = gainOf(candidate.probability);
+                 fresh.confirmed = std::max(kMinInMap, gainOf(candidate.probability));
                  return fresh;
                });
   return true;

@@ -151,7 +151,8 @@ void SignatureMonteCarlo2D::step(const CActionCollection* action, const CSensory
   const SignatureMatcher& signatures = matcher();
   noticeReset();
   const ObservedScene scene = sceneOf(observation, extraction_);
-  const bool blind = scene.beams.size() < signatures.options().min_beams && scene.features.empty();
+  const bool by_features = signatures.verifier() == nullptr && !scene.features.empty();
+  const bool blind = scene.beams.size() < signatures.options().min_beams && !by_features;
   const double travel = modes_->predict(motionIn(action));
   // Evidence counts by distance driven, because the errors of map and scan stay the same for a
   // while.

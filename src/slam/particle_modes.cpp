@@ -58,12 +58,12 @@ Bin binOf(const TPose2D& pose)
 }
 
 /// A particle in the heaviest bin of those that no mode has taken, or null.
-const WeightedPose* densest(const std::vector<WeightedPose>& poses)
+WeightedPose* densest(std::vector<WeightedPose>& poses)
 {
-  std::map<Bin, std::pair<double, const WeightedPose*>> bins;
-  const WeightedPose* best = nullptr;
+  std::map<Bin, std::pair<double, WeightedPose*>> bins;
+  WeightedPose* best = nullptr;
   double best_weight = kLeastWeight;
-  for (const WeightedPose& pose : poses)
+  for (WeightedPose& pose : poses)
   {
     if (pose.taken) continue;
     auto& [weight, member] = bins[binOf(pose.pose)];
@@ -111,7 +111,7 @@ std::vector<ParticleMode> modesOf(const mrpt::poses::CPosePDFParticles& particle
   std::vector<ParticleMode> modes;
   while (modes.size() < max_modes)
   {
-    const WeightedPose* const start = densest(poses);
+    WeightedPose* const start = densest(poses);
     if (start == nullptr) break;
     TPose2D center = start->pose;
     ParticleMode mode;
@@ -120,6 +120,7 @@ std::vector<ParticleMode> modesOf(const mrpt::poses::CPosePDFParticles& particle
       mode = momentsAround(poses, center);
       if (i + 1 < kMeanShifts) center = mode.pose.mean;
     }
+    start->taken = true;  // also where the means have shifted away from it: so this ends
     for (WeightedPose& p : poses)
     {
       if (withinReach(p.pose, center, kModeDistance, kModeAngle)) p.taken = true;

@@ -271,6 +271,11 @@ TEST(Localization, DegenerateInputIsTooLittle)
     EXPECT_EQ(result.elsewhere, 1);
   }
   EXPECT_EQ(lawOffice().matcher()->localize({}).verdict, Verdict::too_little_seen);
+  // Features without returns say nothing in a dense field: no search looks for them.
+  ObservedScene features = observeScene({whole});
+  features.beams.clear();
+  ASSERT_GE(features.features.size(), 4U);
+  EXPECT_EQ(lawOffice().matcher()->localize(features).verdict, Verdict::too_little_seen);
   // All returns at one place, and all on one line.
   ObservedScene heap;
   heap.sensor_origins = {{0, 0}};
