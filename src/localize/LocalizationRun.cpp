@@ -88,12 +88,6 @@ CachedMap makeMap(const LocalizationSetup& setup, const fs::path& cache,
   {
     made = mapWithCache(setup.map_file, cache, setup.map, setup.features, progress, setup.reading);
   }
-  if (made.map.empty())
-  {
-    std::error_code ignored;
-    if (!cache.empty() && !made.reused) fs::remove(cache, ignored);
-    throw std::runtime_error(setup.map_file.string() + ": no feature found in it");
-  }
   return made;
 }
 

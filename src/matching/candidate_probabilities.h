@@ -18,7 +18,7 @@ double logLikelihoodOfScore(double score);
 /// the share through walls. Returns in free space are left out. \cite algorithm eq. (8.11)
 double reliabilityOf(const DenseEvidence& evidence);
 
-/// Returns ½ (F + C) - ½ T of (6.8), over the returns that are not in free space, in [-2, 1], as if
+/// Returns ½ (F + C) - ½ T of (6.8), over the returns that are not in free space, at most 1, as if
 /// nothing unmapped had hidden the walls. \cite algorithm section 8, "Publish"
 double scoreOfUnhidden(const DenseEvidence& evidence);
 

@@ -76,8 +76,8 @@ std::filesystem::path mapCacheFile(const std::filesystem::path& source);
 std::vector<PosedScans> posedScansOf(const mrpt::maps::CSimpleMap& simplemap);
 OccupancyRaster rasterOf(const mrpt::maps::COccupancyGridMap2D& grid);
 
-/// Writes a `.sigmap` (gz-compressed, versioned, checksummed) atomically: to a temporary file that
-/// is renamed. Throws std::runtime_error naming the path and the reason.
+/// Writes a `.sigmap` (compressed by zstd, versioned, checksummed) atomically: to a temporary file
+/// that is renamed. Throws std::runtime_error naming the path and the reason.
 void saveSigmap(const FeatureMap& map, const std::filesystem::path& path);
 
 /// Reads a `.sigmap` of this or an earlier version. Throws std::runtime_error naming the path and

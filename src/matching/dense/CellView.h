@@ -158,8 +158,7 @@ class CellView
     const auto x = static_cast<std::uint32_t>(column - 1);
     const auto y = static_cast<std::uint32_t>(row - 1);
     const std::uint32_t tile = tiles_[y / kSide * tile_columns_ + x / kSide];
-    return cells_[tile * static_cast<std::uint32_t>(DenseField::kTileCells) +
-                  (y % kSide * kSide + x % kSide)];
+    return cells_[tile * std::size_t{DenseField::kTileCells} + (y % kSide * kSide + x % kSide)];
   }
 
   const DenseCell* cells_;

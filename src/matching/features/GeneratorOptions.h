@@ -21,12 +21,9 @@ struct GeneratorOptions
   /// Hypotheses as good expected by chance, below which one is significant.
   double significance = 0.001;
   std::uint32_t max_hypotheses = 50;  ///< how many hypotheses are returned at most
-  /// [m] r_eff: within which features are really seen; 0: by max_neighbours.
-  double effective_range = 0;
   std::uint32_t max_neighbours = 48;  ///< mean number of neighbours a feature is indexed with
   std::uint32_t pattern_size = 0;  ///< features of an indexed pattern, 3 to 5; 0: grows with log m
   std::uint32_t max_patterns = 24;  ///< mean number of patterns a feature is indexed with
-  double pattern_cell = 0;  ///< [m] cell of the pattern hash; 0: twice the expected tolerance
   /// Budget of pairs and of anchors each, when patterns find nothing.
   std::uint32_t fall_back_hypotheses = 400000;
   /// Budget of mode (a): checks, and cells and list entries read.

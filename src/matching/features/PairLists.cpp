@@ -109,8 +109,7 @@ PairLists::PairLists(const PreparedMap& map, double cut_off) : cut_off_(cut_off)
 
 double PairLists::cutOffFor(const PreparedMap& map, const GeneratorOptions& options)
 {
-  const double by_range = options.effective_range > 0 ? 2 * options.effective_range : kUncut;
-  if (map.size() <= options.max_neighbours + 1) return by_range;
+  if (map.size() <= options.max_neighbours + 1) return kUncut;
   // The distance within which the wanted number of neighbours is, over a sample of features.
   constexpr std::size_t kSamples = 64;
   const std::size_t samples = std::min(kSamples, map.size());
@@ -127,6 +126,6 @@ double PairLists::cutOffFor(const PreparedMap& map, const GeneratorOptions& opti
   const auto wanted =
       distances.begin() + static_cast<std::ptrdiff_t>(samples * (options.max_neighbours + 1));
   std::nth_element(distances.begin(), wanted, distances.end());
-  return std::min(by_range, static_cast<double>(*wanted));
+  return static_cast<double>(*wanted);
 }
 }  // namespace sigloc

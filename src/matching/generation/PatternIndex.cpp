@@ -175,7 +175,7 @@ void PatternIndex::chooseSize(const PreparedMap& map, const GeneratorOptions& op
     if (!isSegment(type)) variance = std::max(variance, map.typicalPositionVariance(type));
   }
   const double spread = kTypicalSigma * kTypicalSigma + variance + relative * relative;
-  cell_ = options.pattern_cell > 0 ? options.pattern_cell : 2 * std::sqrt(2 * gate * spread);
+  cell_ = 2 * std::sqrt(2 * gate * spread);  // twice the expected tolerance
   size_ = options.pattern_size;
   if (size_ >= 3) return;
 
