@@ -35,12 +35,15 @@ TEST(ObserveScans, AZigzagOfManyReturnsTakesNoStack)
 {
   constexpr std::size_t kBeams = 8000;
   LaserScan scan;
-  scan.angle_step = M_PI / kBeams;
+  scan.first_angle = M_PI / 6;
+  scan.angle_step = 2 * M_PI / 3 / kBeams;
   scan.max_range = 30;
   for (std::size_t k = 0; k < kBeams; ++k)
   {
     const double growth = 0.03 * static_cast<double>(k) / kBeams;
-    scan.ranges.push_back(static_cast<float>(k % 2 == 0 ? 5.0 : 5.06 + growth));
+    const double away = k % 2 == 0 ? 3.0 : 3.06 + growth;  // [m]
+    const double angle = scan.first_angle + static_cast<double>(k) * scan.angle_step;
+    scan.ranges.push_back(static_cast<float>(away / std::sin(angle)));
     scan.valid.push_back(1);
   }
   std::size_t returns = 0;
