@@ -8,6 +8,7 @@
 #include <functional>
 #include <iostream>
 #include <memory>
+#include <new>
 #include <stdexcept>
 #include <string>
 
@@ -61,6 +62,11 @@ inline int runApp(CLI::App& app, int argc, char** argv, const std::function<int(
     }
     finishOutput(std::cout);
     return code;
+  }
+  catch (const std::bad_alloc&)
+  {
+    std::cerr << app.get_name() << ": not enough memory\n";
+    return 1;
   }
   catch (const std::exception& error)
   {

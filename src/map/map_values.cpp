@@ -106,6 +106,18 @@ std::optional<std::string> flawOf(const MapErrorModel& error)
                      error.common_turn_sigma);
 }
 
+namespace
+{
+std::optional<std::string> wallBeyondReach(const Feature& feature)
+{
+  if (!isSegment(feature.type)) return std::nullopt;
+  const mrpt::math::TPoint2D start = segmentStart(feature);
+  const mrpt::math::TPoint2D end = segmentEnd(feature);
+  auto flaw = beyondReach(start.x, start.y);
+  return flaw ? flaw : beyondReach(end.x, end.y);
+}
+}  // namespace
+
 std::optional<std::string> flawOf(const std::vector<Feature>& features)
 {
   double outline = 0;
@@ -116,6 +128,8 @@ std::optional<std::string> flawOf(const std::vector<Feature>& features)
     if (flaw) return flaw;
     flaw = flawOf(features[k], features.size());
     if (flaw) return fmt::format("feature {} {}", k, *flaw);
+    flaw = wallBeyondReach(features[k]);
+    if (flaw) return flaw;
     outline += outlineLength(features[k]);
   }
   if (outline <= kLongestOutline) return std::nullopt;

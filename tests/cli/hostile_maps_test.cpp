@@ -136,6 +136,14 @@ std::vector<HostileMap> hostileMaps()
       {"place_nowhere", [](M& m) { m.features[0].x = kNan; }, "has the position"},
       {"place_endless", [](M& m) { m.features[0].y = -kInf; }, "has the position"},
       {"place_far", [](M& m) { m.features[0].y = 2e5; }, "100000 m"},
+      {"wall_far",
+       [](M& m)
+       {
+         m.features[0].x = 99900;
+         m.features[0].direction = 1.57;
+         m.features[0].size = 300;
+       },
+       "100000 m"},
       {"variance_huge", [](M& m) { m.features[0].xx = 1e300; }, "covariance"},
       {"variance_negative", [](M& m) { m.features[0].yy = -1e-4; }, "covariance"},
       {"not_semidefinite", [](M& m) { m.features[0].xy = 1; }, "covariance"},

@@ -130,7 +130,7 @@ FeatureMap buildMapFromScans(std::vector<PosedScans> scans, const MapBuildingOpt
   }
   if (counts.empty())
   {
-    throw std::invalid_argument("buildMapFromScans: no scan has a valid return");
+    throw std::invalid_argument("no scan has a valid return");
   }
   std::vector<Feature> features = featuresOf(*merger);
   merger.reset();  // before the field, beside which the counts alone are needed
