@@ -9,7 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <Eigen/Dense>
+
+#include "geometry/positive_definite.h"
 
 namespace sigloc::detail
 {
@@ -31,9 +32,7 @@ bool isFinite(const CPose2D& pose)
 bool isCovariance(const CMatrixDouble33& matrix)
 {
   const auto m = matrix.asEigen();
-  return m.allFinite() && m.diagonal().maxCoeff() <= kMaxVariance &&
-         (m - m.transpose()).norm() < 1e-6 * (1.0 + m.norm()) &&
-         Eigen::LLT<Eigen::Matrix3d>(m).info() == Eigen::Success;
+  return isPositiveDefinite(m) && m.diagonal().maxCoeff() <= kMaxVariance;
 }
 
 CMatrixDouble33 withFloor(const CMatrixDouble33& given)

@@ -3,8 +3,9 @@
 #include "tracking/step_input.h"
 
 #include <cmath>
-#include <Eigen/Dense>
 #include <stdexcept>
+
+#include "geometry/positive_definite.h"
 
 namespace sigloc
 {
@@ -15,15 +16,12 @@ bool isFinite(const mrpt::math::TPoint2D& point)
   return std::isfinite(point.x) && std::isfinite(point.y);
 }
 
-/// True for a matrix that is symmetric and positive semi-definite, but for rounding. A prediction
-/// adds more than is added here.
+/// True for a positive semi-definite matrix. A prediction adds more than is added here.
 bool isCovariance(const Eigen::Matrix3d& matrix)
 {
-  constexpr double kRounding = 1e-6;
+  constexpr double kLeast = 1e-6;
   if (!matrix.allFinite() || matrix.diagonal().minCoeff() < 0) return false;
-  if ((matrix - matrix.transpose()).norm() > kRounding * (1.0 + matrix.norm())) return false;
-  const Eigen::Matrix3d above = matrix + kRounding * Eigen::Matrix3d::Identity();
-  return Eigen::LLT<Eigen::Matrix3d>(above).info() == Eigen::Success;
+  return isPositiveDefinite(matrix + kLeast * Eigen::Matrix3d::Identity());
 }
 }  // namespace
 

@@ -12,6 +12,7 @@
 //     reading_cost LOG...
 #include <mrpt/io/CFileGZInputStream.h>
 #include <mrpt/io/CMemoryStream.h>
+#include <mrpt/io/CPipe.h>
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CSensoryFrame.h>
@@ -24,6 +25,7 @@
 #include <chrono>
 #include <cstdio>
 #include <exception>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -51,26 +53,26 @@ std::size_t scansIn(const CSerializable::Ptr& object)
   return scans;
 }
 
-/// Calls `use(object)` for all objects of a log, by MRPT alone.
+/// Calls `use(object)` for all objects of a stream, by MRPT alone.
 template <class Use>
-void forAllOf(const std::string& path, const Use& use)
+void forAllIn(mrpt::io::CStream& stream, const Use& use)
 {
-  mrpt::io::CFileGZInputStream file(path);
-  auto archive = mrpt::serialization::archiveFrom(file);
+  auto archive = mrpt::serialization::archiveFrom(stream);
   try
   {
     while (true) use(archive.ReadObject());
   }
   catch (const std::exception&)
   {
-    // MRPT tells the end of a file so.
+    // MRPT tells the end so.
   }
 }
 
 std::size_t readPlain(const std::string& path)
 {
+  mrpt::io::CFileGZInputStream file(path);
   std::size_t scans = 0;
-  forAllOf(path, [&](const CSerializable::Ptr& object) { scans += scansIn(object); });
+  forAllIn(file, [&](const CSerializable::Ptr& object) { scans += scansIn(object); });
   return scans;
 }
 
@@ -82,71 +84,46 @@ std::size_t readChecked(const std::string& path)
   return scans;
 }
 
-bool sendAll(int fd, const void* data, std::size_t size)
+/// The child: sends each object as MRPT writes it, after its size. In pieces, since a call of the
+/// system for every number would make a helper slower than it needs to be.
+void sendObjects(const std::string& path, mrpt::io::CStream& to)
 {
-  const char* from = static_cast<const char*>(data);
-  while (size > 0)
-  {
-    const ssize_t sent = write(fd, from, size);
-    if (sent <= 0) return false;
-    from += sent;
-    size -= static_cast<std::size_t>(sent);
-  }
-  return true;
-}
-
-bool receiveAll(int fd, void* data, std::size_t size)
-{
-  char* to = static_cast<char*>(data);
-  while (size > 0)
-  {
-    const ssize_t got = read(fd, to, size);
-    if (got <= 0) return false;
-    to += got;
-    size -= static_cast<std::size_t>(got);
-  }
-  return true;
-}
-
-/// The child: sends each object as MRPT writes it, after its size.
-void sendObjects(const std::string& path, int to)
-{
-  forAllOf(path,
+  mrpt::io::CFileGZInputStream file(path);
+  forAllIn(file,
            [&](const CSerializable::Ptr& object)
            {
              mrpt::io::CMemoryStream bytes;
              mrpt::serialization::archiveFrom(bytes) << *object;
              const std::uint64_t size = bytes.getTotalBytesCount();
-             sendAll(to, &size, sizeof(size));
-             sendAll(to, bytes.getRawBufferData(), size);
+             to.Write(&size, sizeof(size));
+             to.Write(bytes.getRawBufferData(), size);
            });
 }
 
 std::size_t readByHelper(const std::string& path)
 {
-  std::array<int, 2> ends{};
-  if (pipe(ends.data()) != 0) return 0;
+  std::unique_ptr<mrpt::io::CPipeReadEndPoint> from_helper;
+  std::unique_ptr<mrpt::io::CPipeWriteEndPoint> to_us;
+  mrpt::io::CPipe::createPipe(from_helper, to_us);
   const pid_t child = fork();
   if (child == 0)
   {
-    close(ends[0]);
-    sendObjects(path, ends[1]);
+    from_helper.reset();
+    sendObjects(path, *to_us);
     _exit(0);
   }
-  close(ends[1]);
+  to_us.reset();
   std::size_t scans = 0;
   std::uint64_t size = 0;
   std::vector<char> bytes;
-  while (receiveAll(ends[0], &size, sizeof(size)))
+  while (from_helper->Read(&size, sizeof(size)) == sizeof(size))
   {
     bytes.resize(size);
-    if (!receiveAll(ends[0], bytes.data(), size)) break;
+    if (from_helper->Read(bytes.data(), size) != size) break;
     mrpt::io::CMemoryStream memory;
     memory.assignMemoryNotOwn(bytes.data(), size);
-    auto archive = mrpt::serialization::archiveFrom(memory);
-    scans += scansIn(archive.ReadObject());
+    scans += scansIn(mrpt::serialization::archiveFrom(memory).ReadObject());
   }
-  close(ends[0]);
   waitpid(child, nullptr, 0);
   return scans;
 }
