@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdlib>
@@ -28,6 +31,19 @@ inline bool printManual(const CLI::App& app, int argc, char** argv)
   return asked == "--print-man-page" || asked == "--print-completion";
 }
 
+/// A file that is opened takes the number of a standard stream that is closed, and would get what
+/// the program writes to that. Throws std::runtime_error for a closed standard output: results
+/// would be lost.
+inline void replaceClosedStreams()
+{
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+  {
+    if (fcntl(stream, F_GETFD) >= 0) continue;
+    if (open("/dev/null", O_RDWR) != stream || stream == STDOUT_FILENO)
+      throw std::runtime_error("standard output: is closed");
+  }
+}
+
 /// What every program does: parses the command line, runs `work`, and reports an error in one line.
 /// Lost output is an error, too. Returns the exit code: that of `work`, 0 after --help and
 /// --version, else 1. Sets the process's handling of SIGXFSZ, and an environment variable of Mesa.
@@ -40,6 +56,7 @@ inline int runApp(CLI::App& app, int argc, char** argv, const std::function<int(
   try
   {
     int code = 0;
+    replaceClosedStreams();
     app.set_version_flag("--version", app.get_name() + " " + SIGLOC_VERSION);
     const auto help = std::make_shared<HelpFormatter>();
     app.formatter(help);

@@ -47,9 +47,10 @@ void refuseToReplaceInputs(const fs::path& output, const std::vector<fs::path>& 
 void checkWritableFolder(const fs::path& folder)
 {
   if (folder.empty()) throw std::runtime_error("the name of the folder to write to is empty");
-  const fs::path whole = fs::absolute(folder).lexically_normal();
-  fs::path existing = whole;
   std::error_code error;
+  const fs::path whole = fs::absolute(folder, error).lexically_normal();
+  if (error) throw std::runtime_error(folder.string() + ": " + error.message());
+  fs::path existing = whole;
   while (existing.has_relative_path() && !fs::exists(existing, error))
   {
     existing = existing.parent_path();

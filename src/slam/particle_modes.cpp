@@ -132,14 +132,4 @@ std::vector<ParticleMode> modesOf(const mrpt::poses::CPosePDFParticles& particle
                    { return a.weight > b.weight; });
   return modes;
 }
-
-double weightNear(const mrpt::poses::CPosePDFParticles& particles, const TPose2D& pose)
-{
-  double weight = 0;
-  for (const WeightedPose& p : normalised(particles))
-  {
-    if (samePlace(p.pose, pose)) weight += p.weight;
-  }
-  return weight;
-}
 }  // namespace sigloc

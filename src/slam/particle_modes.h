@@ -23,7 +23,4 @@ struct ParticleMode
 /// so the modes of a scattered set sum to less than one.
 std::vector<ParticleMode> modesOf(const mrpt::poses::CPosePDFParticles& particles,
                                   std::size_t max_modes);
-
-/// Returns the share of the particles' weight within 0.5 m and 17 degrees of a pose.
-double weightNear(const mrpt::poses::CPosePDFParticles& particles, const mrpt::math::TPose2D& pose);
 }  // namespace sigloc

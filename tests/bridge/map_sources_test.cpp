@@ -323,6 +323,8 @@ TEST(MapSources, ReadsLandmarkRowsAndNamedColumns)
 
   writeText(folder / "bad.csv", "1,2\n1,two\n");
   EXPECT_NE(mapErrorOf(folder / "bad.csv").find("line 2: bad y"), std::string::npos);
+  writeText(folder / "bad.csv", "# x,y,label\n1,2,-2.5\n");
+  EXPECT_NE(mapErrorOf(folder / "bad.csv").find("line 2: label is no whole"), std::string::npos);
   writeText(folder / "only.csv", "# x,y\n");
   EXPECT_NE(mapErrorOf(folder / "only.csv").find("no landmark"), std::string::npos);
 }

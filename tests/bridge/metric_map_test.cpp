@@ -102,6 +102,25 @@ TEST(MetricMaps, WithoutAGridThePointsAreTaken)
   }
 }
 
+TEST(MetricMaps, OthersOfTheKindThatIsReadAreTold)
+{
+  const TemporaryFolder folder;
+  auto grids = mrpt::maps::CMultiMetricMap::Create();
+  grids->maps.push_back(officeGrid());
+  grids->maps.push_back(officeGrid());
+  auto points = mrpt::maps::CMultiMetricMap::Create();
+  points->maps.push_back(officePoints<mrpt::maps::CColouredPointsMap>());
+  points->maps.push_back(officePoints<mrpt::maps::CSimplePointsMap>());
+  writeObjects(folder / "grids.metricmap", {grids});
+  writeObjects(folder / "behind.metricmap", {officeGrid(), officeGrid()});
+  writeObjects(folder / "points.metricmap", {points});
+  for (const char* const name : {"grids.metricmap", "behind.metricmap"})
+    EXPECT_EQ(warningOfMapSource(folder / name), "only the first of its grid maps is read") << name;
+  EXPECT_NE(warningOfMapSource(folder / "points.metricmap")
+                .find("; only the first of its maps of points is read"),
+            std::string::npos);
+}
+
 // MRPT keeps pictures and descriptors with its landmarks; the places alone are what a user can
 // give.
 TEST(MetricMaps, LandmarksAreToldAndNotRead)

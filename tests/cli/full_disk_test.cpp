@@ -136,5 +136,49 @@ TEST(FullDisk, lostOutputIsAnError)
         << result.errors;
   }
 }
+
+TEST(FullDisk, withoutStandardOutputNothingIsWritten)
+{
+  const TemporaryFolder folder;
+  const std::vector<std::pair<std::string, Arguments>> commands = {
+      {"sigloc-map", {"build", "-i", kLabMap.string(), "-o", "lab.sigmap"}},
+      {"sigloc-localize",
+       {"--map", kLabMap.string(), "--log", kLabLog.string(), "--out", "out", "--quiet"}}};
+  for (const auto& [program, arguments] : commands)
+  {
+    const CommandResult result = runShell(folder, commandLine(program, arguments) + " >&-");
+    EXPECT_EQ(result.exit_code, 1) << program;
+    EXPECT_EQ(result.errors, program + ": standard output: is closed\n");
+    EXPECT_TRUE(listing(folder).empty()) << program;
+  }
+}
+
+TEST(FullDisk, withoutTheOtherStreamsResultsAreTheSame)
+{
+  const TemporaryFolder folder;
+  const auto build = [&](const std::string& output, const std::string& closed)
+  {
+    const Arguments arguments = {"build", "-i", kLabMap.string(), "-o", output};
+    const auto result = runShell(folder, commandLine("sigloc-map", arguments) + closed);
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    return readBytes(folder / output);
+  };
+  EXPECT_TRUE(build("a.sigmap", "") == build("b.sigmap", " <&- 2>&-"));
+  // What it says of an error goes nowhere, and not into a file.
+  const Arguments wrong = {"build", "-i", kLabMap.string(), "-o", "c.sigmap", "--spacing", "x"};
+  EXPECT_EQ(runShell(folder, commandLine("sigloc-map", wrong) + " 2>&-").exit_code, 1);
+  EXPECT_FALSE(fs::exists(folder / "c.sigmap"));
+}
+
+TEST(FullDisk, aFolderThatIsGoneIsToldInOneLine)
+{
+  const TemporaryFolder folder;
+  const Arguments build = {"build", "-i", kLabMap.string(), "-o", "lab.sigmap"};
+  const auto result =
+      runShell(folder, "mkdir gone; cd gone; rmdir ../gone; " + commandLine("sigloc-map", build));
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(countLines(result.errors), 1) << result.errors;
+  EXPECT_NE(result.errors.find(": No such file or directory"), std::string::npos) << result.errors;
+}
 }  // namespace
 }  // namespace sigloc

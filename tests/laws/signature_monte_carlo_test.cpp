@@ -246,8 +246,6 @@ TEST(ParticleModes, AreTheirParticlesMoments)
   EXPECT_NEAR(modes[1].pose.mean.x, 1.1, 1e-9);
   EXPECT_NEAR(std::abs(modes[1].pose.mean.phi), M_PI, 1e-9) << "headings wrap";
   EXPECT_EQ(modesOf(particles, 1).size(), 1U);
-  EXPECT_NEAR(weightNear(particles, {9, 9, 0.1}), 0.6, 1e-9);
-  EXPECT_NEAR(weightNear(particles, {9, 9, 1}), 0, 1e-9);
 }
 }  // namespace
 }  // namespace sigloc

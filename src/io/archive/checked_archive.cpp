@@ -103,16 +103,18 @@ void readObjectFile(const std::filesystem::path& path, mrpt::serialization::CSer
     fail(path, unsound.what());
   }
   bool whole = false;
+  bool more = false;
   try
   {
     whole = take(input, reader, object);
     // The checksum of a compressed file comes after its last byte.
-    input.atEnd();
+    more = !input.atEnd();
   }
   catch (const std::exception&)
   {
     whole = false;
   }
   if (!whole || input.damaged()) fail(path, "truncated or damaged");
+  if (more) fail(path, "more follows its '" + name + "', and would be lost");
 }
 }  // namespace sigloc::detail

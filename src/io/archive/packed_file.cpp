@@ -70,9 +70,6 @@ class File
     return bytes;
   }
 
-  /// Gives the descriptor away.
-  int release() { return std::exchange(fd_, -1); }
-
  private:
   int fd_;
   std::uint64_t size_ = 0;
@@ -80,26 +77,28 @@ class File
   bool failed_ = false;
 };
 
-/// Bytes of a file on their way.
+/// Bytes on their way.
 class Buffer
 {
  public:
   explicit Buffer(unsigned size) : bytes_(new char[size]), size_(size) {}
 
-  /// Fills the buffer, which must be empty. Returns false at the end of the file.
-  bool refill(File& file)
+  /// Fills the buffer, which must be empty, by a reader of (char*, unsigned). Returns false where
+  /// there is no more.
+  template <class Reader>
+  bool refill(Reader&& read)
   {
     from_ = 0;
-    filled_ = file.read(bytes_.get(), size_);
+    filled_ = read(bytes_.get(), size_);
     return filled_ > 0;
   }
   std::string_view rest() const { return {bytes_.get() + from_, filled_ - from_}; }
   void drop(std::size_t count) { from_ += count; }
-  std::size_t size() const { return size_; }
+  unsigned size() const { return size_; }
 
  private:
   std::unique_ptr<char[]> bytes_;
-  std::size_t size_;
+  unsigned size_;
   std::size_t from_ = 0;
   std::size_t filled_ = 0;
 };
@@ -120,125 +119,187 @@ bool isGzip(std::string_view first)
   return first.substr(0, 2) == "\x1F\x8B";
 }
 
-class PlainFile final : public PackedFile
+/// Small reads are served from a buffer.
+class BufferedFile : public PackedFile
 {
  public:
-  PlainFile(File file, unsigned buffer)
-      : PackedFile(file.size(), file.size(), {file.size(), file.size(), false}),
-        file_(std::move(file)),
-        buffer_(buffer)
+  BufferedFile(std::uint64_t file_size, std::uint64_t unpacked_size, const PackedContents& contents,
+               unsigned buffer)
+      : PackedFile(file_size, unpacked_size, contents), buffer_(buffer)
   {
   }
 
-  unsigned read(char* to, unsigned count) override
+  unsigned read(char* to, unsigned count) final
   {
-    std::size_t done = 0;
+    unsigned done = 0;
     while (done < count)
     {
-      const std::size_t left = count - done;
-      if (buffer_.rest().empty() && left >= buffer_.size())
-      {
-        done += file_.read(to + done, left);
-        break;
-      }
-      if (buffer_.rest().empty() && !buffer_.refill(file_)) break;
+      const unsigned left = count - done;
+      if (buffer_.rest().empty() && left >= buffer_.size()) return done + produce(to + done, left);
+      const auto refill = [this](char* bytes, unsigned size) { return produce(bytes, size); };
+      if (buffer_.rest().empty() && !buffer_.refill(refill)) break;
       const std::size_t here = buffer_.rest().copy(to + done, left);
       buffer_.drop(here);
-      done += here;
+      done += static_cast<unsigned>(here);
     }
-    return static_cast<unsigned>(done);
+    return done;
+  }
+
+ private:
+  /// As read(), without the buffer.
+  virtual unsigned produce(char* to, unsigned count) = 0;
+
+  Buffer buffer_;
+};
+
+class PlainFile final : public BufferedFile
+{
+ public:
+  PlainFile(File file, unsigned buffer)
+      : BufferedFile(file.size(), file.size(), {file.size(), file.size(), false}, buffer),
+        file_(std::move(file))
+  {
   }
   bool broken() const override { return file_.failed(); }
   bool wrong() const override { return false; }
   bool plain() const override { return true; }
 
  private:
+  unsigned produce(char* to, unsigned count) override
+  {
+    return static_cast<unsigned>(file_.read(to, count));
+  }
+
   File file_;
-  Buffer buffer_;
 };
 
-class GzipFile final : public PackedFile
+/// A file that a decoder unpacks, piece by piece.
+class StreamFile : public BufferedFile
 {
  public:
-  GzipFile(File file, std::uint64_t unpacked_size, unsigned buffer)
-      : PackedFile(file.size(), unpacked_size, {0, kMostOfGzip * file.size(), false}),
-        file_(gzdopen(file.release(), "rb"))
+  StreamFile(File&& file, std::uint64_t unpacked_size, const PackedContents& contents,
+             unsigned buffer)
+      : BufferedFile(file.size(), unpacked_size, contents, buffer),
+        file_(std::move(file)),
+        packed_(buffer)
   {
-    gzbuffer(file_, buffer);  // it takes three times this
   }
-  ~GzipFile() override { gzclose(file_); }
-  GzipFile(const GzipFile&) = delete;
-  GzipFile& operator=(const GzipFile&) = delete;
+  bool broken() const final { return wrong_ || cut_off_; }
+  bool wrong() const final { return wrong_; }
+  bool plain() const final { return false; }
 
-  unsigned read(char* to, unsigned count) override
+ protected:
+  struct Step
   {
-    const int got = gzread(file_, to, count);
-    if (got != static_cast<int>(count))
-    {
-      int code = Z_OK;
-      gzerror(file_, &code);
-      broken_ = broken_ || got < 0 || (code != Z_OK && code != Z_STREAM_END);
-      wrong_ = wrong_ || code == Z_DATA_ERROR;
-    }
-    return got > 0 ? static_cast<unsigned>(got) : 0;
-  }
-  bool broken() const override { return broken_; }
-  bool wrong() const override { return wrong_; }
-  bool plain() const override { return false; }
+    std::size_t taken = 0;  // bytes of the file
+    std::size_t made = 0;  // bytes of the contents
+    bool wrong = false;
+    bool within_frame = false;
+  };
 
  private:
-  gzFile file_;
-  bool broken_ = false;
+  virtual Step step(std::string_view in, char* to, unsigned room) = 0;
+
+  unsigned produce(char* to, unsigned count) final
+  {
+    unsigned done = 0;
+    while (done < count && !wrong_)
+    {
+      const auto refill = [this](char* bytes, unsigned size) { return file_.read(bytes, size); };
+      const bool ended = packed_.rest().empty() && !packed_.refill(refill);
+      // At the end, what is still in the decoder comes out without more input.
+      const unsigned made = ended && !within_frame_ ? 0 : decode(to + done, count - done);
+      done += made;
+      if (!ended || made > 0) continue;
+      cut_off_ = within_frame_ || file_.failed();
+      break;
+    }
+    return done;
+  }
+
+  unsigned decode(char* to, unsigned room)
+  {
+    const Step done = step(packed_.rest(), to, room);
+    packed_.drop(done.taken);
+    wrong_ = done.wrong;
+    within_frame_ = done.within_frame;
+    return static_cast<unsigned>(done.made);
+  }
+
+  File file_;
+  Buffer packed_;
+  bool within_frame_ = false;
+  bool cut_off_ = false;
   bool wrong_ = false;
 };
 
-class ZstdFile final : public PackedFile
+/// By zlib itself: its gzread passes over what follows the last member and is none.
+class GzipFile final : public StreamFile
+{
+ public:
+  GzipFile(File file, std::uint64_t unpacked_size, unsigned buffer)
+      : StreamFile(std::move(file), unpacked_size, {0, kMostOfGzip * file.size(), false}, buffer)
+  {
+    constexpr int kOfGzip = 16;  // its head and checksum, not those of zlib
+    ready_ = inflateInit2(&stream_, MAX_WBITS + kOfGzip) == Z_OK;
+  }
+  ~GzipFile() override { inflateEnd(&stream_); }
+  GzipFile(const GzipFile&) = delete;
+  GzipFile& operator=(const GzipFile&) = delete;
+
+ private:
+  Step step(std::string_view in, char* to, unsigned room) override
+  {
+    Step done;
+    if (!within_member_)
+    {
+      // Zeros fill the last block of a tape.
+      done.taken = std::min(in.find_first_not_of('\0'), in.size());
+      if (done.taken == in.size()) return done;
+      in.remove_prefix(done.taken);
+      inflateReset(&stream_);
+    }
+    // zlib takes what it reads for writable, and writes nothing.
+    stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(in.data()));
+    stream_.avail_in = static_cast<uInt>(in.size());
+    stream_.next_out = reinterpret_cast<Bytef*>(to);
+    stream_.avail_out = room;
+    const int code = ready_ ? inflate(&stream_, Z_NO_FLUSH) : Z_MEM_ERROR;
+    done.taken += in.size() - stream_.avail_in;
+    done.made = room - stream_.avail_out;
+    // Z_BUF_ERROR: there was nothing to take.
+    done.wrong = code != Z_OK && code != Z_STREAM_END && code != Z_BUF_ERROR;
+    done.within_frame = within_member_ = code != Z_STREAM_END;
+    return done;
+  }
+
+  z_stream stream_ = {};
+  bool ready_ = false;
+  bool within_member_ = false;
+};
+
+class ZstdFile final : public StreamFile
 {
  public:
   ZstdFile(File file, std::uint64_t unpacked_size, unsigned buffer)
-      : PackedFile(file.size(), unpacked_size,
+      : StreamFile(std::move(file), unpacked_size,
                    walkZstd([&file](std::uint64_t place, std::size_t count)
-                            { return file.bytesAt(place, count); })),
-        file_(std::move(file)),
-        buffer_(buffer),
+                            { return file.bytesAt(place, count); }),
+                   buffer),
         stream_(ZSTD_createDStream())
   {
     ZSTD_DCtx_setParameter(stream_.get(), ZSTD_d_windowLogMax, kMostWindow);
   }
 
-  unsigned read(char* to, unsigned count) override
-  {
-    ZSTD_outBuffer out{to, count, 0};
-    while (out.pos < out.size && !wrong_)
-    {
-      if (buffer_.rest().empty() && !buffer_.refill(file_))
-      {
-        // What is still in the decoder comes out without more input.
-        const std::size_t before = out.pos;
-        if (within_frame_) step(out);
-        if (out.pos > before) continue;
-        cut_off_ = within_frame_ || file_.failed();
-        break;
-      }
-      step(out);
-    }
-    return static_cast<unsigned>(out.pos);
-  }
-  bool broken() const override { return wrong_ || cut_off_; }
-  bool wrong() const override { return wrong_; }
-  bool plain() const override { return false; }
-
  private:
-  void step(ZSTD_outBuffer& out)
+  Step step(std::string_view in, char* to, unsigned room) override
   {
-    const std::string_view rest = buffer_.rest();
-    ZSTD_inBuffer in{rest.data(), rest.size(), 0};
-    const std::size_t before = out.pos;
-    const std::size_t left = ZSTD_decompressStream(stream_.get(), &out, &in);
-    buffer_.drop(in.pos);
-    without_output_ = out.pos > before ? 0 : without_output_ + in.pos;
-    wrong_ = ZSTD_isError(left) != 0 || without_output_ > kMostWithoutOutput;
-    within_frame_ = left != 0;
+    ZSTD_inBuffer input{in.data(), in.size(), 0};
+    ZSTD_outBuffer output{to, room, 0};
+    const std::size_t left = ZSTD_decompressStream(stream_.get(), &output, &input);
+    without_output_ = output.pos > 0 ? 0 : without_output_ + input.pos;
+    const bool wrong = ZSTD_isError(left) != 0 || without_output_ > kMostWithoutOutput;
+    return {input.pos, output.pos, wrong, left != 0};
   }
 
   struct Free
@@ -246,13 +307,8 @@ class ZstdFile final : public PackedFile
     void operator()(ZSTD_DStream* stream) const { ZSTD_freeDStream(stream); }
   };
 
-  File file_;
-  Buffer buffer_;
   std::unique_ptr<ZSTD_DStream, Free> stream_;
   std::uint64_t without_output_ = 0;  // bytes read since the last output
-  bool within_frame_ = false;
-  bool cut_off_ = false;
-  bool wrong_ = false;
 };
 
 /// gzip's last field, little-endian, is the size of its contents.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "features/feature_values.h"
 #include "io/archive/file_fault.h"
 #include "io/maps/map_source_readers.h"
 #include "io/text_rows.h"
@@ -61,8 +62,10 @@ Feature toLandmark(const std::vector<std::string_view>& row, const Columns& colu
   const double sigma = value(columns.sigma, "sigma", kDefaultSigma);
   if (landmark.size < 0) failAtLine(path, line, "negative radius");
   if (!(sigma > 0)) failAtLine(path, line, "sigma is not positive");
+  const double label = value(columns.label, "label", -1);
+  if (label != std::floor(label)) failAtLine(path, line, "label is no whole number");
   landmark.position_covariance(0, 0) = landmark.position_covariance(1, 1) = sigma * sigma;
-  landmark.label = static_cast<std::int32_t>(value(columns.label, "label", -1));
+  landmark.label = static_cast<std::int32_t>(label);
   if (landmark.size > 0)
   {
     landmark.type = FeatureType::circle;

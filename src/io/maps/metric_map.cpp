@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
 #include <mrpt/maps/COccupancyGridMap2D.h>
 #include <mrpt/serialization/CArchive.h>
 
@@ -123,10 +124,20 @@ struct Found
 {
   std::optional<OccupancyRaster> grid;
   std::optional<PointList> points;
+  bool more = false;  // of what was found
   bool landmarks = false;  // which are not read
 };
 
-/// Looks for the grid map in a file, else for the first map of points, and for landmarks.
+/// Keeps the first map of a kind, and notes that there are others.
+template <class Map>
+void keepFirst(std::optional<Map> map, std::optional<Map>& first, bool& more)
+{
+  if (!map) return;
+  more = first.has_value();
+  if (!first) first = std::move(map);
+}
+
+/// Looks for the first grid map in a file, else for the first map of points, and for landmarks.
 Found lookIn(const std::filesystem::path& path)
 {
   GzipInput input(path);
@@ -151,16 +162,19 @@ Found lookIn(const std::filesystem::path& path)
   const auto landmarks = findObject(bytes, from, kLandmarks);
   const auto items = landmarks ? itemsAt(bytes, *landmarks) : std::nullopt;
   found.landmarks = items && items->count > 0;
-  for (auto at = findObject(bytes, from, kGrid); at && !found.grid;
+  for (auto at = findObject(bytes, from, kGrid); at && !found.more;
        at = findObject(bytes, *at + 2, kGrid))
   {
-    found.grid = gridAt(path, *at);
+    keepFirst(gridAt(path, *at), found.grid, found.more);
   }
   if (found.grid) return found;
   for (const std::string_view of_points : kPoints)
   {
-    const auto at = findObject(bytes, from, of_points);
-    if (at && !found.points) found.points = pointsAt(bytes, *at);
+    for (auto at = findObject(bytes, from, of_points); at && !found.more;
+         at = findObject(bytes, *at + 2, of_points))
+    {
+      keepFirst(pointsAt(bytes, *at), found.points, found.more);
+    }
   }
   return found;
 }
@@ -191,9 +205,14 @@ OccupancyRaster readMetricMap(const std::filesystem::path& path, const ReadingOp
 std::string warningOfMetricMap(const std::filesystem::path& path)
 {
   const Found found = lookIn(path);
-  std::string warning = found.grid ? "" : kNoFreeSpace;
-  if (found.landmarks)
-    warning += std::string(warning.empty() ? "" : "; ") + "its landmarks are left out";
-  return warning;
+  std::vector<std::string> warnings;
+  if (!found.grid) warnings.emplace_back(kNoFreeSpace);
+  if (found.more)
+  {
+    warnings.emplace_back(found.grid ? "only the first of its grid maps is read"
+                                     : "only the first of its maps of points is read");
+  }
+  if (found.landmarks) warnings.emplace_back("its landmarks are left out");
+  return fmt::format("{}", fmt::join(warnings, "; "));
 }
 }  // namespace sigloc::detail

@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Files that are compressed by gzip, and what may stand behind their contents.
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <random>
+
+#include "bridge/map_error.h"
+#include "bridge/rawlog_files.h"
+#include "io/archive/gzip_input.h"
+#include "sigloc/io/RawlogReader.h"
+
+namespace sigloc
+{
+namespace
+{
+using namespace sigloc::test;
+
+const std::filesystem::path kLog = "/usr/share/mrpt/datasets/localization_demo.rawlog";
+const std::filesystem::path kMap = "/usr/share/mrpt/datasets/localization_demo.simplemap.gz";
+
+/// One member of gzip.
+std::string packed(const std::string& bytes)
+{
+  const TemporaryFolder folder;
+  gzFile file = gzopen((folder / "a").c_str(), "wb6");
+  gzwrite(file, bytes.data(), static_cast<unsigned>(bytes.size()));
+  gzclose(file);
+  return readBytes(folder / "a");
+}
+
+struct Contents
+{
+  std::string bytes;
+  bool damaged = false;
+};
+
+/// Reads a file in pieces of random size, small and large.
+Contents contentsOf(const std::filesystem::path& path)
+{
+  std::mt19937 generator(3);
+  detail::GzipInput input(path);
+  Contents contents;
+  for (bool more = true; more;)
+  {
+    std::string piece(generator() % 2 == 0 ? 1 + generator() % 9 : 1 + generator() % 600000, '\0');
+    const std::size_t got = input.Read(piece.data(), piece.size());
+    more = got == piece.size();
+    contents.bytes.append(piece, 0, got);
+  }
+  contents.damaged = input.damaged();
+  return contents;
+}
+
+Contents contentsOf(const TemporaryFolder& folder, const std::string& file)
+{
+  writeText(folder / "file", file);
+  return contentsOf(folder / "file");
+}
+
+std::string mixed(std::size_t count)
+{
+  std::mt19937 generator(5);
+  std::string bytes(count, 'a');
+  for (std::size_t i = 0; i < count; i += 1 + generator() % 7)
+    bytes[i] = static_cast<char>(generator() & 0xFFU);
+  return bytes;
+}
+
+TEST(GzipFiles, holdWhatWasPackedInOneMemberOrSeveral)
+{
+  const TemporaryFolder folder;
+  for (const std::size_t size : {0U, 1U, 1000U, 262144U, 3000000U})
+  {
+    const std::string bytes = mixed(size);
+    const std::string member = packed(bytes);
+    for (const std::string& zeros : {std::string(), std::string(700000, '\0')})
+    {
+      const auto [one, damaged] = contentsOf(folder, member + zeros);
+      EXPECT_TRUE(one == bytes && !damaged) << size;
+      const auto [two, second_damaged] = contentsOf(folder, member + zeros + member);
+      EXPECT_TRUE(two == bytes + bytes && !second_damaged) << size;
+    }
+  }
+}
+
+TEST(GzipFiles, cutOffOnesAreToldAndGiveWhatTheyHave)
+{
+  const TemporaryFolder folder;
+  const std::string bytes = mixed(20000);
+  const std::string whole = packed(bytes);
+  std::size_t before = 0;
+  for (std::size_t size = 4; size < whole.size(); size += 1 + size / 5)
+  {
+    const auto [got, damaged] = contentsOf(folder, whole.substr(0, size));
+    EXPECT_TRUE(damaged) << size;
+    EXPECT_TRUE(got == bytes.substr(0, got.size())) << size;
+    EXPECT_GE(got.size(), before);
+    before = got.size();
+  }
+  EXPECT_GT(before, 10000U);
+}
+
+TEST(GzipFiles, whatFollowsThemAndIsNoneIsDamage)
+{
+  const TemporaryFolder folder;
+  const std::string bytes = mixed(5000);
+  for (const std::string& junk :
+       {std::string("x"), std::string("\x1f"), readBytes(kMap).substr(0, 5),
+        std::string(20, '\0') + "junk", mixed(300000)})
+  {
+    const auto [got, damaged] = contentsOf(folder, packed(bytes) + junk);
+    EXPECT_TRUE(damaged) << junk.size();
+    EXPECT_TRUE(got.substr(0, bytes.size()) == bytes);
+  }
+  const auto log = folder / "l.rawlog";
+  writeText(log, readBytes(kLog) + "the end");
+  EXPECT_EQ(messageOf<std::runtime_error>([&] { RawlogReader reader(log); }),
+            log.string() + ": damaged");
+  const auto map = folder / "m.simplemap";
+  writeText(map, readBytes(kMap) + "the end");
+  EXPECT_EQ(mapErrorOf(map), map.string() + ": damaged");
+}
+
+TEST(GzipFiles, noByteThatIsChangedGoesUnnoticed)
+{
+  const TemporaryFolder folder;
+  const std::string bytes = mixed(3000);
+  const std::string whole = packed(bytes);
+  constexpr std::size_t kHead = 10;  // its times and flags are not checked
+  std::mt19937 generator(9);
+  for (int k = 0; k < 200; ++k)
+  {
+    std::string spoilt = whole;
+    spoilt[kHead + generator() % (spoilt.size() - kHead)] ^=
+        static_cast<char>(1 + generator() % 255);
+    EXPECT_TRUE(contentsOf(folder, spoilt).damaged) << k;
+  }
+}
+
+TEST(GzipFiles, whatFollowsAMapIsNotLostWithoutAWord)
+{
+  const TemporaryFolder folder;
+  const auto office = std::filesystem::path(SIGLOC_GOLDEN_FOLDER) / "../../maps/office.gridmap.gz";
+  for (const auto& [name, source] :
+       {std::pair<const char*, std::filesystem::path>{"m.simplemap", kMap}, {"m.gridmap", office}})
+  {
+    const std::string bytes = contentsOf(source).bytes;
+    for (const std::string& more : {std::string("x"), bytes})
+    {
+      writeText(folder / name, packed(bytes + more));
+      const std::string message = mapErrorOf(folder / name);
+      EXPECT_NE(message.find(": more follows its '"), std::string::npos) << message;
+    }
+  }
+}
+}  // namespace
+}  // namespace sigloc
