@@ -41,6 +41,15 @@ inline void loadWide(const float* from, std::size_t n, WideFloat& to)
   std::memcpy(&to, from, n * sizeof(float));
 }
 
+/// Reads from eight places of a table, each counted from its beginning.
+template <class T>
+void loadWide(const T* table, const WideInt& places, WideInt& to)
+{
+  const auto at = [&](std::size_t k)
+  { return static_cast<std::int32_t>(table[static_cast<std::uint32_t>(places[k])]); };
+  to = WideInt{at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7)};
+}
+
 inline float sumOf(const WideFloat& v)
 {
   return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));

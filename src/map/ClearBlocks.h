@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "geometry/simd.h"
 #include "sigloc/map/DenseField.h"
 
 namespace sigloc
@@ -36,15 +37,14 @@ class ClearBlocks
   const std::uint8_t* whole() const { return blocks_.data(); }
   std::int32_t width() const { return width_; }  ///< [blocks]
   std::int32_t height() const { return height_; }  ///< [blocks]
-  /// Returns the byte of a block in the frame. Only where it is in tiles.
-  std::uint8_t inTile(std::int32_t x, std::int32_t y) const
+  /// Looks up the bytes of eight blocks in the frame. Only where it is in tiles.
+  void loadTiled(const WideInt& x, const WideInt& y, WideInt& bytes) const
   {
-    const auto column = static_cast<std::uint32_t>(x);
-    const auto row = static_cast<std::uint32_t>(y);
-    constexpr std::uint32_t kTile = kTileSide;
-    const std::size_t tile =
-        tiles_[row / kTile * static_cast<std::uint32_t>(columns_) + column / kTile];
-    return blocks_[tile * kTileBlocks + (row % kTile * kTile + column % kTile)];
+    constexpr std::int32_t kInTile = kTileSide - 1;
+    WideInt tile;
+    loadWide(tiles_.data(), (y >> kTileBits) * columns_ + (x >> kTileBits), tile);
+    const WideInt in_tile = ((y & kInTile) << kTileBits) + (x & kInTile);
+    loadWide(blocks_.data(), (tile << 2 * kTileBits) + in_tile, bytes);
   }
 
   /// Returns the bit of a cell in the byte of a block with walls.
@@ -55,7 +55,8 @@ class ClearBlocks
 
  private:
   // Two tiles reach as far as kFarthest.
-  static constexpr std::int32_t kTileSide = 64;  // [blocks]
+  static constexpr std::int32_t kTileBits = 6;
+  static constexpr std::int32_t kTileSide = 1 << kTileBits;  // [blocks]
   static constexpr std::size_t kTileBlocks = std::size_t{kTileSide} * kTileSide;
   static constexpr std::int32_t kTilesAround = 2;
 

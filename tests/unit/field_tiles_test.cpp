@@ -157,11 +157,20 @@ TEST(FieldTiles, HaveTheSameClearBlocks)
   const ClearBlocks whole(corners());
   const ClearBlocks tiled(cornersInTiles());
   ASSERT_TRUE(tiled.isTiled());
+  const WideInt steps = {0, 1, 2, 3, 5, 8, 13, 21};
   for (std::int32_t y = 0; y < whole.height(); ++y)
   {
     for (std::int32_t x = 0; x < whole.width(); ++x)
     {
-      ASSERT_EQ(tiled.inTile(x, y), whole.whole()[y * whole.width() + x]) << x << " " << y;
+      const WideInt columns = (x + 17 * steps) % whole.width();
+      const WideInt rows = (y + 29 * steps) % whole.height();
+      WideInt bytes;
+      tiled.loadTiled(columns, rows, bytes);
+      for (int k = 0; k < 8; ++k)
+      {
+        ASSERT_EQ(bytes[k], whole.whole()[rows[k] * whole.width() + columns[k]])
+            << columns[k] << " " << rows[k];
+      }
     }
   }
 }

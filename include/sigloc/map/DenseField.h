@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <new>
 #include <vector>
 
 namespace sigloc
@@ -108,6 +109,24 @@ class DenseCell
 };
 static_assert(sizeof(DenseCell) == 3, "a field has hundreds of cells a square metre");
 
+/// Memory with a byte behind the last cell, so that each can be read as a word of four bytes.
+template <class T>
+struct CellAllocator
+{
+  using value_type = T;  // NOLINT(readability-identifier-naming): what allocators call it
+  CellAllocator() = default;
+  template <class U>
+  // NOLINTNEXTLINE(google-explicit-constructor): allocators convert
+  CellAllocator(const CellAllocator<U>& /*other*/)
+  {
+  }
+  T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T) + 1)); }
+  void deallocate(T* cells, std::size_t /*n*/) noexcept { ::operator delete(cells); }
+  friend bool operator==(const CellAllocator& /*a*/, const CellAllocator& /*b*/) { return true; }
+  friend bool operator!=(const CellAllocator& /*a*/, const CellAllocator& /*b*/) { return false; }
+};
+using DenseCells = std::vector<DenseCell, CellAllocator<DenseCell>>;
+
 /// Distance to, and direction of, the nearest wall everywhere on the map, for dense verification.
 /// Plain data; see `buildDenseField`. Where most of a large frame is not mapped, only tiles with
 /// something in them are stored. \cite algorithm eq. (6.3)
@@ -119,7 +138,7 @@ struct DenseField
   static constexpr std::size_t kTileCells = std::size_t{kTileSide} * kTileSide;
   RasterFrame frame;
   /// width * height, or kTileCells for each stored tile, row by row in it.
-  std::vector<DenseCell> cells;
+  DenseCells cells;
   /// For each tile of the frame, row by row: its place among the stored ones. The first stored tile
   /// stands for all without anything in them. Empty where `cells` has the whole frame.
   std::vector<std::uint32_t> tiles;

@@ -61,7 +61,7 @@ std::uint8_t distanceOfByte(std::uint8_t byte)
 // Cells are written in blocks of four planes. Equal bytes are next to each other, so that the
 // lowest level of compression is both quick and small. A reader allocates no more than the file has
 // data for.
-void writeCells(const std::vector<DenseCell>& cells, std::size_t from, CArchive& out)
+void writeCells(const DenseCells& cells, std::size_t from, CArchive& out)
 {
   std::vector<std::uint8_t> planes(4 * kBlockCells);
   for (std::size_t first = from; first < cells.size(); first += kBlockCells)
@@ -113,7 +113,7 @@ void countStates(const std::uint8_t* states, std::size_t n, CellCounts& counts)
 }
 
 /// Appends the cells of four planes.
-void joinPlanes(const std::uint8_t* planes, std::size_t n, std::vector<DenseCell>& cells)
+void joinPlanes(const std::uint8_t* planes, std::size_t n, DenseCells& cells)
 {
   for (std::size_t i = 0; i < n; ++i)
   {
@@ -125,7 +125,7 @@ void joinPlanes(const std::uint8_t* planes, std::size_t n, std::vector<DenseCell
 }
 
 /// Appends cells until there are `count`, and returns the counts of those.
-CellCounts readCells(CArchive& in, std::size_t count, std::vector<DenseCell>& cells)
+CellCounts readCells(CArchive& in, std::size_t count, DenseCells& cells)
 {
   CellCounts counts;
   std::vector<std::uint8_t> planes(4 * kBlockCells);

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 #include "sigloc/map/DenseField.h"
 
@@ -83,13 +84,13 @@ class CellView
       }
       if (view.tiles_ != nullptr)
       {
-        for (std::size_t i = 0; i < count; ++i) packed[i] = pack(view.storedAt(ix[i], iy[i]));
+        fillTiled(view, count);
         return;
       }
       const DenseCell* before = view.cells_ - view.width_ - 1;
       for (std::size_t i = 0; i < count; ++i)
       {
-        packed[i] = pack(before[static_cast<std::ptrdiff_t>(iy[i]) * view.width_ + ix[i]]);
+        packed[i] = word(before[static_cast<std::ptrdiff_t>(iy[i]) * view.width_ + ix[i]]);
       }
     }
 
@@ -121,7 +122,38 @@ class CellView
     }
 
    private:
+    /// Looks up cells of a field in tiles. All must be in the frame.
+    void fillTiled(const CellView& view, std::size_t count)
+    {
+      constexpr std::uint32_t kSide = DenseField::kTileSide;
+      std::array<std::uint32_t, kSize> tile, in_tile;
+      for (std::size_t i = 0; i < count; ++i)
+      {
+        const auto x = static_cast<std::uint32_t>(ix[i] - 1);
+        const auto y = static_cast<std::uint32_t>(iy[i] - 1);
+        tile[i] = y / kSide * view.tile_columns_ + x / kSide;
+        in_tile[i] = y % kSide * kSide + x % kSide;
+      }
+      for (std::size_t i = 0; i < count; ++i)
+      {
+        const std::size_t first = view.tiles_[tile[i]] * std::size_t{DenseField::kTileCells};
+        packed[i] = word(view.cells_[first + in_tile[i]]);
+      }
+    }
+
     static constexpr auto kOffsetUnit = static_cast<float>(DenseField::kOffsetUnit);
+
+    /// Reads a stored cell at once, and the byte behind it, which is dropped.
+    static std::uint32_t word(const DenseCell& stored)
+    {
+#if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+      std::uint32_t bytes = 0;
+      std::memcpy(&bytes, static_cast<const void*>(&stored), sizeof(bytes));
+      return bytes & 0xFFFFFFU;
+#else
+      return pack(stored);
+#endif
+    }
 
     /// Packs the members of a cell. They are then separated for several points at once.
     static std::uint32_t pack(const DenseCell& cell)
@@ -140,8 +172,14 @@ class CellView
     const float cells = (x - origin) * scale_ + 1.0F;
     return std::min(std::max(cells, 0.0F), static_cast<float>(size + 1));
   }
-  std::int32_t column(float x) const { return static_cast<std::int32_t>(bordered(x, x0_, width_)); }
-  std::int32_t row(float y) const { return static_cast<std::int32_t>(bordered(y, y0_, height_)); }
+  std::int32_t column(float x) const
+  {
+    return static_cast<std::int32_t>(bordered(x, x0_, width_));
+  }
+  std::int32_t row(float y) const
+  {
+    return static_cast<std::int32_t>(bordered(y, y0_, height_));
+  }
 
   const DenseCell& cellAt(std::int32_t column, std::int32_t row) const
   {

@@ -105,11 +105,9 @@ inline void lookAround(const RasterFrame& frame, const ClearBlocks& clear_blocks
   WideInt block;
   if (clear_blocks.isTiled())
   {
-    for (std::size_t k = 0; k < kWideFloats; ++k)
-    {
-      block[k] = is_inside[k] != 0 ? clear_blocks.inTile(block_column[k], block_row[k])
-                                   : ClearBlocks::kOutside;
-    }
+    static_assert(ClearBlocks::kOutside == 0);
+    clear_blocks.loadTiled(block_column & is_inside, block_row & is_inside, block);
+    block &= is_inside;
   }
   else
   {
@@ -117,8 +115,7 @@ inline void lookAround(const RasterFrame& frame, const ClearBlocks& clear_blocks
     const std::int32_t outside = clear_blocks.width() * clear_blocks.height();
     const WideInt at =
         ((block_row * clear_blocks.width() + block_column) & is_inside) | (outside & ~is_inside);
-    block = WideInt{bytes[at[0]], bytes[at[1]], bytes[at[2]], bytes[at[3]],
-                    bytes[at[4]], bytes[at[5]], bytes[at[6]], bytes[at[7]]};
+    loadWide(bytes, at, block);
   }
   // Beside a wall, and outside, only the own cell is known to be clear. Elsewhere all blocks up to
   // the nearest with a wall are.
