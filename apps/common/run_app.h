@@ -39,8 +39,9 @@ inline void replaceClosedStreams()
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
   {
     if (fcntl(stream, F_GETFD) >= 0) continue;
-    if (open("/dev/null", O_RDWR) != stream || stream == STDOUT_FILENO)
-      throw std::runtime_error("standard output: is closed");
+    const bool replaced = open("/dev/null", O_RDWR) == stream;
+    if (stream == STDOUT_FILENO) throw std::runtime_error("standard output: is closed");
+    if (!replaced) throw std::runtime_error("/dev/null: cannot be opened for a closed stream");
   }
 }
 

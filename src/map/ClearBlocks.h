@@ -44,7 +44,12 @@ class ClearBlocks
     WideInt tile;
     loadWide(tiles_.data(), (y >> kTileBits) * columns_ + (x >> kTileBits), tile);
     const WideInt in_tile = ((y & kInTile) << kTileBits) + (x & kInTile);
-    loadWide(blocks_.data(), (tile << 2 * kTileBits) + in_tile, bytes);
+    const auto at = [&](std::size_t k)
+    {
+      const auto first = std::size_t{static_cast<std::uint32_t>(tile[k])} << 2 * kTileBits;
+      return std::int32_t{blocks_[first + static_cast<std::size_t>(in_tile[k])]};
+    };
+    bytes = WideInt{at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7)};
   }
 
   /// Returns the bit of a cell in the byte of a block with walls.

@@ -110,7 +110,9 @@ TEST(MetricMaps, OthersOfTheKindThatIsReadAreTold)
   grids->maps.push_back(officeGrid());
   auto points = mrpt::maps::CMultiMetricMap::Create();
   points->maps.push_back(officePoints<mrpt::maps::CColouredPointsMap>());
-  points->maps.push_back(officePoints<mrpt::maps::CSimplePointsMap>());
+  auto elsewhere = mrpt::maps::CSimplePointsMap::Create();
+  for (int i = 0; i < 100; ++i) elsewhere->insertPoint(900, 0.05F * static_cast<float>(i), 0);
+  points->maps.push_back(elsewhere);
   writeObjects(folder / "grids.metricmap", {grids});
   writeObjects(folder / "behind.metricmap", {officeGrid(), officeGrid()});
   writeObjects(folder / "points.metricmap", {points});
@@ -119,6 +121,9 @@ TEST(MetricMaps, OthersOfTheKindThatIsReadAreTold)
   EXPECT_NE(warningOfMapSource(folder / "points.metricmap")
                 .find("; only the first of its maps of points is read"),
             std::string::npos);
+  const auto office = std::get<OccupancyRaster>(readMapSource(kOfficeGrid)).frame;
+  const auto first = std::get<OccupancyRaster>(readMapSource(folder / "points.metricmap")).frame;
+  EXPECT_NEAR(first.origin.x, office.origin.x, 5) << "in the order of the file";
 }
 
 // MRPT keeps pictures and descriptors with its landmarks; the places alone are what a user can

@@ -19,6 +19,7 @@ namespace sigloc::detail
 namespace
 {
 constexpr std::size_t kMostHeader = 18;  // bytes of a zstd frame's header
+constexpr std::string_view kGzipMagic = "\x1F\x8B";
 constexpr std::uint64_t kMostOfGzip = 1032;  // times its size: what a byte unpacks to at most
 constexpr std::uint64_t kUsualRatio = 3;  // of logs
 constexpr int kMostWindow = 27;  // log2 of the bytes that unpacking zstd may take, as its program
@@ -116,7 +117,7 @@ bool isZstd(std::string_view first)
 
 bool isGzip(std::string_view first)
 {
-  return first.substr(0, 2) == "\x1F\x8B";
+  return first.substr(0, kGzipMagic.size()) == kGzipMagic;
 }
 
 /// Small reads are served from a buffer.
@@ -257,6 +258,9 @@ class GzipFile final : public StreamFile
       done.taken = std::min(in.find_first_not_of('\0'), in.size());
       if (done.taken == in.size()) return done;
       in.remove_prefix(done.taken);
+      // zlib judges by two bytes, and would take a single one for a head that is cut off.
+      done.wrong = in.front() != kGzipMagic.front();
+      if (done.wrong) return done;
       inflateReset(&stream_);
     }
     // zlib takes what it reads for writable, and writes nothing.
@@ -311,7 +315,8 @@ class ZstdFile final : public StreamFile
   std::uint64_t without_output_ = 0;  // bytes read since the last output
 };
 
-/// gzip's last field, little-endian, is the size of its contents.
+/// gzip's last field, little-endian, is the size of its contents. Of a file with zeros or a member
+/// behind it, that is a guess.
 std::uint64_t sizeInGzip(const File& file)
 {
   constexpr std::uint64_t kTrailerBytes = 4;
@@ -322,7 +327,7 @@ std::uint64_t sizeInGzip(const File& file)
   {
     size |= std::uint64_t{static_cast<unsigned char>(bytes[i])} << (8 * i);
   }
-  return size;
+  return std::max(size, file.size());
 }
 
 std::uint64_t sizeInZstd(const File& file, std::string_view first)

@@ -59,6 +59,18 @@ std::optional<std::size_t> findObject(std::string_view bytes, std::size_t from,
   return std::nullopt;
 }
 
+/// Returns where the first map of points begins at `from` or later.
+std::optional<std::size_t> findPoints(std::string_view bytes, std::size_t from)
+{
+  std::optional<std::size_t> first;
+  for (const std::string_view name : kPoints)
+  {
+    const auto at = findObject(bytes, from, name);
+    if (at && (!first || *at < *first)) first = at;
+  }
+  return first;
+}
+
 /// Returns the grid map that begins at a place of the file, or nullopt for one that is damaged or
 /// makes no map.
 std::optional<OccupancyRaster> gridAt(const std::filesystem::path& path, std::size_t at)
@@ -168,13 +180,9 @@ Found lookIn(const std::filesystem::path& path)
     keepFirst(gridAt(path, *at), found.grid, found.more);
   }
   if (found.grid) return found;
-  for (const std::string_view of_points : kPoints)
+  for (auto at = findPoints(bytes, from); at && !found.more; at = findPoints(bytes, *at + 2))
   {
-    for (auto at = findObject(bytes, from, of_points); at && !found.more;
-         at = findObject(bytes, *at + 2, of_points))
-    {
-      keepFirst(pointsAt(bytes, *at), found.points, found.more);
-    }
+    keepFirst(pointsAt(bytes, *at), found.points, found.more);
   }
   return found;
 }
