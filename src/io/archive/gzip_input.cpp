@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstring>
 #include <memory>
 #include <string_view>
 #include <vector>
@@ -175,8 +174,8 @@ void GzipInput::requireWithin(std::uint64_t bytes) const
 
 std::size_t GzipInput::Read(void* buffer, std::size_t count)
 {
-  const std::size_t from_ahead = std::min(count, ahead_.size() - ahead_from_);
-  std::memcpy(buffer, ahead_.data() + ahead_from_, from_ahead);
+  // With a count of 0 the buffer may be null, which memcpy() does not allow.
+  const std::size_t from_ahead = ahead_.copy(static_cast<char*>(buffer), count, ahead_from_);
   ahead_from_ += from_ahead;
   if (ahead_from_ == ahead_.size())
   {
