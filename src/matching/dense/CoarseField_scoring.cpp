@@ -21,15 +21,16 @@ constexpr std::size_t kThinningShare = 4;  // one proposal in so many is kept
 constexpr std::size_t kLeastThinned = 512;  // lower bound of the proposals kept
 constexpr std::size_t kMostThinned = 8000;  // upper bound of the proposals kept, ties not counted
 constexpr std::uint32_t kHeadings = 512;  // of the table: an error of 0.35 degrees, 0.1 m at 16 m
+/// How many proposals have a score by the first returns.
+using ScoreCounts = std::array<std::uint32_t, 255 * kRoughReturns + 1>;
 constexpr auto kHeadingsPerRadian = static_cast<float>(kHeadings / (2.0 * M_PI));
 
 /// Keeps the best `count` of the first scores, and those equal to the last of them, so that the
 /// order of the proposals does not decide which ones stay. Returns the least score that it keeps.
-std::uint32_t keepBest(std::vector<CoarseScore>& scores, std::size_t count)
+std::uint32_t keepBest(std::vector<CoarseScore>& scores, const ScoreCounts& with_score,
+                       std::size_t count)
 {
   if (scores.size() <= count) return 0;
-  std::array<std::uint32_t, 255 * kRoughReturns + 1> with_score{};
-  for (const CoarseScore& entry : scores) ++with_score[entry.score];
   std::size_t enough = 0;
   auto lowest = static_cast<std::uint32_t>(with_score.size());
   while (enough < count && lowest > 0) enough += with_score[--lowest];
@@ -75,6 +76,27 @@ SIGLOC_WIDE_VECTORS void placeOn(const RasterPlace& raster, const PoseProposal* 
     placed.heading[i] = static_cast<std::int32_t>(rounded - kRounds);
   }
 }
+
+struct Heading
+{
+  float c, s;
+};
+
+/// The headings of the table.
+const std::array<Heading, kHeadings>& headings()
+{
+  static const std::array<Heading, kHeadings> kTable = []
+  {
+    std::array<Heading, kHeadings> table{};
+    for (std::uint32_t k = 0; k < kHeadings; ++k)
+    {
+      const float phi = static_cast<float>(k) / kHeadingsPerRadian;
+      table[k] = {std::cos(phi), std::sin(phi)};
+    }
+    return table;
+  }();
+  return kTable;
+}
 }  // namespace
 
 /// The first returns of a scan as offsets in cells, for the headings of a table. A heading is
@@ -101,11 +123,12 @@ class CoarseField::TurnedReturns
     }
   }
 
-  /// Scores the proposals at which a robot could be, by the first `returns`. Leaves out some that
-  /// are not among the best `count`, so that what very many take fits the cache.
+  /// Scores the proposals at which a robot could be, by the first `returns`, and counts the scores.
+  /// Leaves out some that are not among the best `count`, so that what very many take fits the
+  /// cache. They stay counted, below all that are kept.
   template <std::size_t returns>
   std::vector<CoarseScore> firstScores(const std::vector<PoseProposal>& proposals,
-                                       std::size_t count)
+                                       std::size_t count, ScoreCounts& with_score)
   {
     std::size_t room = std::max(4 * count, 2 * PlacedBlock::kSize);
     std::vector<CoarseScore> scores;
@@ -126,12 +149,13 @@ class CoarseField::TurnedReturns
         const Turned& turned = turnedTo(placed.heading[i]);
         const std::uint32_t score = sumAt<0, returns>(placed.column[i], placed.row[i], turned);
         // An entry is kept or overwritten by the next one: a branch here could not be predicted.
+        ++with_score[score];
         of_block[kept] = {score, static_cast<std::uint32_t>(first + i)};
         kept += score >= least ? 1 : 0;
       }
       if (scores.size() + kept > room)
       {
-        least = keepBest(scores, count);
+        least = keepBest(scores, with_score, count);
         room = std::max(room, 2 * scores.size());  // where many are equal
       }
       scores.insert(scores.end(), of_block.begin(),
@@ -239,18 +263,17 @@ class CoarseField::TurnedReturns
     const std::uint32_t row = static_cast<std::uint32_t>(heading) % kHeadings;
     if (ready_[row] == 0)
     {
-      turn(static_cast<float>(heading) / kHeadingsPerRadian, table_[row]);
+      turn(headings()[row], table_[row]);
       ready_[row] = 1;
     }
     return table_[row];
   }
 
-  SIGLOC_WIDE_VECTORS void turn(float phi, Turned& turned) const
+  SIGLOC_WIDE_VECTORS void turn(const Heading& heading, Turned& turned) const
   {
     // Truncation rounds to the nearest where all values are positive.
     constexpr std::int32_t kShift = 1 << 14;
-    const float c = std::cos(phi);
-    const float s = std::sin(phi);
+    const auto [c, s] = heading;
     std::int32_t least_x = 0;
     std::int32_t most_x = 0;
     std::int32_t least_y = 0;
@@ -290,9 +313,10 @@ std::vector<PoseProposal> CoarseField::best(const DenseScan& scan,
                                             const std::vector<PoseProposal>& proposals,
                                             std::size_t count) const
 {
+  ScoreCounts with_score{};
   std::vector<CoarseScore> scores =
-      TurnedReturns(scan, *this).firstScores<kRoughReturns>(proposals, count);
-  keepBest(scores, count);
+      TurnedReturns(scan, *this).firstScores<kRoughReturns>(proposals, count, with_score);
+  keepBest(scores, with_score, count);
   std::vector<PoseProposal> kept;
   kept.reserve(scores.size());
   for (const CoarseScore& entry : scores) kept.push_back(proposals[entry.index]);
@@ -315,9 +339,11 @@ std::vector<CoarseScore> CoarseField::score(const DenseScan& scan,
                                             const std::vector<PoseProposal>& proposals) const
 {
   TurnedReturns returns(scan, *this);
+  ScoreCounts with_score{};
   std::vector<CoarseScore> scores =
-      returns.firstScores<kThinningReturns>(proposals, proposals.size());
-  keepBest(scores, std::clamp(scores.size() / kThinningShare, kLeastThinned, kMostThinned));
+      returns.firstScores<kThinningReturns>(proposals, proposals.size(), with_score);
+  keepBest(scores, with_score,
+           std::clamp(scores.size() / kThinningShare, kLeastThinned, kMostThinned));
   returns.addOtherReturns(scores, proposals);
   return scores;
 }

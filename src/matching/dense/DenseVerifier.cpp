@@ -17,6 +17,7 @@ using mrpt::math::TPose2D;
 namespace
 {
 // The cascade, \cite algorithm section 6. Stage 1, where proposals are very many:
+constexpr std::size_t kVeryMany = 48000;  // with fewer, thinning takes longer than it saves
 constexpr double kRoughCell = 0.4;  // [m] of the raster that thins them
 constexpr std::size_t kRoughKept = 8000;  // proposals that are left, ties not counted
 // Stage 2, one pose of each neighbourhood:
@@ -142,17 +143,17 @@ std::vector<RankedPose> DenseVerifier::rank(const DenseScan& scan,
 {
   if (scan.size() == 0 || proposals.empty()) return before;
   // 1. Score every proposal coarsely with a few returns.
-  const bool are_many = proposals.size() > 2 * kRoughKept;
+  const bool are_many = proposals.size() > kVeryMany;
   const std::vector<PoseProposal> likely =
       are_many ? rough_field_->best(scan, proposals, kRoughKept) : std::vector<PoseProposal>{};
   const std::vector<PoseProposal>& tried = are_many ? likely : proposals;
-  std::vector<CoarseScore> scores = coarse_field_->score(scan, tried);
+  const std::vector<CoarseScore> scores = coarse_field_->score(scan, tried);
   counters.poses_scored += are_many ? proposals.size() : scores.size();
 
   // 2. Refine the best of each neighbourhood on some of the returns. Neighbouring poses that did
   // not converge stay rivals until all returns have scored them. Which of them wins must not depend
   // on where the proposals were.
-  std::vector<Raced> raced = race(scan, tried, std::move(scores), before, counters);
+  std::vector<Raced> raced = race(scan, tried, scores, before, counters);
   std::vector<RankedPose> poses =
       bestOf(scan, std::move(raced), kMiddleRays,
              DistinctPoses(kFinalKept, kFinalKept + max_ranked, kApartDistance));
@@ -203,15 +204,17 @@ std::vector<RankedPose> DenseVerifier::rank(const DenseScan& scan,
 /// refinement adds to the coarse score is small, so few are refined where the scan tells much.
 std::vector<DenseVerifier::Raced> DenseVerifier::race(const DenseScan& scan,
                                                       const std::vector<PoseProposal>& proposals,
-                                                      std::vector<CoarseScore> scores,
+                                                      const std::vector<CoarseScore>& scores,
                                                       const std::vector<RankedPose>& before,
                                                       MatchingCounters& counters) const
 {
-  const auto worse = [](const CoarseScore& a, const CoarseScore& b)
-  { return a.score != b.score ? a.score < b.score : a.index > b.index; };
-  // Few are needed before enough are chosen, and a heap sorts no more than those.
-  std::make_heap(scores.begin(), scores.end(), worse);
-  auto end = scores.end();
+  // The best is the largest number, of equal ones that which came first. Few are needed before
+  // enough are chosen, and a heap sorts no more than those.
+  std::vector<std::uint64_t> order;
+  order.reserve(scores.size());
+  for (const CoarseScore& entry : scores)
+    order.push_back(std::uint64_t{entry.score} << 32U | ~entry.index);
+  std::make_heap(order.begin(), order.end());
   std::vector<TPose2D> places;
   places.reserve(before.size() + kBatch);
   for (const RankedPose& pose : before) places.push_back(pose.pose);
@@ -223,16 +226,16 @@ std::vector<DenseVerifier::Raced> DenseVerifier::race(const DenseScan& scan,
   float most_weight = 0;
   double best_middle = bestScore(before);
   std::size_t refined = 0;
-  const auto can_win = [&]
-  { return end != scores.begin() && scores.front().score + kMargin >= best; };
+  const auto can_win = [&] { return !order.empty() && (order.front() >> 32U) + kMargin >= best; };
   while (refined < kMostRefined && can_win())
   {
     const std::size_t batch = std::min(refined == 0 ? kFirstBatch : kBatch, kMostRefined - refined);
     places.clear();
     while (places.size() < batch && can_win())
     {
-      std::pop_heap(scores.begin(), end, worse);
-      const PoseProposal& p = proposals[(--end)->index];
+      const PoseProposal& p = proposals[~static_cast<std::uint32_t>(order.front())];
+      std::pop_heap(order.begin(), order.end());
+      order.pop_back();
       if (taken.holdsNear(p)) continue;
       taken.add(p);
       places.emplace_back(p.x, p.y, p.phi);

@@ -92,8 +92,8 @@ class DenseVerifier
     bool rays_tested;
   };
   std::vector<Raced> race(const DenseScan& scan, const std::vector<PoseProposal>& proposals,
-                          std::vector<CoarseScore> scores, const std::vector<RankedPose>& before,
-                          MatchingCounters& counters) const;
+                          const std::vector<CoarseScore>& scores,
+                          const std::vector<RankedPose>& before, MatchingCounters& counters) const;
   std::vector<RankedPose> bestOf(const DenseScan& scan, std::vector<Raced> raced, std::size_t rays,
                                  DistinctPoses distinct) const;
   void refineAll(const DenseScan& scan, std::vector<mrpt::math::TPose2D>& poses, int steps,

@@ -10,6 +10,7 @@
 #include <future>
 #include <numeric>
 
+#include "matching/keypoints/deviation_codes.h"
 #include "matching/keypoints/NeighbouringKeyPoints.h"
 
 namespace sigloc
@@ -33,38 +34,6 @@ constexpr std::size_t kMinDistanceBins = 8;
 constexpr std::size_t kMaxDistanceBins = 128;
 constexpr double kMaxRadius = 2.55;  // [m]; larger circles count as of this radius
 constexpr double kFullTurn = 65536;  // parts of a stored bearing
-
-constexpr std::size_t kCodes = 32;  // of a standard deviation, in five bits
-constexpr double kLeastDeviation = 0.002;  // [m or rad]
-constexpr double kDeviationRatio = 1.25;  // from one code to the next
-
-/// The variances that the codes stand for.
-const std::array<float, kCodes>& codedVariances()
-{
-  static const std::array<float, kCodes> kVariances = []
-  {
-    std::array<float, kCodes> table{};
-    double deviation = kLeastDeviation;
-    for (float& variance : table)
-    {
-      variance = static_cast<float>(deviation * deviation);
-      deviation *= kDeviationRatio;
-    }
-    return table;
-  }();
-  return kVariances;
-}
-
-/// Returns the code of the least variance that is not below the given one, or the last code.
-std::uint32_t codeOf(double variance)
-{
-  // A binary search without branches: no processor foresees which way it goes.
-  const auto& variances = codedVariances();
-  std::uint32_t code = 0;
-  for (std::uint32_t step = kCodes / 2; step > 0; step /= 2)
-    code += variances[code + step - 1] < variance ? step : 0;
-  return code;
-}
 
 std::size_t tableOf(KeyPointKind first, KeyPointKind second)
 {
@@ -279,9 +248,9 @@ KeyPairIndex::Placed KeyPairIndex::placedEntry(const KeyPair& pair,
   const double relative = square(error.relativeSigma(pair.distance));
   const double turned = table.first.is_angle ? relative / square(pair.distance) : 0.0;
   const std::uint32_t deviations =
-      codeOf(std::min(pair.distance_variance + relative, kMostOfDistance)) |
-      codeOf(std::min(pair.first_variance + turned, kMostOfOthers)) << 5U |
-      codeOf(std::min(pair.second_variance, kMostOfOthers)) << 10U;
+      codeOfVariance(std::min(pair.distance_variance + relative, kMostOfDistance)) |
+      codeOfVariance(std::min(pair.first_variance + turned, kMostOfOthers)) << 5U |
+      codeOfVariance(std::min(pair.second_variance, kMostOfOthers)) << 10U;
   Placed placed{};
   const std::uint32_t row = table.row + first.bin * table.second.bins + second.bin;
   placed.cell = row * distance_bins_ + distanceBin(pair.distance);
@@ -367,24 +336,39 @@ void KeyPairIndex::collect(const KeyPair& observed, const Run& run,
   const auto of_distance = static_cast<float>(observed.distance_variance);
   const auto of_first = static_cast<float>(observed.first_variance);
   const auto of_second = static_cast<float>(observed.second_variance);
-  for (std::uint32_t k = run.begin; k < run.end; ++k)
+  const Entry* const entries = entries_.data();
+  std::array<std::uint32_t, 128> fitting;
+  for (std::uint32_t begin = run.begin; begin < run.end; begin += fitting.size())
   {
-    const Entry& entry = entries_[k];
-    const float distance = entry.distance * unit - seen;
-    const float first = first_low + first_step * entry.first;
-    const float second = second_low + second_step * entry.second;
-    const bool distance_fits =
-        distance * distance <= gate * (of_distance + variances[entry.deviations & 31U]);
-    const bool first_fits =
-        first * first <= gate * (of_first + variances[entry.deviations >> 5U & 31U]);
-    const bool second_fits =
-        second * second <= gate * (of_second + variances[entry.deviations >> 10U & 31U]);
-    if (!(distance_fits & first_fits & second_fits)) continue;
-    const auto bearing =
-        static_cast<float>(static_cast<std::int16_t>(entry.bearing) * (2 * M_PI / kFullTurn));
-    const double x = box_.x + box_.unit * (entry.high_x << 16 | entry.low_x);
-    const double y = box_.y + box_.unit * (entry.high_y << 16 | entry.low_y);
-    matches.push_back({static_cast<float>(x), static_cast<float>(y), bearing, first, second});
+    // An entry is kept or overwritten by the next one: a branch here could not be predicted.
+    const std::uint32_t end = std::min<std::uint32_t>(begin + fitting.size(), run.end);
+    std::size_t count = 0;
+    for (std::uint32_t k = begin; k < end; ++k)
+    {
+      const Entry& entry = entries[k];
+      const float distance = entry.distance * unit - seen;
+      const float first = first_low + first_step * entry.first;
+      const float second = second_low + second_step * entry.second;
+      const bool distance_fits =
+          distance * distance <= gate * (of_distance + variances[entry.deviations & 31U]);
+      const bool first_fits =
+          first * first <= gate * (of_first + variances[entry.deviations >> 5U & 31U]);
+      const bool second_fits =
+          second * second <= gate * (of_second + variances[entry.deviations >> 10U & 31U]);
+      fitting[count] = k;
+      count += static_cast<std::size_t>(distance_fits & first_fits & second_fits);
+    }
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const Entry& entry = entries[fitting[i]];
+      const auto bearing =
+          static_cast<float>(static_cast<std::int16_t>(entry.bearing) * (2 * M_PI / kFullTurn));
+      const double x = box_.x + box_.unit * (entry.high_x << 16 | entry.low_x);
+      const double y = box_.y + box_.unit * (entry.high_y << 16 | entry.low_y);
+      matches.push_back({static_cast<float>(x), static_cast<float>(y), bearing,
+                         first_low + first_step * entry.first,
+                         second_low + second_step * entry.second});
+    }
   }
 }
 }  // namespace sigloc

@@ -109,13 +109,14 @@ void KeyPairSearch::propose(std::uint32_t index)
     // The heading by the line, by the first direction and by the second one differ by what the
     // map has more in bearing and turn.
     const double by_line = match.bearing - pair.observed.bearing;
-    const double heading = by_line - (pair.share_first + pair.share_second) * match.first +
-                           pair.share_second * match.second;
-    const double c = std::cos(heading);
-    const double s = std::sin(heading);
+    const auto heading =
+        static_cast<float>(by_line - (pair.share_first + pair.share_second) * match.first +
+                           pair.share_second * match.second);
+    const float c = std::cos(heading);
+    const float s = std::sin(heading);
     proposals_.push_back({static_cast<float>(match.x - c * pair.observed.x + s * pair.observed.y),
                           static_cast<float>(match.y - s * pair.observed.x - c * pair.observed.y),
-                          static_cast<float>(heading)});
+                          heading});
     owners_.push_back(index);
   }
 }
