@@ -26,11 +26,11 @@ constexpr std::size_t kBatch = 64;  // places refined at a time after that
 constexpr std::size_t kMostRefined = 400;  // places; bounds the cost where many poses fit
 // Share of the coarse score behind the best refined pose, from which a place is not refined.
 constexpr double kCoarseMargin = 0.2;
-constexpr float kMiddleShare = 0.8F;  // of the weights (6.6) of the best; with less one is dropped
+constexpr float kMiddleShare = 0.7F;  // of the weights (6.6) of the best; with less one is dropped
 constexpr std::size_t kMiddleBeams = 32;  // returns that refine
 constexpr std::size_t kMiddleScored = 48;  // returns that score
 constexpr std::size_t kMiddleRays = 16;  // beams tested for passing through walls
-constexpr int kMiddleSteps = 3;  // of refinement
+constexpr int kMiddleSteps = 4;  // of refinement
 // Stage 3, distinct poses:
 constexpr std::size_t kFinalKept = 24;  // poses that are refined
 constexpr std::size_t kFinalBeams = 64;  // returns that refine
