@@ -68,6 +68,10 @@ TEST(LargeFiles, AreRefusedByTheirBeginningOrSize)
   const std::string wide =
       "\x89PNG\r\n\x1a\n\0\0\0\rIHDR\x17\xd7\x84\0\0\0\0\1\b\0\0\0\0\xf3\xd4\xca\x97"
       "\0\0\0\fIDAT"s;
+  // 20 000 x 20 000 pixels, of which no row is whole before the last pass.
+  const std::string interlaced =
+      "\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\x4e\x20\0\0\x4e\x20\b\0\0\0\1\xb1\x1c\x29\x73"
+      "\0\0\0\fIDAT"s;
   const TemporaryFolder folder;
   ReadingOptions reading;
   reading.image_resolution = 0.05;
@@ -86,6 +90,7 @@ TEST(LargeFiles, AreRefusedByTheirBeginningOrSize)
       {"m.pcd", "# .PCD\n", "not a PCD file"},
       {"m.png", "\x89PNG\r\n\x1a\n", "not a PNG picture"},
       {"m.png", wide, "400000000 x 1 pixels"},
+      {"m.png", interlaced, "an interlaced picture of more than 100 MB"},
       {"m.pgm", "P5\n10 10\n255\n", "has no free cell"},
       {"m.pgm", "P5\n90000 90000\n255\n", "90000 x 90000 pixels"},
       {"m.yaml", "image: m.pgm\n", "more than 64 kB"},
