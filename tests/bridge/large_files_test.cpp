@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include <ctime>
+
 #include "bridge/map_error.h"
 #include "bridge/rawlog_files.h"
 #include "io/archive/gzip_input.h"
@@ -147,17 +149,36 @@ TEST(LargeFiles, WhatUnpacksToGigabytesIsRefusedOnTheWay)
   EXPECT_LT(peak() - before, 150000) << "[kB]";
 }
 
+/// The bytes before the cells of a `.sigmap` without a feature, with a field of so many cells a
+/// side, which is stored whole.
+std::string headOfSigmap(std::uint32_t side)
+{
+  std::string head = "sigloc-map\n\3" + std::string(12 + 4 * 8 + 4, '\0') + "\1";
+  for (const double value : {0.0, 0.0, 0.05}) appendValue(head, value);
+  for (const std::uint32_t cells : {side, side}) appendValue(head, cells);
+  appendValue(head, 0.0);
+  appendValue(head, std::uint32_t{0});
+  return head;
+}
+
+TEST(LargeFiles, ASigmapWhoseCellsGoOnAfterItIsRefusedByItsSize)
+{
+  const TemporaryFolder folder;
+  const long before = peak();
+  const auto begin = std::clock();
+  writeBomb(folder / "m.sigmap", headOfSigmap(8192), 257);
+  const auto written = std::clock();
+  EXPECT_EQ(mapErrorOf(folder / "m.sigmap"),
+            (folder / "m.sigmap").string() + ": truncated or damaged");
+  EXPECT_LT(peak() - before, 150000) << "[kB]";
+  EXPECT_LT(5 * (std::clock() - written), written - begin) << "it was unpacked";
+}
+
 TEST(LargeFiles, ASigmapOfGzipIsSoundToItsEndBeforeItIsRead)
 {
   const TemporaryFolder folder;
-  // A map without a feature, with a field of a frame that is stored whole.
-  std::string head = "sigloc-map\n\3" + std::string(12 + 4 * 8 + 4, '\0') + "\1";
-  for (const double value : {0.0, 0.0, 0.05}) appendValue(head, value);
-  for (const std::uint32_t side : {8192U, 8192U}) appendValue(head, side);
-  appendValue(head, 0.0);
-  appendValue(head, std::uint32_t{0});
   const long before = peak();
-  writeBomb(folder / "m.sigmap", head, 256);
+  writeBomb(folder / "m.sigmap", headOfSigmap(8192), 256);
   fs::resize_file(folder / "m.sigmap", fs::file_size(folder / "m.sigmap") - 6);
   EXPECT_EQ(mapErrorOf(folder / "m.sigmap"),
             (folder / "m.sigmap").string() + ": truncated or damaged");
