@@ -4,6 +4,7 @@
 // Well-formed files whose values nothing can have written in good faith. A checksum does not help
 // against them.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <zlib.h>
 
 #include <cmath>
@@ -220,6 +221,20 @@ TEST(HostileMap, LandmarksInOnePlaceAreRefused)
   EXPECT_NE(result.errors.find("crowd.csv: line 1002: a landmark that has more than 1000 others"),
             std::string::npos)
       << result.errors;
+}
+
+TEST(HostileMap, AMillionLandmarksAreHeldOnce)
+{
+  const TemporaryFolder folder;
+  std::string rows = "x,y\n";
+  for (int i = 0; i < 1000000; ++i)
+    rows += std::to_string(i % 1000) + "," + std::to_string(i / 1000) + "\n";
+  writeText(folder / "many.csv", rows);
+  const auto result = runBounded(folder, {"build", "-i", "many.csv", "-o", "m.sigmap"});
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  rusage usage = {};
+  getrusage(RUSAGE_CHILDREN, &usage);
+  EXPECT_LT(usage.ru_maxrss, 300000) << "[kB]";
 }
 
 TEST(HostileMap, DecimalCommasAreNotTakenForColumns)
