@@ -11,6 +11,7 @@
 #include <cstring>
 #include <functional>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "command_line.h"
 
@@ -205,6 +206,28 @@ TEST(HostileMap, IsRefusedInOneLineWithFileAndReason)
     EXPECT_NE(result.errors.find(hostile.reason), std::string::npos) << result.errors;
     EXPECT_EQ(listing(folder), before) << name;
   }
+}
+
+TEST(HostileMap, WhatItTellsOfItsSourceStaysOnAShortLine)
+{
+  const TemporaryFolder folder;
+  std::string source;
+  put(source, std::uint32_t{60000});
+  source += "\x1b[31m\nfeatures: 99\n\xff";
+  source.resize(4 + 60000, 'x');
+  std::string body = bodyOf({});
+  constexpr std::size_t kHead = 12;
+  body.replace(kHead, 4, source);
+  writePacked(folder / "\xff.sigmap", body);
+  const auto told = runBounded(folder, {"info", "\xff.sigmap"});
+  EXPECT_EQ(told.exit_code, 0) << told.errors;
+  EXPECT_EQ(told.output.find("features: 99\n"), std::string::npos);
+  EXPECT_EQ(told.output.find('\x1b'), std::string::npos);
+  EXPECT_NE(told.output.find("\nsource: "), std::string::npos);
+  EXPECT_LT(told.output.size(), 2000U);
+  const auto as_json = runBounded(folder, {"info", "--json", "\xff.sigmap"});
+  EXPECT_EQ(as_json.exit_code, 0) << as_json.errors;
+  EXPECT_EQ(nlohmann::json::parse(as_json.output)["features"], 3);
 }
 
 TEST(HostileMap, LandmarksInOnePlaceAreRefused)
