@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <filesystem>
 #include <iostream>
 #include <string>
@@ -29,10 +31,15 @@ class HeldWarnings
   {
   }
 
-  /// Prints them, once.
+  /// Prints them, once; of very many the first.
   void print(const char* program)
   {
-    for (const std::string& message : std::exchange(messages_, {})) warn(program, file_, message);
+    constexpr std::size_t kMost = 20;
+    const std::vector<std::string> messages = std::exchange(messages_, {});
+    for (std::size_t i = 0; i < std::min(kMost, messages.size()); ++i)
+      warn(program, file_, messages[i]);
+    if (messages.size() > kMost)
+      warn(program, file_, std::to_string(messages.size() - kMost) + " more warnings");
   }
 
  private:

@@ -62,6 +62,7 @@ int localize(const sigloc::LocalizationSetup& setup, bool quiet, sigloc::HeldWar
             << (writer ? setup.output_folder.string() : "nothing: no --out, no logOutput_dir")
             << '\n';
   sigloc::warn(kProgram, setup.rawlog_file, sigloc::leftOutLine(run.summary().left_out));
+  sigloc::warn(kProgram, setup.rawlog_file, run.summary().nothing_seen);
   if (!run.summary().truncated) return 0;
   sigloc::warn(kProgram, setup.rawlog_file,
                fmt::format("truncated or damaged after {} steps; the results cover those",

@@ -14,6 +14,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "json_text.h"
 #include "sigloc/config/plural.h"
 #include "sigloc/io/file_output.h"
 
@@ -134,7 +135,7 @@ bool isOwnSummary(const std::filesystem::path& folder)
 {
   std::ifstream in(folder / CheckFiles::kSummary);
   const auto json = nlohmann::json::parse(in, nullptr, false);
-  return json.is_object() && json.value("program", "") == kOwner;
+  return json.is_object() && json.contains("program") && json["program"] == kOwner;
 }
 }  // namespace
 
@@ -155,7 +156,7 @@ void writeCheckFiles(const MapCheck& check, const std::string& map,
 {
   writeFile(folder / CheckFiles::kPlaces, placesCsv(check));
   writeFile(folder / CheckFiles::kTwins, twinsCsv(check));
-  writeFile(folder / CheckFiles::kSummary, summaryOf(check, map).dump(2) + "\n");
+  writeFile(folder / CheckFiles::kSummary, jsonText(summaryOf(check, map)));
 }
 
 std::string checkTable(const MapCheck& check)

@@ -10,6 +10,7 @@
 
 #include "arguments.h"
 #include "check_command.h"
+#include "json_text.h"
 #include "picture_file.h"
 #include "pictures.h"
 #include "progress_line.h"
@@ -128,12 +129,13 @@ void info(const sigloc::MapArguments& arguments)
       describe(anyMap(arguments.input, setupOf(arguments)), arguments.input);
   if (arguments.as_json)
   {
-    std::cout << description.dump(2) << '\n';
+    std::cout << sigloc::jsonText(description);
     return;
   }
   for (const auto& [key, value] : description.items())
   {
-    std::cout << key << ": " << textOf(value) << '\n';
+    // What a file tells of its source may be of any length, with line ends and colours in it.
+    std::cout << sigloc::oneLine(key + ": " + textOf(value)) << '\n';
   }
 }
 

@@ -173,6 +173,7 @@ void dropClippedReadings(std::vector<CarmenScan>& log)
   {
     for (const float range : seen.scan.ranges) farthest = std::max(farthest, range);
   }
+  if (!(farthest > 0)) return;  // nothing tells of a limit
   std::size_t all = 0;
   std::size_t at_farthest = 0;
   const float limit = farthest - kSame;

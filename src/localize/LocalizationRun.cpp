@@ -8,6 +8,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "features/SeenReturns.h"
 #include "geometry/plane_products.h"
 #include "io/GroundTruth.h"
 #include "localize/particle_library.h"
@@ -192,6 +193,7 @@ struct LocalizationRun::State
   std::optional<GroundTruth> truth;
   std::unique_ptr<HypothesisTracker> tracker;  // the one or
   std::unique_ptr<LogTracker> particles;  // the other
+  SeenReturns returns;
   bool map_reused = false;
   double map_seconds = 0;
 };
@@ -245,6 +247,7 @@ const StepRecord* LocalizationRun::next()
     step.odometry = step.odometry + input->motion->mean;
   }
 
+  for (const LaserScan& scan : input->scans) state_->returns.add(scan);
   const Stopwatch extraction;
   scene_ = observe(*input, setup_.features);
   step.extraction_ms = extraction.milliseconds();
@@ -298,6 +301,8 @@ RunSummary LocalizationRun::summary() const
   summary.map_reused = state_->map_reused;
   summary.map_seconds = state_->map_seconds;
   summary.left_out = state_->reader.leftOut();
+  // A single scan may see nothing by chance.
+  if (steps_.size() > 1 && state_->returns.none()) summary.nothing_seen = state_->returns.whyNone();
   summary.truncated = state_->reader.truncated();
   summary.steps = steps_.size();
   countLocalized(steps_, summary);

@@ -38,6 +38,12 @@ FeatureMap::FeatureMap(std::vector<Feature> features, std::optional<DenseField> 
   }
 }
 
+FeatureMap FeatureMap::madeOf(MapProvenance provenance) &&
+{
+  provenance_ = std::move(provenance);
+  return std::move(*this);
+}
+
 double FeatureMap::area() const
 {
   if (field_ && field_->free_area > 0) return field_->free_area;

@@ -35,5 +35,22 @@ TEST(CarmenLog, refusesRangesThatAreNone)
     EXPECT_EQ(scan.valid, (std::vector<std::uint8_t>{1, 0, 1})) << range;
   }
 }
+// A range that is too frequent is taken for the laser's limit, so nothing is left of a log of one.
+TEST(CarmenLog, withoutAReturnIsRefusedWithTheLimitThatItsLaserIsTakenToHave)
+{
+  const TemporaryFolder folder;
+  for (const auto& [range, limit] : {std::pair("3.5", "3.5 m"), std::pair("nan", "80 m")})
+  {
+    std::string line = "FLASER 181";
+    for (int i = 0; i < 181; ++i) line += std::string(" ") + range;
+    writeText(folder / "l.log", line + " 0 0 0\n" + line + " 1 0 0\n");
+    const std::string message =
+        messageOf<std::runtime_error>([&] { buildMapFromFile(folder / "l.log", {}, {}); });
+    EXPECT_EQ(message, (folder / "l.log").string() +
+                           ": no scan has a valid return: every range is 0, no number, marked as "
+                           "none, or at the laser's limit, which is taken to be " +
+                           limit);
+  }
+}
 }  // namespace
 }  // namespace sigloc

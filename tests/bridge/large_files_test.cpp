@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include <ctime>
+
 #include "bridge/map_error.h"
 #include "bridge/rawlog_files.h"
 #include "io/archive/gzip_input.h"
@@ -68,6 +70,10 @@ TEST(LargeFiles, AreRefusedByTheirBeginningOrSize)
   const std::string wide =
       "\x89PNG\r\n\x1a\n\0\0\0\rIHDR\x17\xd7\x84\0\0\0\0\1\b\0\0\0\0\xf3\xd4\xca\x97"
       "\0\0\0\fIDAT"s;
+  // 20 000 x 20 000 pixels, of which no row is whole before the last pass.
+  const std::string interlaced =
+      "\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\x4e\x20\0\0\x4e\x20\b\0\0\0\1\xb1\x1c\x29\x73"
+      "\0\0\0\fIDAT"s;
   const TemporaryFolder folder;
   ReadingOptions reading;
   reading.image_resolution = 0.05;
@@ -86,6 +92,7 @@ TEST(LargeFiles, AreRefusedByTheirBeginningOrSize)
       {"m.pcd", "# .PCD\n", "not a PCD file"},
       {"m.png", "\x89PNG\r\n\x1a\n", "not a PNG picture"},
       {"m.png", wide, "400000000 x 1 pixels"},
+      {"m.png", interlaced, "an interlaced picture of more than 100 MB"},
       {"m.pgm", "P5\n10 10\n255\n", "has no free cell"},
       {"m.pgm", "P5\n90000 90000\n255\n", "90000 x 90000 pixels"},
       {"m.yaml", "image: m.pgm\n", "more than 64 kB"},
@@ -142,17 +149,36 @@ TEST(LargeFiles, WhatUnpacksToGigabytesIsRefusedOnTheWay)
   EXPECT_LT(peak() - before, 150000) << "[kB]";
 }
 
+/// The bytes before the cells of a `.sigmap` without a feature, with a field of so many cells a
+/// side, which is stored whole.
+std::string headOfSigmap(std::uint32_t side)
+{
+  std::string head = "sigloc-map\n\3" + std::string(12 + 4 * 8 + 4, '\0') + "\1";
+  for (const double value : {0.0, 0.0, 0.05}) appendValue(head, value);
+  for (const std::uint32_t cells : {side, side}) appendValue(head, cells);
+  appendValue(head, 0.0);
+  appendValue(head, std::uint32_t{0});
+  return head;
+}
+
+TEST(LargeFiles, ASigmapWhoseCellsGoOnAfterItIsRefusedByItsSize)
+{
+  const TemporaryFolder folder;
+  const long before = peak();
+  const auto begin = std::clock();
+  writeBomb(folder / "m.sigmap", headOfSigmap(8192), 257);
+  const auto written = std::clock();
+  EXPECT_EQ(mapErrorOf(folder / "m.sigmap"),
+            (folder / "m.sigmap").string() + ": truncated or damaged");
+  EXPECT_LT(peak() - before, 150000) << "[kB]";
+  EXPECT_LT(5 * (std::clock() - written), written - begin) << "it was unpacked";
+}
+
 TEST(LargeFiles, ASigmapOfGzipIsSoundToItsEndBeforeItIsRead)
 {
   const TemporaryFolder folder;
-  // A map without a feature, with a field of a frame that is stored whole.
-  std::string head = "sigloc-map\n\3" + std::string(12 + 4 * 8 + 4, '\0') + "\1";
-  for (const double value : {0.0, 0.0, 0.05}) appendValue(head, value);
-  for (const std::uint32_t side : {8192U, 8192U}) appendValue(head, side);
-  appendValue(head, 0.0);
-  appendValue(head, std::uint32_t{0});
   const long before = peak();
-  writeBomb(folder / "m.sigmap", head, 256);
+  writeBomb(folder / "m.sigmap", headOfSigmap(8192), 256);
   fs::resize_file(folder / "m.sigmap", fs::file_size(folder / "m.sigmap") - 6);
   EXPECT_EQ(mapErrorOf(folder / "m.sigmap"),
             (folder / "m.sigmap").string() + ": truncated or damaged");

@@ -200,6 +200,18 @@ TEST(BadInput, aWarningIsNotSaidBeforeAnError)
   EXPECT_NE(sound.errors.find("logOutputdir"), std::string::npos) << sound.errors;
 }
 
+TEST(BadInput, ofVeryManyWarningsTheFirstAreSaid)
+{
+  const TemporaryFolder folder;
+  std::string keys;
+  for (int i = 10; i < 99; ++i) keys += "rawlog_offset" + std::to_string(i) + " = 1\n";
+  writeConfig(folder, kLabMap.string(), kLabLog.string(), keys);
+  const auto result = run(folder, "sigloc-localize", {"run.ini", "--quiet"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(countLines(result.errors), 21) << result.errors;
+  EXPECT_NE(result.errors.find("run.ini: 69 more warnings"), std::string::npos) << result.errors;
+}
+
 TEST(BadInput, unknownSectionIsNamed)
 {
   const TemporaryFolder folder;

@@ -126,6 +126,24 @@ TEST(CarmenDrive, withoutOdometryAndTimesItIsAnsweredToo)
   EXPECT_TRUE(summary["distance_m"].is_null());
 }
 
+TEST(CarmenDrive, oneWithoutAReturnIsToldInOneLine)
+{
+  const TemporaryFolder folder;
+  for (const char* const range : {"nan", "3"})
+  {
+    std::string line = "FLASER 181";
+    for (int i = 0; i < 181; ++i) line += std::string(" ") + range;
+    writeText(folder / "drive.log", line + " 0 0 0\n" + line + " 0 0 0\n");
+    const CommandResult result =
+        run(folder, "sigloc-localize", {"--map", kOffice.string(), "--log", "drive.log"});
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    EXPECT_EQ(countLines(result.errors), 1) << result.errors;
+    EXPECT_NE(result.errors.find("drive.log: no scan has a valid return: every range is"),
+              std::string::npos)
+        << result.errors;
+  }
+}
+
 TEST(CarmenDrive, aBadOneIsRefusedInOneLine)
 {
   const TemporaryFolder folder;

@@ -4,12 +4,14 @@
 // Well-formed files whose values nothing can have written in good faith. A checksum does not help
 // against them.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <zlib.h>
 
 #include <cmath>
 #include <cstring>
 #include <functional>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "command_line.h"
 
@@ -206,6 +208,28 @@ TEST(HostileMap, IsRefusedInOneLineWithFileAndReason)
   }
 }
 
+TEST(HostileMap, WhatItTellsOfItsSourceStaysOnAShortLine)
+{
+  const TemporaryFolder folder;
+  std::string source;
+  put(source, std::uint32_t{60000});
+  source += "\x1b[31m\nfeatures: 99\n\xff";
+  source.resize(4 + 60000, 'x');
+  std::string body = bodyOf({});
+  constexpr std::size_t kHead = 12;
+  body.replace(kHead, 4, source);
+  writePacked(folder / "\xff.sigmap", body);
+  const auto told = runBounded(folder, {"info", "\xff.sigmap"});
+  EXPECT_EQ(told.exit_code, 0) << told.errors;
+  EXPECT_EQ(told.output.find("features: 99\n"), std::string::npos);
+  EXPECT_EQ(told.output.find('\x1b'), std::string::npos);
+  EXPECT_NE(told.output.find("\nsource: "), std::string::npos);
+  EXPECT_LT(told.output.size(), 2000U);
+  const auto as_json = runBounded(folder, {"info", "--json", "\xff.sigmap"});
+  EXPECT_EQ(as_json.exit_code, 0) << as_json.errors;
+  EXPECT_EQ(nlohmann::json::parse(as_json.output)["features"], 3);
+}
+
 TEST(HostileMap, LandmarksInOnePlaceAreRefused)
 {
   const TemporaryFolder folder;
@@ -220,6 +244,20 @@ TEST(HostileMap, LandmarksInOnePlaceAreRefused)
   EXPECT_NE(result.errors.find("crowd.csv: line 1002: a landmark that has more than 1000 others"),
             std::string::npos)
       << result.errors;
+}
+
+TEST(HostileMap, AMillionLandmarksAreHeldOnce)
+{
+  const TemporaryFolder folder;
+  std::string rows = "x,y\n";
+  for (int i = 0; i < 1000000; ++i)
+    rows += std::to_string(i % 1000) + "," + std::to_string(i / 1000) + "\n";
+  writeText(folder / "many.csv", rows);
+  const auto result = runBounded(folder, {"build", "-i", "many.csv", "-o", "m.sigmap"});
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  rusage usage = {};
+  getrusage(RUSAGE_CHILDREN, &usage);
+  EXPECT_LT(usage.ru_maxrss, 300000) << "[kB]";
 }
 
 TEST(HostileMap, DecimalCommasAreNotTakenForColumns)

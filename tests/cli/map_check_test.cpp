@@ -114,6 +114,15 @@ TEST(MapCheck, asksAtAsManyPlacesAsItIsTold)
   EXPECT_EQ(summaryIn(folder, "answer")["places"], 150);
 }
 
+TEST(MapCheck, aMapWhoseNameIsNoUtf8IsCheckedAsOthers)
+{
+  const TemporaryFolder folder;
+  std::filesystem::copy(kOffice, folder / "\xff.simplemap");
+  const CommandResult result = check(folder, "\xff.simplemap", "answer");
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(summaryIn(folder, "answer")["places"], 60);
+}
+
 TEST(MapCheck, equalSeedsGiveEqualLists)
 {
   const TemporaryFolder folder;
@@ -258,6 +267,9 @@ TEST(MapCheck, badInputIsRefusedInOneLine)
   refused({office, "--at", "poses.txt"}, "row 1");
   refused({office, "--out", "mine"}, "places.csv");
   EXPECT_EQ(readBytes(folder / "mine/places.csv"), "my own\n");
+  writeText(folder / "mine/summary.json", "{\"program\": 5}");
+  refused({office, "--out", "mine"},
+          "mine: holds summary.json, but is no folder of an earlier run");
   refused({office, "--out", "none.ini"}, "none.ini: is no folder; not overwritten");
   EXPECT_EQ(readBytes(folder / "none.ini"), "[lidar]\n");
 }

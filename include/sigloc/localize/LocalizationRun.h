@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "sigloc/features/ObservedScene.h"
@@ -75,6 +76,7 @@ struct RunSummary
   bool map_reused = false;  ///< loaded from the cache
   double map_seconds = 0;  ///< to build the map, or to load it
   LeftOutOfLog left_out;
+  std::string nothing_seen;  ///< why none of several scans has a valid return, or empty
   bool truncated = false;  ///< the rawlog broke off: everything covers what was read
 };
 

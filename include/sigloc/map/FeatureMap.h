@@ -47,6 +47,9 @@ class FeatureMap
   explicit FeatureMap(std::vector<Feature> features, std::optional<DenseField> field = std::nullopt,
                       MapErrorModel error = {}, MapProvenance provenance = {});
 
+  /// Returns the same map with another source. A map may be large, so it is not copied.
+  FeatureMap madeOf(MapProvenance provenance) &&;
+
   const std::vector<Feature>& features() const { return features_; }
   const std::vector<WallLine>& lines() const { return lines_; }
   /// Returns the index into lines() of feature k, or -1 when it is not a segment.

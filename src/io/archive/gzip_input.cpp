@@ -165,6 +165,14 @@ bool GzipInput::isWhole() const
   return !again->broken();
 }
 
+bool GzipInput::mayEndAfter(std::uint64_t bytes) const
+{
+  const PackedContents& known = contents();
+  const std::uint64_t end = position_ + bytes;
+  const bool as_told = !known.told || static_cast<std::uint32_t>(end) == *known.told;
+  return as_told && end >= known.least && end <= known.most;
+}
+
 void GzipInput::requireWithin(std::uint64_t bytes) const
 {
   if (bytes > limits_.most) fail(path_, fmt::format("holds more than {} MB", limits_.most >> 20U));

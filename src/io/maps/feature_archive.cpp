@@ -24,6 +24,8 @@ void writeFeature(const Feature& feature, CArchive& out)
 
 namespace
 {
+constexpr std::uint64_t kFeatureBytes = 96;  // of one, as writeFeature() writes it
+
 Feature readFields(CArchive& in)
 {
   Feature feature;
@@ -53,10 +55,11 @@ Feature readFeature(CArchive& in)
   return feature;
 }
 
-std::vector<Feature> readFeatures(CArchive& in)
+std::vector<Feature> readFeatures(CArchive& in, const Announced& announced)
 {
   std::uint32_t count = 0;
   in >> count;
+  if (announced) announced(kFeatureBytes * count);
   std::vector<Feature> features;
   Crowding crowding;
   // Grown as they come: a hostile count must not allocate memory that the file has no data for.

@@ -184,6 +184,18 @@ void setPixels(GrayRow& row, const std::uint8_t* bytes, std::size_t channels)
   }
 }
 
+/// Throws for an interlaced picture that is large. Its rows are not whole before the last pass, so
+/// that all of it is in memory, beside the map.
+void requireInterlacedSize(const std::filesystem::path& path, std::size_t row_bytes,
+                           std::size_t height)
+{
+  constexpr double kMostBytes = 1e8;
+  if (static_cast<double>(row_bytes) * static_cast<double>(height) <= kMostBytes) return;
+  fail(path,
+       fmt::format("an interlaced picture of more than {:.0f} MB; save it without interlacing",
+                   kMostBytes / 1e6));
+}
+
 void readPng(std::FILE* file, const std::filesystem::path& path, const TakeRow& take)
 {
   constexpr unsigned kMostChannels = 4;
@@ -205,9 +217,10 @@ void readPng(std::FILE* file, const std::filesystem::path& path, const TakeRow& 
   {
     fail(path, "a PNG picture of an unknown kind");
   }
+  const bool interlaced = png_get_interlace_type(reader.png, reader.info) != PNG_INTERLACE_NONE;
+  if (interlaced) requireInterlacedSize(path, row_bytes, row.height);
   row.shades.resize(row.width);
   if (channels % 2 == 0) row.alphas.resize(row.width);
-  const bool interlaced = png_get_interlace_type(reader.png, reader.info) != PNG_INTERLACE_NONE;
   std::vector<std::uint8_t> bytes(row_bytes * (interlaced ? row.height : 1));
   if (interlaced)
   {

@@ -199,8 +199,7 @@ FeatureMap build(const std::filesystem::path& path, const MapBuildingOptions& bu
     {
       return buildMapFromRaster(*raster, building, extraction, provenance, progress);
     }
-    const auto& landmarks = std::get<FeatureMap>(source);
-    return FeatureMap(landmarks.features(), landmarks.field(), landmarks.error(), provenance);
+    return std::get<FeatureMap>(std::move(source)).madeOf(provenance);
   }
   catch (const std::invalid_argument& error)
   {

@@ -41,6 +41,7 @@ constexpr detail::UnpackLimits kLimits{detail::kUsualLimits.most,
                                        4 * static_cast<std::uint64_t>(kMostCells)};
 constexpr std::uint64_t kLarge = 1ULL << 26U;  // bytes
 constexpr std::size_t kBlockCells = 1U << 16U;
+constexpr std::size_t kCellBytes = 4;
 constexpr std::uint32_t kLongestText = 1U << 16U;
 
 // A file has distances in half the field's unit, and 255 for all that are farther. Odd ones are of
@@ -197,7 +198,7 @@ void checkSums(const CellCounts& cells, double resolution, double free_area,
   }
 }
 
-DenseField readField(CArchive& in, bool in_tiles)
+DenseField readField(CArchive& in, bool in_tiles, const detail::Announced& last_announced)
 {
   DenseField field;
   double free_area = 0;
@@ -210,6 +211,7 @@ DenseField readField(CArchive& in, bool in_tiles)
   }
   std::size_t count = std::size_t{field.frame.width} * field.frame.height;
   if (in_tiles) count = (std::size_t{readTiles(in, field)} + 1) * DenseField::kTileCells;
+  if (last_announced) last_announced(kCellBytes * (count - field.cells.size()));
   const CellCounts counts = readCells(in, count, field.cells);
   checkSums(counts, field.frame.resolution, free_area, wall_cells);
   field.free_area = free_area;
@@ -232,7 +234,11 @@ void writeFeatureMap(const FeatureMap& map, CArchive& out)
   if (map.field()) writeField(*map.field(), out);
 }
 
-FeatureMap readFeatureMap(CArchive& in)
+namespace
+{
+/// Tells what is to come: the bytes of the features, and those of the cells, with which it ends.
+FeatureMap readBody(CArchive& in, const detail::Announced& features_announced,
+                    const detail::Announced& cells_announced)
 {
   std::uint8_t version = 0;
   in >> version;
@@ -252,16 +258,46 @@ FeatureMap readFeatureMap(CArchive& in)
   in >> error.relative_constant >> error.relative_slope >> error.common_sigma;
   if (version > kOldestBodyVersion) in >> error.common_turn_sigma;
   if (const auto flaw = flawOf(error)) throw detail::BadContent(*flaw);
-  std::vector<Feature> features = detail::readFeatures(in);
+  std::vector<Feature> features = detail::readFeatures(in, features_announced);
   const bool has_field = detail::readFlag(in);
   std::optional<DenseField> field;
-  if (has_field) field = inTilesWhereSparse(readField(in, version > kWholeVersion));
+  if (has_field)
+    field = inTilesWhereSparse(readField(in, version > kWholeVersion, cells_announced));
   if (const auto flaw = flawOf(features)) throw detail::BadContent(*flaw);
   return FeatureMap(std::move(features), std::move(field), error, std::move(provenance));
+}
+}  // namespace
+
+FeatureMap readFeatureMap(CArchive& in)
+{
+  return readBody(in, {}, {});
 }
 
 namespace
 {
+constexpr const char* kDamaged = ": truncated or damaged";
+
+/// Why a file as a whole is none, whatever is in it: "path: reason".
+class Unsound : public std::runtime_error
+{
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+void requireWhole(const detail::GzipInput& input)
+{
+  bool whole = false;
+  try
+  {
+    whole = input.isWhole();
+  }
+  catch (const std::runtime_error& error)
+  {
+    throw Unsound(error.what());
+  }
+  if (!whole) throw Unsound(input.path().string() + kDamaged);
+}
+
 FeatureMap readSigmap(const std::filesystem::path& path)
 {
   detail::GzipInput input(path);
@@ -269,20 +305,31 @@ FeatureMap readSigmap(const std::filesystem::path& path)
   char magic[kMagicSize] = {};
   const std::size_t got = input.Read(magic, kMagicSize);
   if (std::memcmp(magic, kMagic, std::max<std::size_t>(got, 1)) != 0) fail(path, "not a .sigmap");
+  if (input.contents().cut_off) fail(path, "truncated or damaged");
   // Before memory is taken for a large map, it must be sound to its end.
-  const detail::PackedContents& contents = input.contents();
-  if (contents.cut_off || (contents.most > kLarge && !input.isWhole()))
-    fail(path, "truncated or damaged");
+  const auto require_sound = [&](std::uint64_t bytes)
+  {
+    if (bytes > kLarge) requireWhole(input);
+  };
+  const auto require_end = [&](std::uint64_t bytes)
+  {
+    if (!input.mayEndAfter(bytes)) throw Unsound(path.string() + kDamaged);
+    require_sound(bytes);
+  };
   std::string reason;
   try
   {
     auto archive = mrpt::serialization::archiveFrom(input);
-    FeatureMap map = readFeatureMap(archive);
+    FeatureMap map = readBody(archive, require_sound, require_end);
     if (input.atEnd() && !input.damaged()) return map;
   }
   catch (const detail::BadContent& error)
   {
     reason = error.what();
+  }
+  catch (const Unsound&)
+  {
+    throw;
   }
   catch (const std::exception&)
   {

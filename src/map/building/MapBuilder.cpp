@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "features/SeenReturns.h"
 #include "map/building/counted_field.h"
 #include "map/building/feature_union.h"
 #include "map/building/wall_end_lengths.h"
@@ -122,15 +123,19 @@ FeatureMap buildMapFromScans(std::vector<PosedScans> scans, const MapBuildingOpt
   refuseOutlier(scans, options);
   auto merger = std::make_unique<FeatureMerger>(options);
   BeamCounts counts(options.raster_resolution, {0, 0}, kMostTiledCells);
+  SeenReturns returns;
   for (std::size_t i = 0; i < scans.size(); ++i)
   {
+    for (const LaserScan& scan : scans[i].scans) returns.add(scan);
     addTo(*merger, counts, scans[i], options, extraction);
     scans[i] = {};
     if (progress) progress(static_cast<double>(i + 1) / static_cast<double>(scans.size()));
   }
   if (counts.empty())
   {
-    throw std::invalid_argument("no scan has a valid return");
+    throw std::invalid_argument(
+        returns.none() ? returns.whyNone()
+                       : fmt::format("no scan has a return within {:g} m", options.raster_range));
   }
   std::vector<Feature> features = featuresOf(*merger);
   merger.reset();  // before the field, beside which the counts alone are needed

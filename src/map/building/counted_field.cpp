@@ -206,7 +206,8 @@ OccupancyRaster rasterFromScans(const std::vector<PosedScans>& scans,
 {
   BeamCounts counts(options.raster_resolution);
   for (const PosedScans& posed : scans) counts.add(posed, options.raster_range);
-  if (counts.empty()) throw std::invalid_argument("no scan has a valid return");
+  if (counts.empty())
+    throw std::invalid_argument("no scan has a return that is valid and near enough");
   return counts.raster(counts.box(), options.min_hits);
 }
 }  // namespace sigloc
