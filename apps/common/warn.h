@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "sigloc/config/plural.h"
 #include "sigloc/io/file_output.h"
 
 namespace sigloc
@@ -39,7 +40,7 @@ class HeldWarnings
     for (std::size_t i = 0; i < std::min(kMost, messages.size()); ++i)
       warn(program, file_, messages[i]);
     if (messages.size() > kMost)
-      warn(program, file_, std::to_string(messages.size() - kMost) + " more warnings");
+      warn(program, file_, counted(messages.size() - kMost, "more warning"));
   }
 
  private:

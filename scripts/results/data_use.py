@@ -14,9 +14,9 @@ NONE = "nothing"
 USES = (
     ("aces", "(7.1), (7.2)", "ridges (6.12), σ (6.14), the claim of `mcl-best`"),
     ("freiburg-101", "(7.1), (7.2)", "ridges (6.12), steps of the last refinement"),
-    ("intel", "(7.2)", "(4.11), (6.12), (6.14), search budgets, σ_turn, the filter's noise; by its wake-ups, kidnapped "
+    ("intel", "(7.2)", "(4.11), (6.12), (6.14), search budgets, what the search drops, σ_turn, the filter's noise; by its wake-ups, kidnapped "
      "ones too, the tracker's rules"),
-    ("campus", NONE, "(6.14), (7.7), search budgets, σ_turn, walls slid; by its wake-ups the tracker's rules"),
+    ("campus", NONE, "(6.14), (7.7), search budgets, what the search drops, σ_turn, walls slid; by its wake-ups the tracker's rules"),
     ("fhw", NONE, "(4.11), `X` in (7.2), (6.14), walls slid, what the search drops; by its wake-ups the prior and the tracker's rules"),
     ("acapulco", NONE, "walls slid, `X` in (7.2), (6.14); by its wake-ups the prior and the tracker's rules"),
     ("infinite-corridor", NONE, "the sharp likelihood in (6.8), (6.14), the form of (7.8), what the search drops; by its wake-ups the prior "
@@ -26,7 +26,7 @@ USES = (
     ("dlr", NONE, "rules of tracking by landmarks, which numbers (8.23) takes"),
     ("victoria-park", NONE, "posts in the open, rules of tracking by landmarks; its map is of the same log"),
     ("lab", NONE, "it was looked at; no choice is on record"),
-    ("city", "as intel and aces", "the form of (7.8); its scans are those of intel, aces, fhw, acapulco, infinite-corridor and "
+    ("city", "as intel and aces", "the form of (7.8), what the search drops; its scans are those of intel, aces, fhw, acapulco, infinite-corridor and "
      "orebro"),
 )  # fmt: skip
 

@@ -10,6 +10,7 @@
 #include "bridge/map_error.h"
 #include "bridge/rawlog_files.h"
 #include "io/archive/gzip_input.h"
+#include "sigloc/io/map_files.h"
 #include "sigloc/io/RawlogReader.h"
 
 namespace sigloc
@@ -159,6 +160,21 @@ TEST(GzipFiles, whatFollowsAMapIsNotLostWithoutAWord)
       const std::string message = mapErrorOf(folder / name);
       EXPECT_NE(message.find(": more follows its '"), std::string::npos) << message;
     }
+  }
+}
+
+TEST(GzipFiles, aMapMayBeOfSeveralMembersOrHaveZerosBehindIt)
+{
+  const TemporaryFolder folder;
+  saveSigmap(buildMapFromFile(kMap, {}, {}), folder / "m.sigmap");
+  const std::string bytes = contentsOf(folder / "m.sigmap").bytes;
+  const std::string two = packed(bytes.substr(0, 1000)) + packed(bytes.substr(1000));
+  const std::string zeros = packed(bytes) + std::string(600, '\0');
+  for (const std::string& file : {packed(bytes), two, zeros, packed(bytes) + packed("")})
+  {
+    writeText(folder / "again.sigmap", file);
+    saveSigmap(loadSigmap(folder / "again.sigmap"), folder / "m2.sigmap");
+    EXPECT_EQ(readBytes(folder / "m2.sigmap"), readBytes(folder / "m.sigmap"));
   }
 }
 }  // namespace

@@ -141,7 +141,7 @@ void GzipInput::limitTo(const UnpackLimits& limits, bool at_once)
 {
   limits_ = limits;
   requireWithin(std::max(unpacked_, file_->contents().least));
-  if (at_once && file_->contents().most > allowed()) static_cast<void>(isWhole());
+  if (at_once && file_->contents().most > allowed()) static_cast<void>(wholeSize());
 }
 
 std::uint64_t GzipInput::allowed() const
@@ -149,7 +149,7 @@ std::uint64_t GzipInput::allowed() const
   return std::min(limits_.most, std::max(limits_.always, limits_.ratio * file_->fileSize()));
 }
 
-bool GzipInput::isWhole() const
+std::optional<std::uint64_t> GzipInput::wholeSize() const
 {
   const auto again = openPacked(path_, kBufferBytes);
   if (!again) fail(path_, "cannot be opened");
@@ -162,15 +162,8 @@ bool GzipInput::isWhole() const
     requireWithin(unpacked);
     more = got == kBufferBytes;
   }
-  return !again->broken();
-}
-
-bool GzipInput::mayEndAfter(std::uint64_t bytes) const
-{
-  const PackedContents& known = contents();
-  const std::uint64_t end = position_ + bytes;
-  const bool as_told = !known.told || static_cast<std::uint32_t>(end) == *known.told;
-  return as_told && end >= known.least && end <= known.most;
+  if (again->broken()) return std::nullopt;
+  return unpacked;
 }
 
 void GzipInput::requireWithin(std::uint64_t bytes) const

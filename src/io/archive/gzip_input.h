@@ -59,11 +59,8 @@ class GzipInput final : public mrpt::io::CStream
   /// Of a packed file that may hold more it is found out `at_once`, at the cost of unpacking it.
   void limitTo(const UnpackLimits& limits, bool at_once = true);
   /// Unpacks the file once and keeps nothing, so that memory is taken for none that holds more than
-  /// its limits. Returns whether it is whole.
-  bool isWhole() const;
-  /// False where the file, if it is one member of gzip or one frame of zstd, cannot end after so
-  /// many bytes more. Costs nothing.
-  bool mayEndAfter(std::uint64_t bytes) const;
+  /// its limits. Returns the bytes that it unpacks to, or nullopt where it is damaged.
+  std::optional<std::uint64_t> wholeSize() const;
   /// Returns the bytes read, fewer than `count` at the end or where the file is damaged.
   std::size_t Read(void* buffer, std::size_t count) override;
   /// True when not one more byte can be read.

@@ -238,9 +238,8 @@ class StreamFile : public BufferedFile
 class GzipFile final : public StreamFile
 {
  public:
-  GzipFile(File file, std::uint32_t told, unsigned buffer)
-      : StreamFile(std::move(file), std::max<std::uint64_t>(told, file.size()),
-                   {0, kMostOfGzip * file.size(), false, told}, buffer)
+  GzipFile(File file, std::uint64_t unpacked_size, unsigned buffer)
+      : StreamFile(std::move(file), unpacked_size, {0, kMostOfGzip * file.size(), false}, buffer)
   {
     constexpr int kOfGzip = 16;  // its head and checksum, not those of zlib
     ready_ = inflateInit2(&stream_, MAX_WBITS + kOfGzip) == Z_OK;
@@ -318,17 +317,17 @@ class ZstdFile final : public StreamFile
 
 /// gzip's last field, little-endian, is the size of its contents. Of a file with zeros or a member
 /// behind it, that is a guess.
-std::uint32_t sizeInGzip(const File& file)
+std::uint64_t sizeInGzip(const File& file)
 {
   constexpr std::uint64_t kTrailerBytes = 4;
-  if (file.size() < kTrailerBytes) return 0;
+  if (file.size() < kTrailerBytes) return file.size();
   const std::string bytes = file.bytesAt(file.size() - kTrailerBytes, kTrailerBytes);
-  std::uint32_t size = 0;
+  std::uint64_t size = 0;
   for (std::size_t i = 0; i < bytes.size(); ++i)
   {
-    size |= std::uint32_t{static_cast<unsigned char>(bytes[i])} << (8 * i);
+    size |= std::uint64_t{static_cast<unsigned char>(bytes[i])} << (8 * i);
   }
-  return size;
+  return std::max(size, file.size());
 }
 
 std::uint64_t sizeInZstd(const File& file, std::string_view first)
@@ -359,7 +358,7 @@ std::unique_ptr<PackedFile> openPacked(const std::filesystem::path& path, unsign
   }
   if (isGzip(first))
   {
-    const std::uint32_t size = sizeInGzip(file);
+    const std::uint64_t size = sizeInGzip(file);
     return std::make_unique<GzipFile>(std::move(file), size, buffer);
   }
   return std::make_unique<PlainFile>(std::move(file), buffer);

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <string>
 
 namespace sigloc::detail
@@ -19,8 +18,6 @@ struct PackedContents
   std::uint64_t least = 0;  ///< bytes, unless the file is damaged
   std::uint64_t most = UINT64_MAX;  ///< bytes
   bool cut_off = false;  ///< it ends within a frame
-  /// Bytes modulo 2^32, as gzip tells them at its end. True of a file of one member.
-  std::optional<std::uint32_t> told = std::nullopt;
 };
 
 /// A hole in a file may be read as blocks of nothing, for ever. So many bytes without output are

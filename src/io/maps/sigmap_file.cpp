@@ -284,18 +284,21 @@ class Unsound : public std::runtime_error
   using std::runtime_error::runtime_error;
 };
 
-void requireWhole(const detail::GzipInput& input)
+/// Throws for a file that is damaged, or that does not end after so many bytes where these are
+/// told: before memory is taken for a large map, the file must be sound to its end.
+void requireSound(const detail::GzipInput& input, std::optional<std::uint64_t> to_end)
 {
-  bool whole = false;
+  std::optional<std::uint64_t> size;
   try
   {
-    whole = input.isWhole();
+    size = input.wholeSize();
   }
   catch (const std::runtime_error& error)
   {
     throw Unsound(error.what());
   }
-  if (!whole) throw Unsound(input.path().string() + kDamaged);
+  if (!size || (to_end && input.getPosition() + *to_end != *size))
+    throw Unsound(input.path().string() + kDamaged);
 }
 
 FeatureMap readSigmap(const std::filesystem::path& path)
@@ -306,21 +309,19 @@ FeatureMap readSigmap(const std::filesystem::path& path)
   const std::size_t got = input.Read(magic, kMagicSize);
   if (std::memcmp(magic, kMagic, std::max<std::size_t>(got, 1)) != 0) fail(path, "not a .sigmap");
   if (input.contents().cut_off) fail(path, "truncated or damaged");
-  // Before memory is taken for a large map, it must be sound to its end.
-  const auto require_sound = [&](std::uint64_t bytes)
+  const auto features_announced = [&](std::uint64_t bytes)
   {
-    if (bytes > kLarge) requireWhole(input);
+    if (bytes > kLarge) requireSound(input, std::nullopt);
   };
-  const auto require_end = [&](std::uint64_t bytes)
+  const auto cells_announced = [&](std::uint64_t bytes)
   {
-    if (!input.mayEndAfter(bytes)) throw Unsound(path.string() + kDamaged);
-    require_sound(bytes);
+    if (bytes > kLarge) requireSound(input, bytes);
   };
   std::string reason;
   try
   {
     auto archive = mrpt::serialization::archiveFrom(input);
-    FeatureMap map = readBody(archive, require_sound, require_end);
+    FeatureMap map = readBody(archive, features_announced, cells_announced);
     if (input.atEnd() && !input.damaged()) return map;
   }
   catch (const detail::BadContent& error)
