@@ -284,8 +284,8 @@ class Unsound : public std::runtime_error
   using std::runtime_error::runtime_error;
 };
 
-/// Throws for a file that is damaged, or that does not end after so many bytes where these are
-/// told: before memory is taken for a large map, the file must be sound to its end.
+/// Before memory is taken for a large map, its file must be sound to its end. Throws where it is
+/// not, or does not end after `to_end` bytes.
 void requireSound(const detail::GzipInput& input, std::optional<std::uint64_t> to_end)
 {
   std::optional<std::uint64_t> size;
