@@ -21,9 +21,10 @@ constexpr std::size_t kThinningShare = 4;  // one proposal in so many is kept
 constexpr std::size_t kLeastThinned = 512;  // lower bound of the proposals kept
 constexpr std::size_t kMostThinned = 8000;  // upper bound of the proposals kept, ties not counted
 constexpr std::uint32_t kHeadings = 512;  // of the table: an error of 0.35 degrees, 0.1 m at 16 m
-/// How many proposals have a score by the first returns.
-using ScoreCounts = std::array<std::uint32_t, 255 * kRoughReturns + 1>;
 constexpr auto kHeadingsPerRadian = static_cast<float>(kHeadings / (2.0 * M_PI));
+
+/// How many proposals have each score by the first returns.
+using ScoreCounts = std::array<std::uint32_t, 255 * kRoughReturns + 1>;
 
 /// Keeps the best `count` of the first scores, and those equal to the last of them, so that the
 /// order of the proposals does not decide which ones stay. Returns the least score that it keeps.
@@ -148,8 +149,8 @@ class CoarseField::TurnedReturns
         const std::uint32_t i = standing[k];
         const Turned& turned = turnedTo(placed.heading[i]);
         const std::uint32_t score = sumAt<0, returns>(placed.column[i], placed.row[i], turned);
-        // An entry is kept or overwritten by the next one: a branch here could not be predicted.
         ++with_score[score];
+        // An entry is kept or overwritten by the next one: a branch here could not be predicted.
         of_block[kept] = {score, static_cast<std::uint32_t>(first + i)};
         kept += score >= least ? 1 : 0;
       }
