@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "geometry/same_place.h"
+#include "matching/dense/BestFirst.h"
 #include "matching/dense/CoarseField.h"
 #include "matching/dense/TakenPoses.h"
 #include "matching/dense/WallCrossings.h"
@@ -208,34 +209,26 @@ std::vector<DenseVerifier::Raced> DenseVerifier::race(const DenseScan& scan,
                                                       const std::vector<RankedPose>& before,
                                                       MatchingCounters& counters) const
 {
-  // The best is the largest number, of equal ones that which came first. Few are needed before
-  // enough are chosen, and a heap sorts no more than those.
-  std::vector<std::uint64_t> order;
-  order.reserve(scores.size());
-  for (const CoarseScore& entry : scores)
-    order.push_back(std::uint64_t{entry.score} << 32U | ~entry.index);
-  std::make_heap(order.begin(), order.end());
   std::vector<TPose2D> places;
   places.reserve(before.size() + kBatch);
   for (const RankedPose& pose : before) places.push_back(pose.pose);
   std::uint32_t best = coarse_field_->bestScore(scan, places);
   constexpr auto kMargin = static_cast<std::uint32_t>(kCoarseMargin * CoarseScore::kMost);
+  BestFirst order(scores, kMargin);
 
   TakenPoses taken;
   std::vector<Raced> raced;
   float most_weight = 0;
   double best_middle = bestScore(before);
   std::size_t refined = 0;
-  const auto can_win = [&] { return !order.empty() && (order.front() >> 32U) + kMargin >= best; };
+  const auto can_win = [&] { return !order.empty() && order.bestScore() + kMargin >= best; };
   while (refined < kMostRefined && can_win())
   {
     const std::size_t batch = std::min(refined == 0 ? kFirstBatch : kBatch, kMostRefined - refined);
     places.clear();
     while (places.size() < batch && can_win())
     {
-      const PoseProposal& p = proposals[~static_cast<std::uint32_t>(order.front())];
-      std::pop_heap(order.begin(), order.end());
-      order.pop_back();
+      const PoseProposal& p = proposals[order.take()];
       if (taken.holdsNear(p)) continue;
       taken.add(p);
       places.emplace_back(p.x, p.y, p.phi);
