@@ -84,24 +84,25 @@ Surroundings surroundingsOf(const std::vector<BeamEnd>& beams, std::size_t i)
 std::vector<std::uint32_t> spacedReturns(const std::vector<Surroundings>& surroundings,
                                          std::size_t most)
 {
-  std::vector<double> shares_up_to;  // of a return each, summed up
-  shares_up_to.reserve(surroundings.size());
+  const auto share = [](const Surroundings& around)
+  { return std::min(1.0, around.length / kSpacing); };
   double sum = 0;
-  for (const Surroundings& around : surroundings)
-  {
-    sum += std::min(1.0, around.length / kSpacing);
-    shares_up_to.push_back(sum);
-  }
+  for (const Surroundings& around : surroundings) sum += share(around);
   const auto count = static_cast<std::uint32_t>(
       std::min(static_cast<double>(most), std::max(1.0, std::floor(sum))));
+  std::vector<std::uint32_t> evenly;  // the returns in the middle of `count` equal shares
+  evenly.reserve(count);
+  std::uint32_t at = 0;
+  double up_to = share(surroundings[at]);
+  for (std::uint32_t k = 0; k < count; ++k)
+  {
+    const double middle = (k + 0.5) * sum / count;
+    while (up_to < middle) up_to += share(surroundings[++at]);
+    evenly.push_back(at);
+  }
   std::vector<std::uint32_t> chosen;
   chosen.reserve(count);
-  for (const std::uint32_t k : interleavedOrder(count))
-  {
-    const auto at =
-        std::lower_bound(shares_up_to.begin(), shares_up_to.end(), (k + 0.5) * sum / count);
-    chosen.push_back(static_cast<std::uint32_t>(at - shares_up_to.begin()));
-  }
+  for (const std::uint32_t k : interleavedOrder(count)) chosen.push_back(evenly[k]);
   return chosen;
 }
 
