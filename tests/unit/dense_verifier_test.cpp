@@ -125,8 +125,11 @@ TEST(DenseVerifier, RanksFurtherProposalsBesideThoseBefore)
     EXPECT_EQ(both.front().evidence.score, right.front().evidence.score);
     EXPECT_EQ(both.front().pose.x, right.front().pose.x);
   }
-  // Each pose is kept once, and no more are kept than asked for.
-  EXPECT_EQ(verifier.rank(scan, near, 10, counters, right).size(), 1U);
+  // Each pose is kept once and is not refined anew, and no more are kept than asked for.
+  const std::vector<RankedPose> again = verifier.rank(scan, near, 10, counters, right);
+  ASSERT_EQ(again.size(), 1U);
+  EXPECT_EQ(again.front().pose, right.front().pose);
+  EXPECT_EQ(again.front().evidence.score, right.front().evidence.score);
   EXPECT_EQ(verifier.rank(scan, near, 2, counters, wrong).size(), 2U);
   EXPECT_EQ(verifier.rank(scan, {}, 10, counters, right).size(), 1U);
 }

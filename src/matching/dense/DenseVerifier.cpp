@@ -105,6 +105,19 @@ void keepDistinct(std::vector<RankedPose>& poses, std::size_t count, std::size_t
   poses = distinct.take();
 }
 
+/// Drops the poses at which one has been ranked before. It would end there again.
+void dropKnown(const std::vector<RankedPose>& before, std::vector<RankedPose>& poses)
+{
+  const auto is_known = [&](const RankedPose& pose)
+  {
+    return std::any_of(before.begin(), before.end(),
+                       [&](const RankedPose& other) {
+                         return withinReach(pose.pose, other.pose, kApartDistance, kSamePlaceAngle);
+                       });
+  };
+  poses.erase(std::remove_if(poses.begin(), poses.end(), is_known), poses.end());
+}
+
 /// Returns the score of the first of sorted poses, or 0 without any.
 double bestScore(const std::vector<RankedPose>& poses)
 {
@@ -158,6 +171,8 @@ std::vector<RankedPose> DenseVerifier::rank(const DenseScan& scan,
   std::vector<RankedPose> poses =
       bestOf(scan, std::move(raced), kMiddleRays,
              DistinctPoses(kFinalKept, kFinalKept + max_ranked, kApartDistance));
+  dropKnown(before, poses);
+  if (poses.empty()) return before;
 
   // 3. Refine the best of those on more returns, and score them by all.
   const double promising = std::max(bestScore(poses), bestScore(before)) - kFinalLead;
