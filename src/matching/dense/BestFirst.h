@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "matching/dense/CoarseField.h"
@@ -27,27 +28,30 @@ class BestFirst
       keys_.push_back(std::uint64_t{entry.score} << 32U | ~entry.index);
       best = std::max(best, entry.score);
     }
-    const auto is_far = [&](std::uint64_t key) { return scoreOf(key) + near < best; };
-    const auto first = std::partition(keys_.begin(), keys_.end(), is_far);
-    first_ = static_cast<std::size_t>(first - keys_.begin());
-    std::make_heap(first, keys_.end());
+    for (std::uint64_t& key : keys_)
+    {
+      if (scoreOf(key) + near >= best) continue;
+      best_far_ = std::max(best_far_, scoreOf(key));
+      std::swap(key, keys_[far_++]);
+    }
+    std::make_heap(heap(), keys_.end());
   }
 
   bool empty() const { return keys_.empty(); }
 
-  std::uint32_t bestScore() const { return scoreOf(keys_[first_]); }
+  std::uint32_t bestScore() const { return keys_.size() > far_ ? scoreOf(keys_[far_]) : best_far_; }
 
   /// Takes the best one. Returns its index.
   std::uint32_t take()
   {
-    const auto index = ~static_cast<std::uint32_t>(keys_[first_]);
-    std::pop_heap(heap(), keys_.end());
-    keys_.pop_back();
-    if (keys_.size() == first_)
+    if (keys_.size() == far_)
     {
-      first_ = 0;
+      far_ = 0;
       std::make_heap(heap(), keys_.end());
     }
+    const auto index = ~static_cast<std::uint32_t>(keys_[far_]);
+    std::pop_heap(heap(), keys_.end());
+    keys_.pop_back();
     return index;
   }
 
@@ -56,10 +60,12 @@ class BestFirst
 
   std::vector<std::uint64_t>::iterator heap()
   {
-    return keys_.begin() + static_cast<std::ptrdiff_t>(first_);
+    return keys_.begin() + static_cast<std::ptrdiff_t>(far_);
   }
 
+  // The first `far_` in any order, then a heap with the best one at its front.
   std::vector<std::uint64_t> keys_;
-  std::size_t first_;  // from here on the keys are a heap, the best one here
+  std::size_t far_ = 0;
+  std::uint32_t best_far_ = 0;
 };
 }  // namespace sigloc
