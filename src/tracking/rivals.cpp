@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "matching/dense/distinguishing_place.h"
+#include "tracking/distinguishing_place.h"
 
 namespace sigloc
 {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "matching/dense/distinguishing_place.h"
+#include "tracking/distinguishing_place.h"
 
 namespace sigloc
 {

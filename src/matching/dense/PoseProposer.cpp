@@ -30,7 +30,7 @@ constexpr std::uint32_t kMostSlidWalls = 3;  // observed walls of different dire
 constexpr std::uint32_t kEnough = 2000;  // proposals; with fewer another observed wall is slid
 constexpr std::uint32_t kMaxPairs = 3;  // observed pairs of circles tried, rarest distance first
 // The same in all where further poses are proposed.
-constexpr std::uint32_t kThoroughSlidWalls = 4;
+constexpr std::uint32_t kThoroughSlidWalls = 3;
 constexpr std::uint32_t kThoroughPairs = 6;
 
 /// Orders points by their square of 8 m. What is tried one after the other then lies together in

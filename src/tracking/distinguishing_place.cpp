@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "matching/dense/distinguishing_place.h"
+#include "tracking/distinguishing_place.h"
 
 #include "matching/dense/CellView.h"
 
