@@ -19,15 +19,15 @@ USES = (
     ("campus", NONE, "(6.14), (7.7), search budgets, what the search drops, σ_turn, walls slid; by its wake-ups the tracker's rules"),
     ("fhw", NONE, "(4.11), `X` in (7.2), (6.14), walls slid, what the search drops; by its wake-ups the prior and the tracker's rules"),
     ("acapulco", NONE, "walls slid, `X` in (7.2), (6.14); by its wake-ups the prior and the tracker's rules"),
-    ("infinite-corridor", NONE, "the sharp likelihood in (6.8), (6.14), the form of (7.8), walls slid, what the search drops; by its wake-ups the prior "
-     "and the tracker's rules"),
+    ("infinite-corridor", NONE, "the sharp likelihood in (6.8), (6.14), the form of (7.8), walls slid, what the search drops; by its wake-ups the "
+     "prior and the tracker's rules"),
     ("orebro", NONE, "walls slid, (6.14), what the search drops"),
     ("uwb", NONE, "(7.6)"),
     ("dlr", NONE, "rules of tracking by landmarks, which numbers (8.23) takes"),
     ("victoria-park", NONE, "posts in the open, rules of tracking by landmarks; its map is of the same log"),
     ("lab", NONE, "it was looked at; no choice is on record"),
-    ("city", "as intel and aces", "the form of (7.8), walls slid, what the search drops; its scans are those of intel, aces, fhw, acapulco, infinite-corridor and "
-     "orebro"),
+    ("city", "as intel and aces", "the form of (7.8), walls slid, what the search drops; its scans are those of intel, aces, fhw, acapulco, "
+     "infinite-corridor and orebro"),
 )  # fmt: skip
 
 
