@@ -149,7 +149,7 @@ std::uint64_t GzipInput::allowed() const
   return std::min(limits_.most, std::max(limits_.always, limits_.ratio * file_->fileSize()));
 }
 
-std::optional<std::uint64_t> GzipInput::wholeSize() const
+std::optional<std::uint64_t> GzipInput::wholeSize(std::uint64_t enough) const
 {
   const auto again = openPacked(path_, kBufferBytes);
   if (!again) fail(path_, "cannot be opened");
@@ -160,7 +160,7 @@ std::optional<std::uint64_t> GzipInput::wholeSize() const
     const unsigned got = again->read(piece.data(), kBufferBytes);
     unpacked += got;
     requireWithin(unpacked);
-    more = got == kBufferBytes;
+    more = got == kBufferBytes && unpacked <= enough;
   }
   if (again->broken()) return std::nullopt;
   return unpacked;

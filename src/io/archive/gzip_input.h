@@ -59,8 +59,9 @@ class GzipInput final : public mrpt::io::CStream
   /// Of a packed file that may hold more it is found out `at_once`, at the cost of unpacking it.
   void limitTo(const UnpackLimits& limits, bool at_once = true);
   /// Unpacks the file once and keeps nothing, so that memory is taken for none that holds more than
-  /// its limits. Returns the bytes that it unpacks to, or nullopt where it is damaged.
-  std::optional<std::uint64_t> wholeSize() const;
+  /// its limits. Returns the bytes that it unpacks to, or nullopt where it is damaged. Of a file
+  /// that holds more than `enough` it returns what it has seen by then, which is more.
+  std::optional<std::uint64_t> wholeSize(std::uint64_t enough = UINT64_MAX) const;
   /// Returns the bytes read, fewer than `count` at the end or where the file is damaged.
   std::size_t Read(void* buffer, std::size_t count) override;
   /// True when not one more byte can be read.

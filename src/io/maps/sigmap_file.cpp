@@ -288,17 +288,17 @@ class Unsound : public std::runtime_error
 /// not, or does not end after `to_end` bytes.
 void requireSound(const detail::GzipInput& input, std::optional<std::uint64_t> to_end)
 {
+  const std::uint64_t announced = to_end ? input.getPosition() + *to_end : UINT64_MAX;
   std::optional<std::uint64_t> size;
   try
   {
-    size = input.wholeSize();
+    size = input.wholeSize(announced);
   }
   catch (const std::runtime_error& error)
   {
     throw Unsound(error.what());
   }
-  if (!size || (to_end && input.getPosition() + *to_end != *size))
-    throw Unsound(input.path().string() + kDamaged);
+  if (!size || (to_end && *size != announced)) throw Unsound(input.path().string() + kDamaged);
 }
 
 FeatureMap readSigmap(const std::filesystem::path& path)
