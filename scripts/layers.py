@@ -91,6 +91,7 @@ EQUATION = re.compile(r"\((\d+\.\d+)\)")
 EQUATION_OF_PAGE = re.compile(r"\(([1-9]\d?\.\d{1,2})\)")
 WRITES_PAGES = {"scripts/results/data_use.py"}  # its equations are in docs/results
 CITES_EQUATION = re.compile(r"\b[Ee]q\.")
+CITES_OTHER_PAGE = re.compile(r"\\cite (?!algorithm\b)[a-z]")  # papers begin with a name
 OWN_PATH = re.compile(
     r"(?<![\w/.<-])(?:src|include|apps|docs|examples|python|ros|scripts|tests|cmake)/[\w/.-]*\w(?![\w*<{$]|/[*<{$])"
 )
@@ -202,6 +203,8 @@ def citation_violations(path, lines, equations):
     """Finds cited equations that are not there; in code a citation is on the line that says "eq."."""
     is_code = path.suffix in (".h", ".cpp")
     for number, line in enumerate(lines, 1):
+        if is_code and CITES_OTHER_PAGE.search(line):
+            yield number, "cites a page that is not docs/algorithm.md"
         if is_code and not CITES_EQUATION.search(line):
             continue
         for equation in (EQUATION if is_code else EQUATION_OF_PAGE).findall(line):

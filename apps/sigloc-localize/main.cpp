@@ -57,8 +57,7 @@ sigloc::Pictures picturesOf(const sigloc::LocalizeArguments& arguments)
 
 int main(int argc, char** argv)
 {
-  CLI::App app("Finds and follows a lost robot in a known map by matching signatures.",
-               "sigloc-localize");
+  CLI::App app("Finds and follows a lost robot in a known map.", "sigloc-localize");
   sigloc::LocalizeArguments arguments;
   app.footer(
       "Exit codes: 0 done, 1 bad input or no room for the output (nothing written but the map's "

@@ -127,6 +127,7 @@ RelocationResult SignatureMatcher::localize(const ObservedScene& scene,
 {
   checkScene(scene);
   RelocationResult result;
+  result.view = angularCoverage(scene);
   // Without returns, only a search by features can find anything.
   const bool enough = scene.beams.size() >= options_.min_beams ||
                       (generator_ && scene.beams.empty() && scene.features.size() >= kMinLandmarks);
@@ -276,7 +277,6 @@ void SignatureMatcher::concludeDensely(const ObservedScene& scene, const DenseSc
   if (!result.candidates.empty())
     missed.unproposed = unproposedProbability(hypotheses, result.candidates.front().pose.mean);
   missed.unrefined = result.complete && result.counters.cut_short > 0;
-  result.view = angularCoverage(scene);
   weighCandidates(result, candidatesOf(verified.outside, *verifier_, scene), missed);
 }
 }  // namespace sigloc

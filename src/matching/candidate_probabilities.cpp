@@ -57,6 +57,7 @@ double ofUnhidden(const DenseEvidence& evidence, double share)
 void decide(RelocationResult& result)
 {
   VerdictGrounds grounds;
+  grounds.confirmed = true;  // what one scan tells of being in the map is in its probabilities
   grounds.poses = result.candidates.size();
   grounds.unfinished = !result.complete;
   if (result.candidates.empty())

@@ -15,7 +15,7 @@ struct VerdictGrounds
   double first = 0;  ///< probability of the first of them
   GaussianPose first_pose;
   double elsewhere = 1;  ///< probability that the robot is at none of them
-  bool confirmed = true;  ///< the evidence that the robot is in the map is strong enough
+  bool confirmed = false;  ///< the evidence that the robot is in the map is strong enough
   bool doubtful = false;  ///< the first pose has stopped explaining the scans
   bool sees_too_little = false;  ///< the scan has too few returns for the verdict *not here*
   bool unfinished = false;  ///< the map was not searched to its end, so it is not ruled out

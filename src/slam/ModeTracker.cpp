@@ -178,7 +178,7 @@ Belief ModeTracker::publish(const SignatureMatcher& matcher, bool blind)
   {
     hypothesis.pose.covariance(2, 2) += kMinTurnSigma * kMinTurnSigma;
   }
-  BeliefGrounds grounds;
+  VerdictGrounds grounds;
   grounds.sees_too_little = blind;
   grounds.unfinished = !schedule_.hasSearchedAll();
   if (!set_.tracks.empty())

@@ -86,6 +86,8 @@ void HypothesisTracker::State::startAnew()
   relocation = DenseRelocation(options);
   schedule = RelocationSchedule(options);
   belief = {};
+  relocated = false;
+  reliability = 0;
   if (matcher->featureVerifier() == nullptr) return;
   landmark_tracker = std::make_unique<LandmarkTracker>(matcher, options);
 }
@@ -193,7 +195,7 @@ bool HypothesisTracker::State::doubtful() const
 void HypothesisTracker::State::publish(const ObservedScene& scene)
 {
   belief = beliefOf(set, matcher->map(), options);
-  BeliefGrounds grounds;
+  VerdictGrounds grounds;
   grounds.sees_too_little = seesTooLittle(scene);
   grounds.unfinished = !schedule.hasSearchedAll();
   if (!set.tracks.empty())

@@ -35,15 +35,10 @@ const DenseField* fieldOf(const FeatureMap& map)
   return map.field() ? &*map.field() : nullptr;
 }
 
-void setVerdict(Belief& belief, const BeliefGrounds& more, double sure, const DenseField* field)
+void setVerdict(Belief& belief, VerdictGrounds grounds, double sure, const DenseField* field)
 {
-  VerdictGrounds grounds;
   grounds.poses = belief.hypotheses.size();
   grounds.elsewhere = belief.elsewhere;
-  grounds.confirmed = more.confirmed;
-  grounds.doubtful = more.doubtful;
-  grounds.sees_too_little = more.sees_too_little;
-  grounds.unfinished = more.unfinished;
   if (grounds.poses > 0)
   {
     grounds.first = belief.hypotheses.front().weight;

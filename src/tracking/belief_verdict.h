@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "matching/verdict.h"
 #include "sigloc/map/DenseField.h"
 #include "sigloc/map/FeatureMap.h"
 #include "sigloc/tracking/Belief.h"
@@ -10,15 +11,6 @@
 
 namespace sigloc
 {
-/// What decides a verdict besides the probabilities.
-struct BeliefGrounds
-{
-  bool confirmed = false;  ///< the evidence that the robot is in the map is strong enough
-  bool doubtful = false;  ///< the first hypothesis has stopped explaining the scans
-  bool sees_too_little = false;  ///< the scan has too few returns for the verdict *not here*
-  bool unfinished = false;  ///< no relocation has searched the map to its end yet
-};
-
 /// Returns what is published of the tracks, which must be sorted: their poses with the map's common
 /// error, and their weights. In a dense field they share the probability of being in the map by
 /// their weights. The floor of "somewhere else" starts new tracks, and says nothing about where the
@@ -28,9 +20,10 @@ Belief beliefOf(const TrackSet& set, const FeatureMap& map, const TrackerOptions
 /// The dense field of a map, or null.
 const DenseField* fieldOf(const FeatureMap& map);
 
-/// Sets the verdict of a belief, its probability and its reason by decideVerdict(), from its
-/// hypotheses (heaviest first) and the probability of being elsewhere. A claim requires the
+/// Sets the verdict of a belief, its probability and its reason by decideVerdict(). The poses and
+/// probabilities of `grounds` are taken from its hypotheses (heaviest first) and the probability of
+/// being elsewhere. A claim requires the
 /// probability `sure`. Without a field (null) the reason does not say where rivals differ.
 /// \cite algorithm section 8, "Publish"
-void setVerdict(Belief& belief, const BeliefGrounds& more, double sure, const DenseField* field);
+void setVerdict(Belief& belief, VerdictGrounds grounds, double sure, const DenseField* field);
 }  // namespace sigloc

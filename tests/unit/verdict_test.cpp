@@ -9,7 +9,17 @@ namespace sigloc
 namespace
 {
 constexpr double kSure = 0.99;
-constexpr BeliefGrounds kConfirmed = {true, false, false};
+
+VerdictGrounds grounds(bool confirmed, bool doubtful = false, bool sees_too_little = false,
+                       bool unfinished = false)
+{
+  VerdictGrounds made;
+  made.confirmed = confirmed;
+  made.doubtful = doubtful;
+  made.sees_too_little = sees_too_little;
+  made.unfinished = unfinished;
+  return made;
+}
 
 Belief beliefOf(const std::vector<double>& weights, double elsewhere, double sigma = 0.05)
 {
@@ -41,7 +51,7 @@ struct Case
 {
   const char* what;
   Belief belief;
-  BeliefGrounds grounds;
+  VerdictGrounds grounds;
   Verdict verdict;
   double probability;
   const char* reason;  // part of it
@@ -50,60 +60,33 @@ struct Case
 TEST(DecideVerdict, ClaimsOnlyWhatNothingSpeaksAgainst)
 {
   const std::vector<Case> cases = {
-      {"all is well", beliefOf({0.995}, 0.005), kConfirmed, Verdict::localized, 0.995, "one"},
-      {"a light rival", beliefOf({0.99, 0.005}, 0.005), kConfirmed, Verdict::localized, 0.99,
+      {"all is well", beliefOf({0.995}, 0.005), grounds(true), Verdict::localized, 0.995, "one"},
+      {"a light rival", beliefOf({0.99, 0.005}, 0.005), grounds(true), Verdict::localized, 0.99,
        "one hypothesis holds"},
-      {"not sure", beliefOf({0.98, 0.015}, 0.005), kConfirmed, Verdict::ambiguous, 0.02,
+      {"not sure", beliefOf({0.98, 0.015}, 0.005), grounds(true), Verdict::ambiguous, 0.02,
        "2 hypotheses remain"},
-      {"alone, not sure", beliefOf({0.9}, 0.1), kConfirmed, Verdict::ambiguous, 0.1,
+      {"alone, not sure", beliefOf({0.9}, 0.1), grounds(true), Verdict::ambiguous, 0.1,
        "one hypothesis remains"},
-      {"not confirmed",
-       beliefOf({0.998}, 0.002),
-       {},
-       Verdict::ambiguous,
-       0.002,
+      {"not confirmed", beliefOf({0.998}, 0.002), grounds(false), Verdict::ambiguous, 0.002,
        "too little of what has been seen is explained by this map alone"},
-      {"not confirmed, a rival",
-       beliefOf({0.99, 0.005}, 0.005),
-       {},
-       Verdict::ambiguous,
-       0.01,
-       "2 hypotheses remain"},
-      {"doubtful",
-       beliefOf({0.995}, 0.005),
-       {true, true, false},
-       Verdict::ambiguous,
-       0.005,
+      {"not confirmed, a rival", beliefOf({0.99, 0.005}, 0.005), grounds(false), Verdict::ambiguous,
+       0.01, "2 hypotheses remain"},
+      {"doubtful", beliefOf({0.995}, 0.005), grounds(true, true), Verdict::ambiguous, 0.005,
        "less than it used to"},
-      {"open", beliefOf({0.995}, 0.005, 0.5), kConfirmed, Verdict::ambiguous, 0.005,
+      {"open", beliefOf({0.995}, 0.005, 0.5), grounds(true), Verdict::ambiguous, 0.005,
        "open along a line"},
-      {"elsewhere", beliefOf({0.02}, 0.98), kConfirmed, Verdict::not_here, 0.98,
+      {"elsewhere", beliefOf({0.02}, 0.98), grounds(true), Verdict::not_here, 0.98,
        "no hypothesis explains the scan"},
-      {"nowhere", beliefOf({}, 1.0), {}, Verdict::not_here, 1.0, "nothing in the map"},
-      {"blind",
-       beliefOf({}, 1.0),
-       {false, false, true},
-       Verdict::too_little_seen,
-       1.0,
+      {"nowhere", beliefOf({}, 1.0), grounds(false), Verdict::not_here, 1.0, "nothing in the map"},
+      {"blind", beliefOf({}, 1.0), grounds(false, false, true), Verdict::too_little_seen, 1.0,
        "fewer returns than needed"},
-      {"not searched to its end",
-       beliefOf({}, 1.0),
-       {false, false, false, true},
-       Verdict::too_little_seen,
-       1.0,
-       "ended at its budget"},
-      {"not searched to its end, a poor pose",
-       beliefOf({0.02}, 0.98),
-       {false, false, false, true},
-       Verdict::ambiguous,
-       0.98,
+      {"not searched to its end", beliefOf({}, 1.0), grounds(false, false, false, true),
+       Verdict::too_little_seen, 1.0, "ended at its budget"},
+      {"not searched to its end, a poor pose", beliefOf({0.02}, 0.98),
+       grounds(false, false, false, true), Verdict::ambiguous, 0.98,
        "too little of what has been seen"},
-      {"blind, held",
-       beliefOf({0.995}, 0.005),
-       {true, false, true},
-       Verdict::localized,
-       0.995,
-       "one hypothesis holds"},
+      {"blind, held", beliefOf({0.995}, 0.005), grounds(true, false, true), Verdict::localized,
+       0.995, "one hypothesis holds"},
   };
   for (const Case& c : cases)
   {

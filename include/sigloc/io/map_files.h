@@ -53,16 +53,19 @@ FeatureMap buildMapFromFile(const std::filesystem::path& path, const MapBuilding
                             const FeatureExtractorOptions& extraction,
                             const MapProgress& progress = {}, const ReadingOptions& reading = {});
 
-/// Returns the map of `source`, reusing `cache` (a `.sigmap`) when its provenance shows that
-/// neither the source's bytes nor the options have changed. Otherwise builds it and rewrites
-/// `cache`. `reused` is set accordingly. A cache that cannot be read is rebuilt, and one that
-/// cannot be written is left out; neither is an error.
+/// A map, and whether it came out of a cache.
 struct CachedMap
 {
   FeatureMap map;
-  bool reused = false;
-  double build_seconds = 0;
+  bool reused = false;  ///< it was read from the cache
+  double build_seconds = 0;  ///< [s] to build it, or to read it from the cache
 };
+
+/// Returns the map of `source`, reusing `cache` (a `.sigmap`) when its provenance shows that
+/// neither the source's bytes nor the options have changed. Otherwise builds it and rewrites
+/// `cache`. `reused` is set accordingly. A cache that cannot be read is rebuilt, and one that
+/// cannot be written is left out; neither is an error. Throws std::runtime_error ("path: reason")
+/// for a source that cannot be read.
 CachedMap mapWithCache(const std::filesystem::path& source, const std::filesystem::path& cache,
                        const MapBuildingOptions& building,
                        const FeatureExtractorOptions& extraction, const MapProgress& progress = {},
@@ -73,7 +76,11 @@ CachedMap mapWithCache(const std::filesystem::path& source, const std::filesyste
 /// absolute path.
 std::filesystem::path mapCacheFile(const std::filesystem::path& source);
 
+/// Returns the scans of the key frames, with poses in the map frame. Scans that cannot be used are
+/// left out.
 std::vector<PosedScans> posedScansOf(const mrpt::maps::CSimpleMap& simplemap);
+
+/// Returns the cells of a grid map in their order; walls are in the middle of their cells.
 OccupancyRaster rasterOf(const mrpt::maps::COccupancyGridMap2D& grid);
 
 /// Writes a `.sigmap` (compressed by zstd, versioned, checksummed) atomically: to a temporary file
@@ -85,7 +92,8 @@ void saveSigmap(const FeatureMap& map, const std::filesystem::path& path);
 /// 100 km of its origin.
 FeatureMap loadSigmap(const std::filesystem::path& path);
 
-/// The body of a `.sigmap` and of a serialized `SignatureMap`.
+/// The body of a `.sigmap` and of a serialized `SignatureMap`. Reading throws std::runtime_error
+/// for one that is cut off or has a value that no map has.
 void writeFeatureMap(const FeatureMap& map, mrpt::serialization::CArchive& out);
 FeatureMap readFeatureMap(mrpt::serialization::CArchive& in);
 }  // namespace sigloc

@@ -13,7 +13,9 @@ namespace sigloc
 {
 /// A pose is claimed from this probability on. \cite algorithm section 7
 constexpr double kLocalizedProbability = 0.99;
-/// "Somewhere else" keeps this probability at least. \cite algorithm sections 7 and 8
+/// Without a dense field, "somewhere else" keeps this probability at least. In the tracker it is
+/// the least weight that starts new tracks. A published probability may be lower, eq. (8.25). \cite
+/// algorithm sections 7 and 8
 constexpr double kLeastElsewhere = 0.002;
 
 /// What is claimed about the robot's pose. \cite algorithm section 7, "The verdict"
@@ -42,8 +44,8 @@ struct FeaturePairing
 /// The cost of generating and verifying hypotheses, in operations. Times never enter results.
 struct MatchingCounters
 {
-  std::uint64_t signature_pairs = 0;  ///< (observed, mapped) signatures compared
-  std::uint64_t hypotheses = 0;  ///< bases (the first pairings) turned into a pose
+  std::uint64_t signature_pairs = 0;  ///< pairs of signatures, or of key points, compared
+  std::uint64_t hypotheses = 0;  ///< poses proposed: from bases, key points or minimal sets
   std::uint64_t checks = 0;  ///< location-dependent checks of a pairing at a pose
   std::uint64_t visits = 0;  ///< cells and list entries read to find map features
   std::uint64_t poses_scored = 0;  ///< poses scored in the dense field
@@ -81,8 +83,10 @@ struct RelocationResult
   Verdict verdict = Verdict::too_little_seen;
   double probability = 0;  ///< of the verdict's claim; for `localized`, of the first candidate
   double elsewhere = 1;  ///< probability that the robot is at none of the candidates
-  double view = 2 * M_PI;  ///< [rad] angular coverage of the scan
-  bool complete = true;  ///< false where the search was cut short: what it missed may be right
+  double view = 2 * M_PI;  ///< [rad] angular coverage of the returns, 0 without any
+  /// False where the search by features ended at its budget: what it missed may be right. Poses
+  /// that a dense search left unrefined are told by `counters.cut_short` alone.
+  bool complete = true;
   MatchingCounters counters;
 };
 

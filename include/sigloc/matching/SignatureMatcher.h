@@ -18,7 +18,7 @@ namespace sigloc
 /// How hypotheses are generated: the modes of \cite algorithm section 4.
 enum class GenerationMode : std::uint8_t
 {
-  automatic = 0,  ///< key pairs, then minimal sets, for a dense field; else patterns
+  automatic = 0,  ///< (f) key pairs, then (e), for a dense field; else (d)
   plain = 1,  ///< (a) compares every signature with every mapped one
   anchors = 2,  ///< (b) sampled anchors and partners
   pairs = 3,  ///< (c) pair index
@@ -61,7 +61,9 @@ struct FeatureHypothesis;
 struct PoseProposal;
 struct RankedPose;
 
-/// Relocation by matching signatures: finds the poses in a known map that explain a scene.
+/// Finds the poses in a known map that explain a scene. With a dense field pairs of key points
+/// propose them, mode (f), then minimal sets, mode (e). Without one, signatures of features do,
+/// modes (a) to (d).
 ///
 ///     const SignatureMatcher matcher(map);
 ///     const RelocationResult result = matcher.localize(observeScene(scans));

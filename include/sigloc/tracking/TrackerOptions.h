@@ -46,8 +46,9 @@ struct TrackerOptions
         "lost_distance", &O::lost_distance, 0.01, 100.0,
         "[m] with landmarks, travel after which a scan is fresh evidence of being lost; "
         "without odometry, travel from step to step"});
-    visit(OptionField{"min_elsewhere", &O::min_elsewhere, 0.0, 0.5,
-                      "[-] the weight of somewhere else never falls below this"});
+    visit(OptionField{
+        "min_elsewhere", &O::min_elsewhere, 0.0, 0.5,
+        "[-] weight of somewhere else kept to start new tracks; what is published may be lower"});
     visit(OptionField{"relocation_distance", &O::relocation_distance, 0.0, 100.0,
                       "[m] travel between two relocations while no pose is known"});
     visit(OptionField{"confirmation_distance", &O::confirmation_distance, 0.0, 1000.0,

@@ -16,7 +16,7 @@
 namespace sigloc
 {
 /// One-shot relocation in simulated worlds while one condition is varied. All methods get the same
-/// queries. \cite evaluation protocol 8
+/// queries.
 struct SweepOptions
 {
   std::string over = "noise";  ///< name of a SweptQuantity

@@ -15,7 +15,7 @@
 
 namespace sigloc
 {
-/// How far off an answer may be. \cite evaluation "What counts"
+/// How far off an answer may be to count as right, or before a confident one counts as wrong.
 struct AccuracyGates
 {
   double right_distance = 0.5;  ///< [m]
