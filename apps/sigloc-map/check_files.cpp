@@ -188,8 +188,14 @@ std::string checkTable(const MapCheck& check)
 
 std::vector<TPose2D> readPoses(const std::filesystem::path& file)
 {
+  constexpr std::uintmax_t kMostBytes = 1U << 24U;  // some 700 000 poses
+  const auto refuse = [&](const char* reason)
+  { throw std::runtime_error(file.string() + ": " + reason); };
+  if (!std::filesystem::exists(file)) refuse("no such file");
+  if (!std::filesystem::is_regular_file(file)) refuse("is no regular file");
+  if (std::filesystem::file_size(file) > kMostBytes) refuse("holds more than 16 MB of poses");
   std::ifstream in(file);
-  if (!in) throw std::runtime_error(file.string() + ": cannot be read");
+  if (!in) refuse("cannot be read");
   std::vector<TPose2D> poses;
   std::size_t row = 0;
   for (std::string line; std::getline(in, line);)

@@ -50,6 +50,8 @@ class Wanted(NamedTuple):
 def open_bag(path: pathlib.Path) -> Union[Ros1Bag, Ros2Bag]:
     if not path.exists():
         raise OSError(f"{path}: no such file")
+    if not path.is_dir() and not path.is_file():
+        raise OSError(f"{path}: is no regular file")
     if path.is_dir() or path.suffix == ".db3":
         return Ros2Bag(path)
     if path.suffix == ".mcap":

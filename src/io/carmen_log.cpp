@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/carmen_log.h"
 
+#include <fmt/core.h>
 #include <mrpt/system/string_utils.h>
 
 #include <algorithm>
@@ -62,6 +63,7 @@ class Message
   }
 
   void skip(std::size_t n) { next_ += n; }
+  [[noreturn]] void fail(const std::string& reason) const { failAtLine(path_, index_, reason); }
   /// How many words have not been taken.
   std::size_t left() const { return words_.size() - std::min(next_, words_.size()); }
 
@@ -105,6 +107,15 @@ mrpt::math::TPose2D readPose(Message& message)
   return {x, y, std::remainder(phi, 2 * M_PI)};
 }
 
+/// Throws where more words are left than a message has behind its readings: their number is not the
+/// one announced, or their decimals have commas.
+void requireNoMore(const Message& message, std::size_t announced, std::size_t most)
+{
+  if (message.left() <= most) return;
+  message.fail(fmt::format("{} readings are announced, and {} words too many follow", announced,
+                           message.left() - most));
+}
+
 /// Odometry and time, where a message goes on: `skipped` words are between the two.
 void readOdometry(Message& message, std::size_t skipped, CarmenScan& seen)
 {
@@ -137,6 +148,7 @@ CarmenScan readFlaser(Message& message)
   scan.first_angle = -0.5 * span * kDegree;
   scan.angle_step = span * kDegree / std::max(1.0, steps);
   readRanges(message, n, scan);
+  requireNoMore(message, n, 9);  // two poses, time, host, time of logging
   seen.laser = readPose(message);
   readOdometry(message, 0, seen);
   return seen;
@@ -156,6 +168,7 @@ CarmenScan readRobotLaser(Message& message)
   const std::size_t n = message.count();
   readRanges(message, n, scan);
   message.skip(message.count());  // remissions
+  requireNoMore(message, n, 14);  // two poses, five numbers, time, host, time of logging
   seen.laser = readPose(message);
   readOdometry(message, 5, seen);  // speeds and safety distances
   if (seen.odometry) scan.robot_from_sensor = mountFrom(seen.laser - *seen.odometry);

@@ -55,6 +55,10 @@ class TemporaryFile
     std::error_code unnameable;
     const bool is_link = fs::is_symlink(path, unnameable) && fs::exists(path, unnameable);
     target_ = is_link ? fs::canonical(path) : path;
+    // A device or a pipe would be lost, since the file takes its name.
+    const fs::file_status status = fs::status(target_, unnameable);
+    if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status))
+      throw std::runtime_error(path.string() + ": is no regular file, and is not replaced");
     // A name of the greatest length leaves no room for the ending.
     constexpr std::size_t kLongestStem = 200;
     const std::string stem = target_.filename().string().substr(0, kLongestStem);

@@ -20,15 +20,19 @@ constexpr std::size_t kLeastChunk = 4096;  // bytes
 constexpr std::size_t kChunk = 256U * 1024U;
 constexpr std::size_t kLongestLine = 8U * 1024U * 1024U;
 constexpr std::string_view kSeparators = " \t,;\r";
-constexpr std::string_view kUtf8Mark = "\xEF\xBB\xBF";
 }  // namespace
 
 TextLines::TextLines(const std::filesystem::path& path, std::uint64_t most) : input_(path)
 {
   input_.limitTo({most});
   refill();
-  // Some editors begin UTF-8 with a mark.
-  if (text_.compare(0, kUtf8Mark.size(), kUtf8Mark) == 0) from_ = kUtf8Mark.size();
+  from_ = text_.size() - withoutUtf8Mark(text_).size();
+}
+
+std::string_view withoutUtf8Mark(std::string_view text)
+{
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  return text.substr(0, kMark.size()) == kMark ? text.substr(kMark.size()) : text;
 }
 
 bool TextLines::next()

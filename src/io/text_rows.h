@@ -41,6 +41,9 @@ class TextLines
   std::size_t index_ = static_cast<std::size_t>(-1);
 };
 
+/// Returns a text without the mark with which some editors begin UTF-8.
+std::string_view withoutUtf8Mark(std::string_view text);
+
 /// Returns the words of a line; blanks, tabs, commas and semicolons separate.
 std::vector<std::string_view> words(std::string_view line);
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "bridge/map_error.h"
 #include "bridge/rawlog_files.h"
 #include "sigloc/io/map_files.h"
@@ -35,6 +37,34 @@ TEST(CarmenLog, refusesRangesThatAreNone)
     EXPECT_EQ(scan.valid, (std::vector<std::uint8_t>{1, 0, 1})) << range;
   }
 }
+
+TEST(CarmenLog, hasAsManyReadingsAsItAnnounces)
+{
+  const TemporaryFolder folder;
+  const std::string three = "FLASER 3 1.5 1.5 1.5 0 0 0 0 0 0 1 host 1\n";
+  const std::string laser =
+      "ROBOTLASER1 0 -1.5 3.1 1.5 80 0.01 0 3 1.5 1.5 1.5 0 "
+      "0 0 0 0 0 0 0 0 0.3 0.3 0 1 host 1\n";
+  std::string commas = three;
+  std::replace(commas.begin(), commas.end(), '.', ',');
+  std::string one_line = three + three;
+  std::replace(one_line.begin(), one_line.end(), '\n', '\r');
+  for (const std::string& sound : {three, laser})
+  {
+    writeText(folder / "l.log", sound);
+    EXPECT_EQ(std::get<std::vector<PosedScans>>(readMapSource(folder / "l.log")).size(), 1U);
+  }
+  std::string few = three;
+  few.replace(few.find("3 1.5"), 1, "2");
+  const std::string more = laser.substr(0, laser.size() - 1) + " 7\n";
+  for (const std::string& log : {few, more, commas, one_line})
+  {
+    writeText(folder / "l.log", log);
+    EXPECT_NE(mapErrorOf(folder / "l.log").find(" readings are announced, and "), std::string::npos)
+        << log;
+  }
+}
+
 // A range that is too frequent is taken for the laser's limit, so nothing is left of a log of one.
 TEST(CarmenLog, withoutAReturnIsRefusedWithTheLimitThatItsLaserIsTakenToHave)
 {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <mrpt/serialization/CArchive.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <csignal>
 #include <random>
@@ -47,6 +48,20 @@ class SmallFiles
 std::ptrdiff_t entriesOf(const TemporaryFolder& folder)
 {
   return std::distance(fs::directory_iterator(folder.path()), {});
+}
+
+TEST(FileOutput, replacesNoPipeOrDevice)
+{
+  const TemporaryFolder folder;
+  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+  fs::create_symlink("pipe", folder / "link");
+  for (const char* const name : {"pipe", "link"})
+  {
+    EXPECT_EQ(messageOf<std::runtime_error>([&] { writeFile(folder / name, "text"); }),
+              (folder / name).string() + ": is no regular file, and is not replaced");
+    EXPECT_TRUE(fs::is_fifo(folder / "pipe")) << name;
+  }
+  EXPECT_EQ(entriesOf(folder), 2);
 }
 
 TEST(FileOutput, givesAFileItsNameOnceItIsWhole)

@@ -209,6 +209,15 @@ TEST(RosMap, ReadsTheFormsOfYamlThatToolsWrite)
   EXPECT_EQ(header.free_threshold, 0.196);
 }
 
+TEST(RosMap, TakesAMarkOfUtf8AndATextThatEndsWithItsLastPixel)
+{
+  const TemporaryFolder folder;
+  writeText(folder / "m.pgm", "P2\n3 1\n255\n0 0 254");
+  writeText(folder / "m.yaml", "\xEF\xBB\xBF" + yamlWith("negate: 0\n"));
+  EXPECT_EQ(std::get<OccupancyRaster>(readMapSource(folder / "m.yaml")).cells,
+            (std::vector<CellState>{kSolid, kSolid, kFree}));
+}
+
 TEST(RosMap, RefusesHostileFilesInOneLine)
 {
   const TemporaryFolder folder;

@@ -3,6 +3,7 @@
 //
 // sigloc-map check: whether a robot is found in a map, and where it is not.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -272,6 +273,21 @@ TEST(MapCheck, badInputIsRefusedInOneLine)
           "mine: holds summary.json, but is no folder of an earlier run");
   refused({office, "--out", "none.ini"}, "none.ini: is no folder; not overwritten");
   EXPECT_EQ(readBytes(folder / "none.ini"), "[lidar]\n");
+}
+
+TEST(MapCheck, posesOfAPipeOrOfNoNumbersAreRefusedInOneLine)
+{
+  const TemporaryFolder folder;
+  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+  writeText(folder / "words", "# x y deg\n1 1 0\n1 one 0\n");
+  for (const auto& [name, why] :
+       {std::pair("pipe", "is no regular file"), std::pair("words", "row 3 is not `x y deg`")})
+  {
+    const CommandResult result = check(folder, kOffice, "out", {"--at", name});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_EQ(countLines(result.errors), 1) << result.errors;
+    EXPECT_NE(result.errors.find(why), std::string::npos) << result.errors;
+  }
 }
 }  // namespace
 }  // namespace sigloc

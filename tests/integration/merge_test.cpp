@@ -3,6 +3,7 @@
 #include "eval/reports/merge.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <stdexcept>
 
@@ -205,7 +206,11 @@ TEST(Merge, RefusesWhatCannotBePooled)
   EXPECT_NE(complaint({folder / "a", folder / "." / "a"}).find("given twice"), std::string::npos);
   EXPECT_NE(complaint({folder / "a", folder / "other"}).find("other: has other methods"),
             std::string::npos);
-  EXPECT_NE(complaint({folder / "a", folder / "none"}).find("summary.json: cannot be opened"),
+  EXPECT_NE(complaint({folder / "a", folder / "none"}).find("summary.json: no such file"),
+            std::string::npos);
+  std::filesystem::create_directory(folder / "pipe");
+  ASSERT_EQ(mkfifo((folder / "pipe" / "summary.json").c_str(), 0600), 0);
+  EXPECT_NE(complaint({folder / "a", folder / "pipe"}).find("summary.json: is no regular file"),
             std::string::npos);
   writeText(folder / "broken" / "results.csv", csv.substr(0, csv.size() - 9));
   EXPECT_NE(complaint({folder / "a", folder / "broken"}).find("results.csv: line 6"),
@@ -219,7 +224,7 @@ TEST(Merge, RefusesWhatCannotBePooled)
       complaint({folder / "a", folder / "broken"}).find("holds 4 rows of signature, not the 5"),
       std::string::npos);
   writeText(folder / "broken" / "results.csv", "");
-  EXPECT_NE(complaint({folder / "a", folder / "broken"}).find("results.csv: holds no rows"),
+  EXPECT_NE(complaint({folder / "a", folder / "broken"}).find("results.csv: is empty"),
             std::string::npos);
 }
 }  // namespace

@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "io/archive/gzip_input.h"
 #include "io/text_rows.h"
 
 namespace sigloc::detail
@@ -56,8 +57,8 @@ std::string csvCell(const std::string& text)
 
 CsvTable::CsvTable(std::filesystem::path path) : path_(std::move(path))
 {
+  detail::requireFile(path_);
   std::ifstream file(path_, std::ios::binary);
-  if (!file) throw std::runtime_error(path_.string() + ": cannot be opened");
   columns_ = readRow(file);
   while (file.peek() != EOF)
   {

@@ -14,6 +14,7 @@
 #include "eval/data/csv_table.h"
 #include "eval/reports/sweep_report.h"
 #include "eval/scoring/relocation_summary.h"
+#include "io/archive/gzip_input.h"
 
 namespace sigloc
 {
@@ -115,8 +116,8 @@ void checkComplete(const Run& run)
 Run readRun(const fs::path& folder)
 {
   const fs::path path = folder / "summary.json";
+  detail::requireFile(path);
   std::ifstream file(path);
-  if (!file) throw std::runtime_error(path.string() + ": cannot be opened");
   std::optional<RunSummary> summary = summaryOf(ordered_json::parse(file, nullptr, false));
   if (!summary) throw std::runtime_error(path.string() + ": is no summary of sigloc-eval");
   Run run{folder, std::move(*summary), CsvTable(folder / "results.csv")};

@@ -68,6 +68,7 @@ bool isReportFile(const std::string& name)
 /// Whether sigloc-eval wrote the folder's summary.
 bool isReportFolder(const std::filesystem::path& folder)
 {
+  if (!std::filesystem::is_regular_file(folder / "summary.json")) return false;
   std::ifstream file(folder / "summary.json");
   const auto summary = nlohmann::json::parse(file, nullptr, false);
   const nlohmann::json::json_pointer command("/provenance/command");

@@ -81,7 +81,8 @@ void readPgm(std::FILE* file, bool text, const std::filesystem::path& path, cons
   row.shades.resize(row.width);
   const auto shade_of = [&](int value)
   {
-    if (value < 0 || std::feof(file) != 0) fail(path, "its picture is cut off");
+    // The last number of a text may end with the file.
+    if (value < 0 || (!text && std::feof(file) != 0)) fail(path, "its picture is cut off");
     if (value > white) fail(path, "its picture has a pixel whiter than white");
     return static_cast<std::uint8_t>((value * kWhite + white / 2) / white);
   };

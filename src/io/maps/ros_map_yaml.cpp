@@ -87,6 +87,7 @@ Values valuesIn(std::string_view text, const std::filesystem::path& path)
 {
   Values values;
   std::optional<std::string> key;
+  text = withoutUtf8Mark(text);
   for (std::size_t index = 0; !text.empty(); ++index)
   {
     const std::size_t end = std::min(text.find('\n'), text.size());
