@@ -17,7 +17,9 @@ int main(int argc, char** argv)
                "sigloc-align");
   app.footer("Exit codes: 0 done, 1 bad input, 3 no pose is possible (nothing written).");
   sigloc::AlignArguments arguments;
-  app.add_option("A", arguments.a, "map: " + sigloc::mapFormatNames() + ". .gz or .zst may follow")
+  app.add_option("A", arguments.a,
+                 "map: " + sigloc::mapFormatNames() +
+                     ". .gz or .zst may follow, but for ROS maps and images")
       ->required();
   app.add_option("B", arguments.b, "map whose pose in A is asked")->required();
   arguments.reading.declare(app);

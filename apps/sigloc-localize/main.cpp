@@ -61,7 +61,8 @@ int main(int argc, char** argv)
   sigloc::LocalizeArguments arguments;
   app.footer(
       "Exit codes: 0 done, 1 bad input or no room for the output (nothing written but the map's "
-      "cache, $XDG_CACHE_HOME/sigloc or ~/.cache/sigloc), 2 truncated log (results cover what was "
+      "cache, $XDG_CACHE_HOME/sigloc or ~/.cache/sigloc), 2 truncated rawlog (results cover what "
+      "was "
       "read).");
   auto* const config =
       app.add_option("CONFIG.ini", arguments.config, "configuration, as pf-localization reads it");
@@ -71,7 +72,7 @@ int main(int argc, char** argv)
   auto* const map =
       app.add_option("--map", arguments.map,
                      "map to localize in, instead of map_file: " + sigloc::mapFormatNames() +
-                         ". .gz or .zst may follow");
+                         ". .gz or .zst may follow, but for ROS maps and images");
   auto* const log = app.add_option("--log", arguments.rawlog, "the same as DATASET.rawlog");
   arguments.reading.declare(app);
   app.add_option(sigloc::kOut, arguments.output, "output folder instead of logOutput_dir");

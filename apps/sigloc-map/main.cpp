@@ -40,7 +40,7 @@ int main(int argc, char** argv)
 
   CLI::App* build_command =
       app.add_subcommand("build", "Builds a .sigmap from one of: " + sigloc::mapFormatNames() +
-                                      ". .gz or .zst may follow.");
+                                      ". .gz or .zst may follow, but for ROS maps and images.");
   build_command->add_option("-i,--input", arguments.input, "map source")->required();
   build_command->add_option(sigloc::kOutOrOutput, arguments.output, ".sigmap to write")->required();
   build_command->add_option("--config", arguments.config,

@@ -28,6 +28,20 @@ mrpt::obs::CObservationOdometry::Ptr odometryOf(const TPose2D& pose, double time
   odometry->odometry = mrpt::poses::CPose2D(pose);
   return odometry;
 }
+
+/// Returns what to do with a file that is no rawlog, if it is another kind of log.
+std::string whatElse(GzipInput& input)
+{
+  constexpr std::size_t kLooked = 4096;  // bytes
+  const std::string ending = extensionOf(input.path());
+  if (ending == ".bag" || ending == ".db3") return "; sigloc-bag2rawlog makes one of a ROS bag";
+  if (ending == ".mcap")
+    return "; `ros2 bag convert` makes a .db3 of it, sigloc-bag2rawlog a rawlog";
+  const std::string_view begin = input.peek(kLooked).substr(0, kLooked);
+  const bool is_carmen = begin.find("FLASER ") != std::string_view::npos ||
+                         begin.find("ROBOTLASER1 ") != std::string_view::npos;
+  return is_carmen ? "; a CARMEN log is named .log, .clf or .carmen" : "";
+}
 }  // namespace
 
 LogObjects::LogObjects(const std::filesystem::path& path)
@@ -52,7 +66,8 @@ void LogObjects::openRawlog(const std::filesystem::path& path)
   input_ = std::make_unique<GzipInput>(path);
   requireIntact(path);
   const std::string name = input_->nextClassName();
-  if (name.empty()) fail(path, input_->damaged() ? "truncated or damaged" : "not a rawlog");
+  if (name.empty())
+    fail(path, input_->damaged() ? "truncated or damaged" : "not a rawlog" + whatElse(*input_));
   if (!isLogClass(name)) fail(path, "not a rawlog: it starts with a '" + name + "'");
 }
 

@@ -299,7 +299,7 @@ LocalizationSetup parsed(const fs::path& path, const std::string& hint, Read&& r
     LocalizationSetup setup;
     std::vector<std::string> sections(kSections.begin(), kSections.end());
     sections.emplace_back(kExperiment);
-    setup.warnings = detail::warningsOfRepeatedKeys(text, sections);
+    setup.warnings = detail::warningsOfLines(text, sections);
     setup.config_file = path;
     readSections(ini, setup);
     read(ini, setup);

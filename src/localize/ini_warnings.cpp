@@ -135,15 +135,20 @@ std::string warningOfIgnoredKeys(const mrpt::config::CConfigFileBase& ini,
   return ignored.empty() ? "" : "of pf-localization's keys, sigloc does without " + ignored;
 }
 
-std::vector<std::string> warningsOfRepeatedKeys(const std::string& text,
-                                                const std::vector<std::string>& sections)
+std::vector<std::string> warningsOfLines(const std::string& text,
+                                         const std::vector<std::string>& sections)
 {
   std::map<std::pair<std::string, std::string>, int> counts;
   std::istringstream lines(text);
+  std::vector<std::string> warnings;
+  const auto is_read = [&](const std::string& name)
+  { return std::count(sections.begin(), sections.end(), name) > 0; };
   std::string section;
   bool goes_on = false;  // a value over several lines
+  int number = 0;
   for (std::string line; std::getline(lines, line);)
   {
+    ++number;
     line = trimmed(line);
     if (line.empty()) continue;
     if (std::exchange(goes_on, line.back() == '\\') || isComment(line)) continue;
@@ -156,11 +161,15 @@ std::vector<std::string> warningsOfRepeatedKeys(const std::string& text,
     {
       ++counts[{section, trimmed(line.substr(0, equals))}];
     }
+    else if (is_read(section))
+    {
+      warnings.push_back(
+          fmt::format("[{}]: line {} is no `key = value`, and is not read", section, number));
+    }
   }
-  std::vector<std::string> warnings;
   for (const auto& [key, count] : counts)
   {
-    if (count == 1 || std::count(sections.begin(), sections.end(), key.first) == 0) continue;
+    if (count == 1 || !is_read(key.first)) continue;
     warnings.push_back(
         fmt::format("[{}]: '{}' is there {} times, the last counts", key.first, key.second, count));
   }

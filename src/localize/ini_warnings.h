@@ -27,7 +27,8 @@ std::vector<std::string> warningsOfUnreadKeys(const mrpt::config::CConfigFileBas
 std::string warningOfIgnoredKeys(const mrpt::config::CConfigFileBase& ini,
                                  const std::string& section, bool with_particles);
 
-/// Returns a line for each key of the named sections that the text of an ini gives several times.
-std::vector<std::string> warningsOfRepeatedKeys(const std::string& text,
-                                                const std::vector<std::string>& sections);
+/// Returns a line for each line of the named sections that has no key, and for each of their keys
+/// that the text of an ini gives several times.
+std::vector<std::string> warningsOfLines(const std::string& text,
+                                         const std::vector<std::string>& sections);
 }  // namespace sigloc::detail

@@ -256,6 +256,14 @@ TEST(LocalizationSetup, warnsOfKeysThatAreThereTwice)
   EXPECT_NE(setup.warnings[1].find("[sigloc.matcher]: 'seed'"), std::string::npos);
 }
 
+TEST(LocalizationSetup, warnsOfLinesWithoutAKey)
+{
+  const TemporaryFolder folder;
+  const auto setup = read(folder, "[sigloc.matcher]\nseed 5\n// a note\n[elsewhere]\nseed 6\n");
+  ASSERT_EQ(setup.warnings.size(), 1U);
+  EXPECT_NE(setup.warnings[0].find("is no `key = value`, and is not read"), std::string::npos);
+}
+
 TEST(LocalizationSetup, messagesAreOneLineWithoutMrptsTrimmings)
 {
   EXPECT_EQ(oneLine("==== MRPT exception ====\nMessage:  It broke\nLocation: x.cpp:1\n"),

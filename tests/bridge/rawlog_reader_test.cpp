@@ -362,6 +362,19 @@ TEST(RawlogReader, RefusesDamagedCompressedLogsAndNeverCrashes)
   }
 }
 
+TEST(RawlogReader, TellsWhatToDoWithAnotherKindOfLog)
+{
+  const TemporaryFolder folder;
+  writeText(folder / "drive.rawlog", "# CARMEN\nFLASER 3 1 2 3 0 0 0 0 0 0 1 host 1\n");
+  EXPECT_EQ(logErrorOf(folder / "drive.rawlog"),
+            (folder / "drive.rawlog").string() +
+                ": not a rawlog; a CARMEN log is named .log, .clf or .carmen");
+  writeText(folder / "drive.bag", "#ROSBAG V2.0\n");
+  EXPECT_EQ(
+      logErrorOf(folder / "drive.bag"),
+      (folder / "drive.bag").string() + ": not a rawlog; sigloc-bag2rawlog makes one of a ROS bag");
+}
+
 TEST(RawlogReader, NamesFileAndReasonForUnusableFiles)
 {
   const TemporaryFolder folder;
