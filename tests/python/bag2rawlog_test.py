@@ -140,6 +140,8 @@ def test_options_choose_topics_and_frames(drive, tmp_path):
 def test_recordings_that_cannot_be_used(drive, tmp_path):
     bag = tmp_path / "a.db3"
     assert "no such file" in refused(bag)
+    os.mkfifo(tmp_path / "pipe.bag")
+    assert "is no regular file" in refused(tmp_path / "pipe.bag")
     bag.write_bytes(b"")
     refused(bag)
     bag.write_bytes(b"SQLite format 3\0 and then nothing that is one")

@@ -14,8 +14,8 @@ namespace sigloc
 /// A pose is claimed from this probability on. \cite algorithm section 7
 constexpr double kLocalizedProbability = 0.99;
 /// Without a dense field, "somewhere else" keeps this probability at least. In the tracker it is
-/// the least weight that starts new tracks. A published probability may be lower, eq. (8.25). \cite
-/// algorithm sections 7 and 8
+/// the least weight that starts new tracks. A published probability may be lower.
+/// \cite algorithm eq. (7.4), (8.25)
 constexpr double kLeastElsewhere = 0.002;
 
 /// What is claimed about the robot's pose. \cite algorithm section 7, "The verdict"

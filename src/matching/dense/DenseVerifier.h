@@ -42,7 +42,8 @@ class DenseVerifier
   /// more than ten only where they tie with the first.
   /// Counts the poses scored, and a search cut short where more than 400 places fit nearly as well
   /// as the best: the others are not refined. Poses ranked `before` for the same
-  /// scan compete with those from the proposals. \cite algorithm section 6, "The cascade"
+  /// scan compete with those from the proposals, which are dropped where they end at one of these.
+  /// \cite algorithm section 6, "The cascade"
   std::vector<RankedPose> rank(const DenseScan& scan, const std::vector<PoseProposal>& proposals,
                                std::size_t max_ranked, MatchingCounters& counters,
                                std::vector<RankedPose> before = {}) const;
