@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdlib>
+#include <filesystem>
 #include <functional>
 #include <iostream>
 #include <memory>
@@ -84,6 +85,12 @@ inline int runApp(CLI::App& app, int argc, char** argv, const std::function<int(
   catch (const std::bad_alloc&)
   {
     std::cerr << app.get_name() << ": not enough memory\n";
+    return 1;
+  }
+  catch (const std::filesystem::filesystem_error& error)
+  {
+    std::cerr << app.get_name() << ": " << error.path1().string() << ": " << error.code().message()
+              << '\n';
     return 1;
   }
   catch (const std::exception& error)

@@ -23,7 +23,7 @@ namespace
 MapCheck checkOf(const MapArguments& arguments, const std::shared_ptr<const FeatureMap>& map)
 {
   CheckOptions options = arguments.options;
-  if (!arguments.at.empty()) options.poses = readPoses(arguments.at);
+  if (!arguments.at.empty()) options.poses = readPoses(arguments.at, boundsOf(*map));
   SimulatedLaserOptions laser =
       laserOfMap(readMapSource(arguments.input, arguments.reading.in({arguments.input})));
   if (!arguments.laser.empty()) laser = readLaser(arguments.laser, laser);

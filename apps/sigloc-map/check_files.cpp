@@ -186,7 +186,7 @@ std::string checkTable(const MapCheck& check)
   return table;
 }
 
-std::vector<TPose2D> readPoses(const std::filesystem::path& file)
+std::vector<TPose2D> readPoses(const std::filesystem::path& file, const PlanarBox& bounds)
 {
   constexpr std::uintmax_t kMostBytes = 1U << 24U;  // some 700 000 poses
   const auto refuse = [&](const char* reason)
@@ -208,6 +208,10 @@ std::vector<TPose2D> readPoses(const std::filesystem::path& file)
     std::string more;
     if (!(fields >> pose.x >> pose.y >> pose.phi) || fields >> more)
       throw std::runtime_error(fmt::format("{}: row {} is not `x y deg`", file.string(), row));
+    const bool outside = pose.x < bounds.x_min || pose.x > bounds.x_max || pose.y < bounds.y_min ||
+                         pose.y > bounds.y_max;
+    if (outside)
+      throw std::runtime_error(fmt::format("{}: row {} is off the map", file.string(), row));
     pose.phi = mrpt::DEG2RAD(pose.phi);
     poses.push_back(pose);
   }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "map_check.h"
+#include "sigloc/plugin/map_drawing.h"
 
 namespace sigloc
 {
@@ -31,6 +32,7 @@ void writeCheckFiles(const MapCheck& check, const std::string& map,
 std::string checkTable(const MapCheck& check);
 
 /// Reads poses, one a row: `x y deg` in metres and degrees; lines that begin with # are comments.
-/// Throws std::runtime_error ("file: reason").
-std::vector<mrpt::math::TPose2D> readPoses(const std::filesystem::path& file);
+/// Throws std::runtime_error ("file: reason"), also for a pose outside the bounds.
+std::vector<mrpt::math::TPose2D> readPoses(const std::filesystem::path& file,
+                                           const PlanarBox& bounds);
 }  // namespace sigloc

@@ -52,7 +52,9 @@ LogObjects::LogObjects(const std::filesystem::path& path)
     return;
   }
   double time = 0;
-  for (CarmenScan& seen : readCarmenScans(path))
+  CarmenLog log = readCarmenLog(path);
+  truncated_ = log.truncated;
+  for (CarmenScan& seen : log.scans)
   {
     time = seen.time.value_or(time + kPeriod);
     if (seen.odometry) made_.push_back(odometryOf(*seen.odometry, time));

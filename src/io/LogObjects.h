@@ -26,7 +26,7 @@ class LogObjects
   /// Returns the next object; null at the end, or where nothing more can be read.
   mrpt::serialization::CSerializable::Ptr next();
   /// True when reading ended before the end of the file.
-  bool truncated() const { return truncated_; }
+  bool truncated() const { return ended_ && truncated_; }
   /// Share of the log consumed so far, in [0, 1].
   double progress() const;
 

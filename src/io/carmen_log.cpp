@@ -175,6 +175,18 @@ CarmenScan readRobotLaser(Message& message)
   return seen;
 }
 
+/// Returns the scan of a line, none where it is another message or has less than two beams.
+std::optional<CarmenScan> readScan(const TextLines& lines, const std::filesystem::path& path)
+{
+  Message message(lines.line(), path, lines.index());
+  const bool flaser = message.name() == "FLASER";
+  if (!flaser && message.name() != "ROBOTLASER1") return std::nullopt;
+  CarmenScan seen = flaser ? readFlaser(message) : readRobotLaser(message);
+  if (!(seen.scan.angle_step > 0)) message.fail("angle step is not positive");
+  if (seen.scan.ranges.size() < 2) return std::nullopt;
+  return seen;
+}
+
 /// Some logs clip far readings to one value. So many readings at exactly the maximum are no
 /// returns.
 void dropClippedReadings(std::vector<CarmenScan>& log)
@@ -210,21 +222,27 @@ void dropClippedReadings(std::vector<CarmenScan>& log)
 }
 }  // namespace
 
-std::vector<CarmenScan> readCarmenScans(const std::filesystem::path& path)
+CarmenLog readCarmenLog(const std::filesystem::path& path)
 {
   constexpr std::uint64_t kMostLog = std::uint64_t{1} << 30U;  // bytes
-  std::vector<CarmenScan> log;
+  CarmenLog log;
   for (TextLines lines(path, kMostLog); lines.next();)
   {
-    Message message(lines.line(), path, lines.index());
-    const bool flaser = message.name() == "FLASER";
-    if (!flaser && message.name() != "ROBOTLASER1") continue;
-    CarmenScan seen = flaser ? readFlaser(message) : readRobotLaser(message);
-    if (!(seen.scan.angle_step > 0)) failAtLine(path, lines.index(), "angle step is not positive");
-    if (seen.scan.ranges.size() >= 2) log.push_back(std::move(seen));
+    try
+    {
+      auto seen = readScan(lines, path);
+      if (seen) log.scans.push_back(std::move(*seen));
+    }
+    catch (const std::runtime_error&)
+    {
+      // A recording that was stopped ends within a message.
+      log.truncated = !lines.ended() && !log.scans.empty();
+      if (!log.truncated) throw;
+    }
   }
-  if (log.empty()) throw std::runtime_error(path.string() + ": no FLASER or ROBOTLASER1 message");
-  dropClippedReadings(log);
+  if (log.scans.empty())
+    throw std::runtime_error(path.string() + ": no FLASER or ROBOTLASER1 message");
+  dropClippedReadings(log.scans);
   return log;
 }
 

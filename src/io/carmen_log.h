@@ -22,10 +22,16 @@ struct CarmenScan
   std::optional<double> time;  ///< [s]; none where the line ends early
 };
 
+struct CarmenLog
+{
+  std::vector<CarmenScan> scans;  ///< not empty
+  bool truncated = false;  ///< its last line is a part of a message, which is left out
+};
+
 /// Reads the laser messages of a CARMEN log, in its order. A FLASER message of n beams covers 180
 /// degrees from -90 in steps of 180/n (n even) or 180/(n-1) degrees (n odd). Throws
 /// std::runtime_error "path: reason".
-std::vector<CarmenScan> readCarmenScans(const std::filesystem::path& path);
+CarmenLog readCarmenLog(const std::filesystem::path& path);
 
 /// True for the name of a CARMEN log: `.log`, `.clf` or `.carmen`, whatever packs it.
 bool isCarmenLog(const std::filesystem::path& path);

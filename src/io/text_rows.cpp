@@ -46,6 +46,7 @@ bool TextLines::next()
     refill();
     end = text_.find('\n', from_ + looked);
   }
+  ended_ = end != std::string::npos;
   end = std::min(end, text_.size());
   if (from_ >= text_.size()) return false;
   line_ = std::string_view(text_).substr(from_, end - from_);

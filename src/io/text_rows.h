@@ -27,6 +27,8 @@ class TextLines
   bool next();
   /// Valid until next().
   std::string_view line() const { return line_; }
+  /// False for a last line without a line end.
+  bool ended() const { return ended_; }
   /// Counts lines from 0.
   std::size_t index() const { return index_; }
 
@@ -38,6 +40,7 @@ class TextLines
   std::size_t from_ = 0;  // ... and handed out up to here
   bool more_ = true;
   std::string_view line_;
+  bool ended_ = false;
   std::size_t index_ = static_cast<std::size_t>(-1);
 };
 

@@ -65,6 +65,22 @@ TEST(CarmenLog, hasAsManyReadingsAsItAnnounces)
   }
 }
 
+TEST(CarmenLog, makesNoMapWhereItIsCutOffOrBad)
+{
+  const TemporaryFolder folder;
+  const std::string line = "FLASER 3 1.5 1.5 1.5 0 0 0 0 0 0 1 host 1\n";
+  const std::string part = line.substr(0, 15);
+  for (const auto& [log, why] :
+       {std::pair(line + part, ": its last message is cut off"), std::pair(part, "line 1: cut off"),
+        std::pair(line + part + "\n", "line 2: cut off"),
+        std::pair(std::string("ODOM 1 2 3 0 0 0 1 host 1\n"), "no FLASER"),
+        std::pair(std::string("FLASER -3 1 2\n"), "line 1: bad count")})
+  {
+    writeText(folder / "l.log", log);
+    EXPECT_NE(mapErrorOf(folder / "l.log").find(why), std::string::npos) << log;
+  }
+}
+
 // A range that is too frequent is taken for the laser's limit, so nothing is left of a log of one.
 TEST(CarmenLog, withoutAReturnIsRefusedWithTheLimitThatItsLaserIsTakenToHave)
 {

@@ -129,6 +129,9 @@ TEST(MapSources, ReadsARosMapOfRawOccupancies)
   writeText(folder / "m.pgm", "no image");
   EXPECT_NE(mapErrorOf(folder / "m.yaml").find("m.pgm: is no PGM or PNG picture"),
             std::string::npos);
+  writeText(folder / "m.pgm", "\x1f\x8b and so on");
+  EXPECT_NE(mapErrorOf(folder / "m.yaml").find("m.pgm: is packed; unpack the picture first"),
+            std::string::npos);
   EXPECT_NE(mapErrorOf(folder / "m.pgm")
                 .find("image_resolution), or its .yaml file; did you mean 'm.yaml'?"),
             std::string::npos);
@@ -289,17 +292,6 @@ TEST(MapSources, DropsReadingsClippedToOneValue)
   const LaserScan& scan = std::get<std::vector<PosedScans>>(source)[0].scans[0];
   EXPECT_EQ(scan.valid[10], 0);
   EXPECT_EQ(scan.valid[100], 1);
-}
-
-TEST(MapSources, NamesTheBadLineOfACarmenLog)
-{
-  const TemporaryFolder folder;
-  writeText(folder / "cut.log", flaser(180, 3) + flaser(180, 3).substr(0, 400));
-  EXPECT_NE(mapErrorOf(folder / "cut.log").find("line 2: cut off"), std::string::npos);
-  writeText(folder / "none.log", "ODOM 1 2 3 0 0 0 1 host 1\n");
-  EXPECT_NE(mapErrorOf(folder / "none.log").find("no FLASER"), std::string::npos);
-  writeText(folder / "count.log", "FLASER -3 1 2\n");
-  EXPECT_NE(mapErrorOf(folder / "count.log").find("line 1"), std::string::npos);
 }
 
 TEST(MapSources, ReadsLandmarkRowsAndNamedColumns)

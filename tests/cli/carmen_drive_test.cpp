@@ -54,12 +54,13 @@ std::string carmenDrive(double turn = 0)
   return log;
 }
 
-json localize(const TemporaryFolder& folder, const std::string& log, const std::string& out)
+json localize(const TemporaryFolder& folder, const std::string& log, const std::string& out,
+              int code = 0)
 {
   const CommandResult result =
       run(folder, "sigloc-localize",
           {"--map", kOffice.string(), "--log", log, "--out", out, "--quiet"});
-  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(result.exit_code, code) << result.errors;
   return json::parse(readBytes(folder / (out + "/summary.json")));
 }
 
@@ -96,6 +97,24 @@ TEST(CarmenDrive, isLocalizedAsItsRawlogIs)
     EXPECT_NEAR(carmen["final_pose"][i].get<double>(), expected["final_pose"][i].get<double>(),
                 0.02);
   }
+}
+
+TEST(CarmenDrive, thatIsCutOffIsReadUpToThere)
+{
+  const TemporaryFolder folder;
+  const std::string whole = carmenDrive();
+  writeText(folder / "whole.log", whole);
+  writeText(folder / "cut.log", whole.substr(0, whole.size() - 700));
+  writeText(folder / "damaged.log", whole.substr(0, whole.size() - 700) + "\n");
+  const json expected = localize(folder, "whole.log", "whole");
+  constexpr int kCutOff = 2;
+  const json cut = localize(folder, "cut.log", "cut", kCutOff);
+  EXPECT_EQ(cut["steps"].get<int>(), expected["steps"].get<int>() - 1);
+  const CommandResult damaged =
+      run(folder, "sigloc-localize",
+          {"--map", kOffice.string(), "--log", "damaged.log", "--out", "damaged"});
+  EXPECT_EQ(damaged.exit_code, 1);
+  EXPECT_NE(damaged.errors.find("cut off"), std::string::npos) << damaged.errors;
 }
 
 TEST(CarmenDrive, isWrittenAsARawlogWithThePoses)

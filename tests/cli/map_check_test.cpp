@@ -273,15 +273,19 @@ TEST(MapCheck, badInputIsRefusedInOneLine)
           "mine: holds summary.json, but is no folder of an earlier run");
   refused({office, "--out", "none.ini"}, "none.ini: is no folder; not overwritten");
   EXPECT_EQ(readBytes(folder / "none.ini"), "[lidar]\n");
+  refused({office, "--out", "/proc/none", "--places", "1", "--scans", "1", "--drives", "0"},
+          "sigloc-map: /proc/none: ");
 }
 
-TEST(MapCheck, posesOfAPipeOrOfNoNumbersAreRefusedInOneLine)
+TEST(MapCheck, posesThatAreNoneAreRefusedInOneLine)
 {
   const TemporaryFolder folder;
   ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
   writeText(folder / "words", "# x y deg\n1 1 0\n1 one 0\n");
+  writeText(folder / "far", "3 6 0\n3000 6 0\n");
   for (const auto& [name, why] :
-       {std::pair("pipe", "is no regular file"), std::pair("words", "row 3 is not `x y deg`")})
+       {std::pair("pipe", "is no regular file"), std::pair("words", "row 3 is not `x y deg`"),
+        std::pair("far", "row 2 is off the map")})
   {
     const CommandResult result = check(folder, kOffice, "out", {"--at", name});
     EXPECT_EQ(result.exit_code, 1);

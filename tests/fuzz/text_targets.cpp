@@ -50,16 +50,15 @@ bool readsCarmenLog(std::string_view bytes)
   const bool map = accepts(
       [&]
       {
-        for (const PosedScans& posed : detail::readCarmenLog(path)) observeScene(posed.scans);
+        for (const PosedScans& posed : detail::readCarmenMap(path)) observeScene(posed.scans);
       });
-  if (!map) return false;  // as a log it is read by the same reader
-  accepts(
+  const bool log = accepts(
       [&]
       {
         RawlogReader reader(path);
         while (const auto step = reader.next()) observe(*step);
       });
-  return true;
+  return map || log;
 }
 
 bool readsLandmarks(std::string_view bytes)

@@ -252,6 +252,8 @@ void readGrayImage(const std::filesystem::path& path, const TakeRow& take)
   if (first == EOF) fail(path, "is empty");
   if (first == 'P' && (second == '2' || second == '5'))
     return readPgm(file.get(), second == '2', path, take);
+  if ((first == 0x1f && second == 0x8b) || (first == 0x28 && second == 0xb5))
+    fail(path, "is packed; unpack the picture first");
   if (first != 0x89 || second != 'P') fail(path, "is no PGM or PNG picture");
   std::rewind(file.get());
   readPng(file.get(), path, take);

@@ -16,7 +16,7 @@
   FORMAT(metric_map, readMetricMap, "metric map", ".metricmap")              \
   FORMAT(ros_map, readRosMap, "ROS map", ".yaml", ".yml")                    \
   FORMAT(image, readMapImage, "image with its resolution", ".pgm", ".png")   \
-  FORMAT(carmen_log, readCarmenLog, "CARMEN log", ".log", ".clf", ".carmen") \
+  FORMAT(carmen_log, readCarmenMap, "CARMEN log", ".log", ".clf", ".carmen") \
   FORMAT(landmarks, readLandmarks, "landmark file", ".csv")                  \
   FORMAT(rows, readRows, "landmarks or points", ".txt")                      \
   FORMAT(points, readPointMap, "points", ".ply", ".pcd")                     \

@@ -44,7 +44,7 @@ std::filesystem::path imageOfRosMap(const std::filesystem::path& path);
 /// FLASER and ROBOTLASER1 messages with the (corrected) laser pose they carry. A FLASER message of
 /// n beams covers 180 degrees from -90 in steps of 180/n (n even) or 180/(n-1) degrees (n odd). The
 /// robot frame is the laser's: its mount does not affect a map.
-std::vector<PosedScans> readCarmenLog(const std::filesystem::path& path);
+std::vector<PosedScans> readCarmenMap(const std::filesystem::path& path);
 
 /// A `.ply` or `.pcd` file.
 OccupancyRaster readPointMap(const std::filesystem::path& path, const ReadingOptions& reading);
