@@ -112,7 +112,7 @@ bool isLocalized(const StepRecord& step)
   return step.belief.verdict == Verdict::localized;
 }
 
-/// For how much of the drive the robot was localized, and how often that was lost.
+/// When the robot was localized first, for how much of the drive, and how often that was lost.
 void countLocalized(const std::vector<StepRecord>& steps, RunSummary& summary)
 {
   double metres = 0;
@@ -121,7 +121,11 @@ void countLocalized(const std::vector<StepRecord>& steps, RunSummary& summary)
     const bool was_localized = i > 0 && isLocalized(steps[i - 1]);
     if (isLocalized(steps[i]))
     {
-      ++summary.localized_steps;
+      if (++summary.localized_steps == 1)
+      {
+        summary.steps_to_localized = steps[i].number;
+        summary.metres_to_localized = travelOf(steps[i]);
+      }
       if (i > 0) metres += steps[i].travelled - steps[i - 1].travelled;
     }
     else if (was_localized)
@@ -130,6 +134,42 @@ void countLocalized(const std::vector<StepRecord>& steps, RunSummary& summary)
     }
   }
   if (!steps.empty() && steps.back().travel_known) summary.localized_metres = metres;
+}
+
+/// When a hypothesis was right first, and how often a claim was wrong, where the path is known.
+void compareWithTruth(const std::vector<StepRecord>& steps, RunSummary& summary)
+{
+  summary.confidently_wrong_steps = static_cast<std::size_t>(
+      std::count_if(steps.begin(), steps.end(), std::mem_fn(&StepRecord::confidently_wrong)));
+  const auto first = std::find_if(steps.begin(), steps.end(), std::mem_fn(&StepRecord::any_right));
+  if (first == steps.end()) return;
+  summary.steps_to_first_right = first->number;
+  summary.metres_to_first_right = travelOf(*first);
+}
+
+void addTimes(const std::vector<StepRecord>& steps, RunSummary& summary)
+{
+  std::vector<double> relocation;
+  std::vector<double> tracking;
+  for (const StepRecord& step : steps)
+    (step.relocated ? relocation : tracking).push_back(step.extraction_ms + step.tracking_ms);
+  summary.relocation = timesOf(relocation);
+  summary.tracking = timesOf(tracking);
+}
+
+void addEnd(const std::vector<StepRecord>& steps, RunSummary& summary)
+{
+  if (steps.empty()) return;
+  const auto judged = std::find_if(steps.rbegin(), steps.rend(),
+                                   [](const StepRecord& step) { return step.truth.has_value(); });
+  if (judged != steps.rend()) summary.final_error = judged->error;
+  const StepRecord& last = steps.back();
+  summary.distance = travelOf(last).value_or(std::numeric_limits<double>::quiet_NaN());
+  summary.final_verdict = last.belief.verdict;
+  summary.final_probability = last.belief.probabilityOfFirst();
+  summary.final_reason = last.belief.reason;
+  if (!last.belief.hypotheses.empty())
+    summary.final_pose = last.belief.hypotheses.front().pose.mean;
 }
 
 TPoint2D drivenBetween(const TPose2D& from, const TPose2D& to)
@@ -225,49 +265,69 @@ LocalizationRun::~LocalizationRun() = default;
 const StepRecord* LocalizationRun::next()
 {
   if (!state_->pending) return nullptr;
-  std::optional<RawlogStep> input = std::move(state_->pending);
+  RawlogStep input = std::move(*state_->pending);
   const std::size_t index = setup_.rawlog_offset + steps_.size();
   // One ahead: the last step may have a truth of its own.
   state_->pending = setup_.convergence_test_step == index ? std::nullopt : state_->reader.next();
-  const bool last = !state_->pending && !state_->reader.truncated();
-
-  StepRecord step;
-  step.number = steps_.size() + 1;
-  step.entry = input->entry;
-  step.time = input->time;
   // How the robot came to the first step is motion in another run.
-  if (steps_.empty()) input->motion.reset();
-  step.travelled = steps_.empty() ? 0 : steps_.back().travelled;
-  step.travel_known = steps_.empty() || input->motion.has_value() ||
-                      (steps_.size() > 1 && steps_.back().travel_known);
-  step.odometry = steps_.empty() ? setup_.initial_odometry : steps_.back().odometry;
-  if (input->motion)
-  {
-    step.travelled += std::hypot(input->motion->mean.x, input->motion->mean.y);
-    step.odometry = step.odometry + input->motion->mean;
-  }
+  if (steps_.empty()) input.motion.reset();
 
-  for (const LaserScan& scan : input->scans) state_->returns.add(scan);
-  const Stopwatch extraction;
-  scene_ = observe(*input, setup_.features);
-  step.extraction_ms = extraction.milliseconds();
-  step.features = scene_.features;
-  step.returns = someReturns(scene_.beams);
-  const Stopwatch tracking;
-  step.belief = state_->particles ? state_->particles->step(*input)
-                                  : state_->tracker->step(input->motion, scene_);
-  step.tracking_ms = tracking.milliseconds();
-  step.relocated =
-      state_->particles ? state_->particles->relocated() : state_->tracker->relocated();
-
-  if (state_->truth)
-  {
-    step.truth = state_->truth->at(index, step.time);
-  }
+  StepRecord step = deadReckoned(input);
+  extract(input, step);
+  track(input, step);
+  const bool last = !state_->pending && !state_->reader.truncated();
+  if (state_->truth) step.truth = state_->truth->at(index, step.time);
   if (last && setup_.finalTruth()) step.truth = setup_.finalTruth();
   score(step);
   steps_.push_back(std::move(step));
   return &steps_.back();
+}
+
+/// Begins the record of a step: its place in the log, and what odometry tells.
+StepRecord LocalizationRun::deadReckoned(const RawlogStep& input) const
+{
+  StepRecord step;
+  step.number = steps_.size() + 1;
+  step.entry = input.entry;
+  step.time = input.time;
+  step.odometry = setup_.initial_odometry;
+  if (steps_.empty()) return step;
+  const StepRecord& before = steps_.back();
+  step.travel_known = input.motion || (steps_.size() > 1 && before.travel_known);
+  step.travelled = before.travelled;
+  step.odometry = before.odometry;
+  if (input.motion)
+  {
+    step.travelled += input.motion->mean.norm();
+    step.odometry = step.odometry + input.motion->mean;
+  }
+  return step;
+}
+
+void LocalizationRun::extract(const RawlogStep& input, StepRecord& step)
+{
+  for (const LaserScan& scan : input.scans) state_->returns.add(scan);
+  const Stopwatch watch;
+  scene_ = observe(input, setup_.features);
+  step.extraction_ms = watch.milliseconds();
+  step.features = scene_.features;
+  step.returns = someReturns(scene_.beams);
+}
+
+void LocalizationRun::track(const RawlogStep& input, StepRecord& step)
+{
+  const Stopwatch watch;
+  if (state_->particles)
+  {
+    step.belief = state_->particles->step(input);
+    step.relocated = state_->particles->relocated();
+  }
+  else
+  {
+    step.belief = state_->tracker->step(input.motion, scene_);
+    step.relocated = state_->tracker->relocated();
+  }
+  step.tracking_ms = watch.milliseconds();
 }
 
 void LocalizationRun::score(StepRecord& step) const
@@ -307,45 +367,12 @@ RunSummary LocalizationRun::summary() const
   summary.steps = steps_.size();
   countLocalized(steps_, summary);
   summary.odometry = matchOfOdometry(steps_);
-  if (state_->truth)
-  {
-    summary.confidently_wrong_steps = static_cast<std::size_t>(
-        std::count_if(steps_.begin(), steps_.end(), std::mem_fn(&StepRecord::confidently_wrong)));
-  }
-  std::vector<double> relocation_times;
-  std::vector<double> tracking_times;
-  for (const StepRecord& step : steps_)
-  {
-    const double total_ms = step.extraction_ms + step.tracking_ms;
-    (step.relocated ? relocation_times : tracking_times).push_back(total_ms);
-    if (step.any_right && state_->truth && !summary.steps_to_first_right)
-    {
-      summary.steps_to_first_right = step.number;
-      summary.metres_to_first_right = travelOf(step);
-    }
-    if (isLocalized(step) && !summary.steps_to_localized)
-    {
-      summary.steps_to_localized = step.number;
-      summary.metres_to_localized = travelOf(step);
-    }
-    if (step.truth) summary.final_error = step.error;
-  }
-  summary.relocation = timesOf(relocation_times);
-  summary.tracking = timesOf(tracking_times);
-  if (steps_.empty()) return summary;
-  if (setup_.convergence_test_step == setup_.rawlog_offset + steps_.size() - 1)
-  {
+  if (state_->truth) compareWithTruth(steps_, summary);
+  addTimes(steps_, summary);
+  addEnd(steps_, summary);
+  const std::size_t next = setup_.rawlog_offset + steps_.size();
+  if (!steps_.empty() && setup_.convergence_test_step == next - 1)
     summary.converged = hasConverged(steps_.back());
-  }
-  const StepRecord& last = steps_.back();
-  summary.distance = travelOf(last).value_or(std::numeric_limits<double>::quiet_NaN());
-  summary.final_verdict = last.belief.verdict;
-  summary.final_probability = last.belief.probabilityOfFirst();
-  summary.final_reason = last.belief.reason;
-  if (!last.belief.hypotheses.empty())
-  {
-    summary.final_pose = last.belief.hypotheses.front().pose.mean;
-  }
   return summary;
 }
 }  // namespace sigloc

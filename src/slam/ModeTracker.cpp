@@ -118,7 +118,8 @@ bool ModeTracker::judge(const ObservedScene& scene, const SignatureMatcher& matc
                     ? relocation_.run(set_, schedule_, matcher, scene, scan, region, next_id_)
                     : relocateByFeatures(scene, matcher, region);
   }
-  set_.mergeAndPrune(travel);
+  set_.mergeAndPrune();
+  set_.rememberScores(travel);
   return relocated;
 }
 

@@ -136,7 +136,8 @@ void HypothesisTracker::State::trackDensely(const std::optional<MotionIncrement>
   {
     relocated = relocation.run(set, schedule, *matcher, scene, scan, regionToSearch(), next_id);
   }
-  set.mergeAndPrune(travel);
+  set.mergeAndPrune();
+  set.rememberScores(travel);
   rateFirst(scan);
 }
 
@@ -153,7 +154,8 @@ void HypothesisTracker::State::trackByFeatures(const std::optional<MotionIncreme
     relocated = landmark_tracker->relocate(set, schedule, regionToSearch(), settled, next_id);
   }
   landmark_tracker->remember();
-  set.mergeAndPrune(travel);
+  set.mergeAndPrune();
+  set.rememberScores(travel);
   reliability = set.tracks.empty() ? 0 : landmark_tracker->reliabilityOf(set.tracks.front());
 }
 

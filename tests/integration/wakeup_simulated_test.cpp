@@ -76,14 +76,22 @@ TEST(SimulatedTrack, JudgesEveryClaimInAForeignMapWrong)
 {
   SimulatedTrackOptions options = smallOptions();
   options.foreign = true;
+  options.drives = 2;
+  options.travel = 8;
+  options.methods = {"mcl"};  // which claims with ease
+  options.method.particles = 500;
+  std::size_t claimed = 0;
   for (const Wakeup& run : runsOf(options))
   {
     EXPECT_FALSE(run.right_at_end);
+    claimed += std::count_if(run.steps.begin(), run.steps.end(),
+                             [](const WakeupStep& step) { return step.claim.confident; }) > 0;
     for (const WakeupStep& step : run.steps)
     {
       EXPECT_EQ(step.judged, step.claim.confident ? Claim::wrong : Claim::none);
     }
   }
+  EXPECT_GT(claimed, 0U);
 }
 
 TEST(SimulatedTrack, TellsTheGatesThatClaimsAreJudgedBy)

@@ -114,6 +114,9 @@ class LocalizationRun
 
  private:
   struct State;
+  StepRecord deadReckoned(const RawlogStep& input) const;
+  void extract(const RawlogStep& input, StepRecord& step);
+  void track(const RawlogStep& input, StepRecord& step);
   void score(StepRecord& step) const;
   LocalizationSetup setup_;
   std::shared_ptr<const FeatureMap> map_;

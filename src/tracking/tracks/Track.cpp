@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tracking/tracks/Track.h"
 
+#include <algorithm>
+
+#include "geometry/pose_fusion.h"
+
 namespace sigloc
 {
 namespace
@@ -26,6 +30,20 @@ constexpr double kPairingSlope = 0.85;  // per unit of kappa
 void Track::addTrackedLogOdds(double log_odds)
 {
   tracked_log_odds = std::clamp(tracked_log_odds + log_odds, kMinInMap, kMaxTracked);
+}
+
+void Track::absorb(const Track& lighter)
+{
+  const TrackedHypothesis& other = lighter.hypothesis;
+  hypothesis.pose = mergeByMoments(hypothesis.pose, hypothesis.weight, other.pose, other.weight);
+  hypothesis.weight += other.weight;
+  hypothesis.id = std::min(hypothesis.id, other.id);
+  hypothesis.age = std::max(hypothesis.age, other.age);
+  confirmed = std::max(confirmed, lighter.confirmed);
+  tracked_log_odds = std::max(tracked_log_odds, lighter.tracked_log_odds);
+  tracked_distance = std::max(tracked_distance, lighter.tracked_distance);
+  searched_distance = std::min(searched_distance, lighter.searched_distance);
+  found = found || lighter.found;
 }
 
 void Track::inherit(const Track& parent)

@@ -74,6 +74,9 @@ struct Track
   /// Adds to `tracked_log_odds`, within its bounds. Eq. (8.21)
   void addTrackedLogOdds(double log_odds);
 
+  /// Merges a lighter track that has met this one into it. Eq. (8.10)
+  void absorb(const Track& lighter);
+
   /// Takes over the evidence of the track that it branched off.
   void inherit(const Track& parent);
 

@@ -7,7 +7,6 @@
 #include <limits>
 #include <utility>
 
-#include "geometry/pose_fusion.h"
 #include "geometry/same_place.h"
 #include "matching/candidate_probabilities.h"
 #include "tracking/tracks/pose_update.h"
@@ -326,7 +325,7 @@ void TrackSet::rememberScores(double travel)
   }
 }
 
-void TrackSet::mergeAndPrune(double travel)
+void TrackSet::mergeAndPrune()
 {
   sort();
   std::vector<Track> kept;
@@ -338,17 +337,7 @@ void TrackSet::mergeAndPrune(double travel)
         { return wouldMerge(other.hypothesis.pose.mean, track.hypothesis.pose.mean); });
     if (same != kept.end())
     {
-      TrackedHypothesis& into = same->hypothesis;
-      into.pose =
-          mergeByMoments(into.pose, into.weight, track.hypothesis.pose, track.hypothesis.weight);
-      into.weight += track.hypothesis.weight;
-      into.id = std::min(into.id, track.hypothesis.id);
-      same->confirmed = std::max(same->confirmed, track.confirmed);
-      same->tracked_log_odds = std::max(same->tracked_log_odds, track.tracked_log_odds);
-      same->tracked_distance = std::max(same->tracked_distance, track.tracked_distance);
-      same->searched_distance = std::min(same->searched_distance, track.searched_distance);
-      into.age = std::max(into.age, track.hypothesis.age);
-      same->found = same->found || track.found;
+      same->absorb(track);
     }
     else if (kept.size() < options_.max_hypotheses &&
              track.hypothesis.weight >= options_.prune_weight)
@@ -358,10 +347,14 @@ void TrackSet::mergeAndPrune(double travel)
   }
   tracks = std::move(kept);
   sort();
-  rememberScores(travel);
+  giveRestToElsewhere();
+}
+
+/// The weight of pruned tracks goes to "somewhere else", which keeps its floor.
+void TrackSet::giveRestToElsewhere()
+{
   double here = 0;
   for (const Track& track : tracks) here += track.hypothesis.weight;
-  // The weight of pruned tracks goes to "somewhere else", which keeps its floor.
   const double keep = std::min(here, 1.0 - options_.min_elsewhere);
   for (Track& track : tracks) track.hypothesis.weight *= here > 0 ? keep / here : 0;
   elsewhere = 1.0 - (here > 0 ? keep : 0);

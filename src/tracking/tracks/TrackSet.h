@@ -106,8 +106,10 @@ class TrackSet
   void sort();
 
   /// Merges tracks that have met, prunes the light ones and sorts by weight. Eq. (8.10)
-  /// Adds the scores of the last scan, `travel` [m] after the one before, to their means.
-  void mergeAndPrune(double travel);
+  void mergeAndPrune();
+
+  /// Adds the scores of the last scan, `travel` [m] after the one before, to the tracks' means.
+  void rememberScores(double travel);
 
   /// Returns the track at a pose (within 0.5 m and 17 degrees), or null.
   Track* trackAt(const mrpt::math::TPose2D& pose);
@@ -140,7 +142,7 @@ class TrackSet
   void weighRivals(const DenseScan& scan, const DenseVerifier& verifier, double travelled,
                    double travel);
   double bestScore() const;
-  void rememberScores(double travel);
+  void giveRestToElsewhere();
 
   TrackerOptions options_;
   bool has_odometry_ = true;  // of the last prediction
