@@ -24,10 +24,10 @@ struct MapBuildingOptions
   double raster_resolution = 0.05;
   double raster_range = 30.0;
   std::uint32_t min_hits = 1;
-  double cast_spacing = 1.5;
+  double cast_spacing = 0.75;
   double cast_range = 15.0;
   std::uint32_t min_sightings = 2;
-  std::uint32_t min_cast_sightings = 4;
+  std::uint32_t min_cast_sightings = 9;
   double merge_offset = 0.10;
   double merge_angle = 0.10;
   double merge_gap = 0.3;
