@@ -97,7 +97,8 @@ DenseField inTilesWhereSparse(DenseField field, std::size_t most_whole)
   const auto blank = static_cast<std::size_t>(std::count_if(
       tiles.begin(), tiles.end(), [](const StoredCells& tile) { return isBlank(tile); }));
   const std::size_t stored = (tiles.size() - blank + 1) * DenseField::kTileCells;
-  if (2 * stored >= cellCount(field.frame)) return field;
+  const std::size_t all = cellCount(field.frame);
+  if (2 * stored >= all && static_cast<double>(all) <= kMostCells) return field;
   DenseField tiled = tiledField(field.frame);
   tiled.free_area = field.free_area;
   tiled.wall_cells = field.wall_cells;

@@ -14,11 +14,11 @@ namespace sigloc
 // before memory is allocated for what they announce.
 
 /// A raster of more cells, or a map with a longer outline [m], is refused. Their memory is up to 7
-/// GB and 100 MB.
+/// GB and 150 MB.
 constexpr double kMostCells = 4e8;
 /// The same for a field in tiles, most of which is not stored: 6.3 km x 6.3 km of 5 cm.
 constexpr double kMostTiledCells = 1.6e10;
-constexpr double kLongestOutline = 1e6;
+constexpr double kLongestOutline = 1.5e6;
 
 /// Returns why a map cannot hold the position (x, y) [m], or nullopt where it can. Positions are
 /// kept as single floats. Far from the origin these are no longer good to a centimetre.
