@@ -89,8 +89,8 @@ inline int runApp(CLI::App& app, int argc, char** argv, const std::function<int(
   }
   catch (const std::filesystem::filesystem_error& error)
   {
-    std::cerr << app.get_name() << ": " << error.path1().string() << ": " << error.code().message()
-              << '\n';
+    const std::string reason = error.path1().string() + ": " + error.code().message();
+    std::cerr << app.get_name() << ": " << oneLine(reason) << '\n';
     return 1;
   }
   catch (const std::exception& error)

@@ -16,7 +16,8 @@ namespace sigloc
 /// A raster of more cells, or a map with a longer outline [m], is refused. Their memory is up to 7
 /// GB and 150 MB.
 constexpr double kMostCells = 4e8;
-/// The same for a field in tiles, most of which is not stored: 6.3 km x 6.3 km of 5 cm.
+/// The same for a field in tiles: 6.3 km x 6.3 km of 5 cm. Only tiles with something in them are
+/// stored.
 constexpr double kMostTiledCells = 1.6e10;
 constexpr double kLongestOutline = 1.5e6;
 

@@ -77,7 +77,7 @@ struct RunSummary
   double map_seconds = 0;  ///< to build the map, or to load it
   LeftOutOfLog left_out;
   std::string nothing_seen;  ///< why none of several scans has a valid return, or empty
-  bool truncated = false;  ///< the rawlog broke off: everything covers what was read
+  bool truncated = false;  ///< the log broke off: everything covers what was read
 };
 
 /// Localizes the robot of one rawlog in one map, step by step.

@@ -191,7 +191,7 @@ std::vector<StoredCells> storedCells(const DenseField& field);
 constexpr std::size_t kMostWholeCells = std::size_t{1} << 24U;
 
 /// Returns the same field, in tiles where these take less than half of the memory and the whole
-/// frame has more than `most_whole` cells.
+/// frame has more than `most_whole` cells. A field too large to be kept whole is put in tiles, too.
 DenseField inTilesWhereSparse(DenseField field, std::size_t most_whole = kMostWholeCells);
 
 /// Returns the least distance [m] to any wall of a cell whose distance is kFar. Distances are
