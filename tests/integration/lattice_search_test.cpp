@@ -89,8 +89,8 @@ TEST(LatticeSearch, ExhaustiveScoresFollowTheirDefinition)
 
 TEST(LatticeSearch, BranchAndBoundFindsTheSamePosesAsTheExhaustiveSearch)
 {
-  const testing::SmallOffice office = testing::makeSmallOffice(7, 12);
-  const OccupancyRaster raster = testing::searchRaster(office);
+  const test::SmallOffice office = test::makeSmallOffice(7, 12);
+  const OccupancyRaster raster = test::searchRaster(office);
   for (const double step : {0.2, 0.27})
   {
     DenseSearchOptions options;
@@ -110,8 +110,8 @@ TEST(LatticeSearch, BranchAndBoundFindsTheSamePosesAsTheExhaustiveSearch)
 
 TEST(LatticeSearch, FindsTheQueriesOfAnOffice)
 {
-  const testing::SmallOffice office = testing::makeSmallOffice(3, 20);
-  const DenseSearchSpace space(testing::searchRaster(office), {});
+  const test::SmallOffice office = test::makeSmallOffice(3, 20);
+  const DenseSearchSpace space(test::searchRaster(office), {});
   std::size_t right = 0;
   for (const PosedScans& query : office.queries)
   {
@@ -135,10 +135,10 @@ TEST(LatticeSearch, FindsTheQueriesOfAnOffice)
 
 TEST(LatticeSearch, KeepsToTheRegion)
 {
-  const testing::SmallOffice office = testing::makeSmallOffice(3, 1);
+  const test::SmallOffice office = test::makeSmallOffice(3, 1);
   DenseSearchOptions options;
   options.region = PoseRegion{2, 6, 3, 7, 1.0, 0.2};
-  const DenseSearchSpace space(testing::searchRaster(office), options);
+  const DenseSearchSpace space(test::searchRaster(office), options);
   const auto points = space.latticePoints(office.queries.front().scans);
   for (const LatticePose& found : searchExhaustively(space, points).best)
   {
@@ -147,7 +147,7 @@ TEST(LatticeSearch, KeepsToTheRegion)
     EXPECT_LE(std::abs(pose.phi - 1.0), 0.2);
   }
   options.region = PoseRegion{1e6, 2e6, 1e6, 2e6, 0, 4};
-  EXPECT_THROW(DenseSearchSpace(testing::searchRaster(office), options), std::invalid_argument);
+  EXPECT_THROW(DenseSearchSpace(test::searchRaster(office), options), std::invalid_argument);
 }
 }  // namespace
 }  // namespace sigloc

@@ -19,9 +19,9 @@ using mrpt::math::TPose2D;
 class MonteCarloRelocationTest : public ::testing::Test
 {
  protected:
-  MonteCarloRelocationTest() : map_(readEvaluationMap(testing::kOfficeMap))
+  MonteCarloRelocationTest() : map_(readEvaluationMap(test::kOfficeMap))
   {
-    const auto scans = std::get<std::vector<PosedScans>>(readMapSource(testing::kOfficeMap));
+    const auto scans = std::get<std::vector<PosedScans>>(readMapSource(test::kOfficeMap));
     asked_ = scans[scans.size() / 2];
   }
 

@@ -28,7 +28,7 @@ class RelocateTest : public ::testing::Test
   {
     RelocateOptions options;
     options.methods.clear();
-    options.sources.map = testing::kOfficeMap;
+    options.sources.map = test::kOfficeMap;
     options.sources.interleave = 4;
     options.sources.max_queries = 12;
     for (const std::string& name : relocationMethodNames())
@@ -119,7 +119,7 @@ TEST_F(RelocateTest, NamesWhatIsWrongBeforeItRuns)
   options.methods = {"signature", "no-such-method"};
   EXPECT_THROW(runRelocate(options), std::invalid_argument);
   options = officeOptions();
-  options.sources.queries = testing::kOfficeMap;
+  options.sources.queries = test::kOfficeMap;
   EXPECT_THROW(runRelocate(options), std::invalid_argument) << "two kinds of queries";
   options = officeOptions();
   options.sources.map = folder_ / "missing.simplemap";
@@ -129,7 +129,7 @@ TEST_F(RelocateTest, NamesWhatIsWrongBeforeItRuns)
 TEST_F(RelocateTest, FindsScansThatAreSimulatedInTheMapItself)
 {
   RelocateOptions options;
-  options.sources.map = testing::kOfficeMap;
+  options.sources.map = test::kOfficeMap;
   options.methods = {"signature"};
   options.scans_in_map.count = 40;
   options.scans_in_map.view_deg = 270;
@@ -145,7 +145,7 @@ TEST_F(RelocateTest, FindsScansThatAreSimulatedInTheMapItself)
 
 TEST(ScansInMap, ComeFromClearPlacesAndFollowTheirSeed)
 {
-  const EvaluationMap map = readEvaluationMap(testing::kOfficeMap);
+  const EvaluationMap map = readEvaluationMap(test::kOfficeMap);
   const OccupancyRaster raster = rasterOf(*map.features->field());
   MapScanOptions options;
   options.count = 20;
@@ -169,7 +169,7 @@ TEST(ScansInMap, ComeFromClearPlacesAndFollowTheirSeed)
 
 TEST(ScansInMap, RefuseALaserOutOfRange)
 {
-  const EvaluationMap map = readEvaluationMap(testing::kOfficeMap);
+  const EvaluationMap map = readEvaluationMap(test::kOfficeMap);
   MapScanOptions options;
   options.count = 1;
   options.range_sigma = -1;

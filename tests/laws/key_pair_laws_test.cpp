@@ -9,7 +9,7 @@
 #include "matching/keypoints/KeyPairSearch.h"
 #include "support/simulated_office.h"
 
-namespace sigloc::testing
+namespace sigloc::test
 {
 namespace
 {
@@ -172,4 +172,4 @@ TEST(KeyPairLaws, BuildingIsDeterministic)
   }
 }
 }  // namespace
-}  // namespace sigloc::testing
+}  // namespace sigloc::test

@@ -16,10 +16,10 @@ namespace sigloc
 namespace
 {
 using mrpt::math::TPose2D;
-using testing::isRight;
-using testing::lawOffice;
-using testing::MappedWorld;
-using testing::officeWorld;
+using test::isRight;
+using test::lawOffice;
+using test::MappedWorld;
+using test::officeWorld;
 
 /// Every number of a result, bit by bit.
 std::string bytesOf(const RelocationResult& result)
@@ -162,8 +162,8 @@ TEST(Localization, IsEquivariantUnderMovesOfTheMap)
     for (PosedScans& posed : scans) posed.map_from_robot = moved_from_map + posed.map_from_robot;
     return scans;
   };
-  const auto scans = simulateMapping(lawOffice().world(), 1.2, 0.35, MappedWorld::laser(),
-                                     testing::kLawOfficeSeed);
+  const auto scans =
+      simulateMapping(lawOffice().world(), 1.2, 0.35, MappedWorld::laser(), test::kLawOfficeSeed);
   const SignatureMatcher moved(std::make_shared<FeatureMap>(buildMapFromScans(turned(scans))));
   Random random(1003);
   int compared = 0;
@@ -203,11 +203,11 @@ Tally askInAnotherMap(const MappedWorld& there, const SignatureMatcher& matcher,
 
 TEST(Localization, IsSeldomConfidentInAMirrorImageOrAForeignMap)
 {
-  const MappedWorld mirror(mirrored(officeWorld(testing::kLawOfficeSeed)), testing::kLawOfficeSeed);
+  const MappedWorld mirror(mirrored(officeWorld(test::kLawOfficeSeed)), test::kLawOfficeSeed);
   const Tally in_mirror = askInAnotherMap(lawOffice(), *mirror.matcher(), 400, 1004);
   std::cout << "mirrored: " << in_mirror << "\n";
   EXPECT_LE(in_mirror.confident, 4);
-  const MappedWorld foreign(officeWorld(testing::kLawOfficeSeed + 100), testing::kLawOfficeSeed);
+  const MappedWorld foreign(officeWorld(test::kLawOfficeSeed + 100), test::kLawOfficeSeed);
   const Tally in_foreign = askInAnotherMap(lawOffice(), *foreign.matcher(), 400, 1005);
   std::cout << "foreign: " << in_foreign << "\n";
   EXPECT_LE(in_foreign.confident, 4);
@@ -249,7 +249,7 @@ TEST(Localization, SameInputSameBytesOnAnyThread)
               { again[i] = bytesOf(lawOffice().matcher()->localize(scenes[i % scenes.size()])); });
   for (std::size_t i = 0; i < again.size(); ++i) EXPECT_EQ(again[i], once[i % scenes.size()]);
   // A second matcher of the same map, and a second map of the same scans, give the same result.
-  const MappedWorld rebuilt(officeWorld(testing::kLawOfficeSeed), testing::kLawOfficeSeed);
+  const MappedWorld rebuilt(officeWorld(test::kLawOfficeSeed), test::kLawOfficeSeed);
   for (std::size_t i = 0; i < scenes.size(); ++i)
   {
     EXPECT_EQ(bytesOf(rebuilt.matcher()->localize(scenes[i])), once[i]);

@@ -16,10 +16,10 @@ namespace
 {
 using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
-using testing::isRight;
-using testing::lawOffice;
-using testing::MappedWorld;
-using testing::officeWorld;
+using test::isRight;
+using test::lawOffice;
+using test::MappedWorld;
+using test::officeWorld;
 
 TEST(LookAlikes, ExactCopiesShareTheWeight)
 {

@@ -20,7 +20,7 @@
 #include "support/simulated_office.h"
 
 using namespace sigloc;
-using namespace sigloc::testing;
+using namespace sigloc::test;
 using mrpt::math::TPose2D;
 using mrpt::poses::CPose2D;
 using mrpt::poses::CPosePDFGaussian;

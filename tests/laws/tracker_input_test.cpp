@@ -14,11 +14,11 @@ namespace sigloc
 {
 namespace
 {
-using testing::driveThrough;
-using testing::expectWellFormed;
-using testing::follow;
-using testing::isRight;
-using testing::office;
+using test::driveThrough;
+using test::expectWellFormed;
+using test::follow;
+using test::isRight;
+using test::office;
 
 TEST(Tracker, TellsTheMapsCommonErrorOnce)
 {

@@ -15,16 +15,16 @@ namespace sigloc
 namespace
 {
 using mrpt::math::TPose2D;
-using testing::confidentlyWrong;
-using testing::driveThrough;
-using testing::expectWellFormed;
-using testing::follow;
-using testing::isRight;
-using testing::kOfficeSeed;
-using testing::MappedWorld;
-using testing::office;
-using testing::officeWorld;
-using testing::Outcome;
+using test::confidentlyWrong;
+using test::driveThrough;
+using test::expectWellFormed;
+using test::follow;
+using test::isRight;
+using test::kOfficeSeed;
+using test::MappedWorld;
+using test::office;
+using test::officeWorld;
+using test::Outcome;
 
 constexpr std::uint64_t kForeignSeed = 78;
 

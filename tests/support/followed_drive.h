@@ -13,7 +13,7 @@
 #include "sigloc/tracking/HypothesisTracker.h"
 #include "support/simulated_office.h"
 
-namespace sigloc::testing
+namespace sigloc::test
 {
 constexpr std::uint64_t kOfficeSeed = 5;
 
@@ -93,4 +93,4 @@ inline Outcome follow(HypothesisTracker& tracker, const std::vector<DriveStep>& 
       isRight(belief.hypotheses.front().pose.mean, drive.back().world_from_robot);
   return outcome;
 }
-}  // namespace sigloc::testing
+}  // namespace sigloc::test

@@ -10,7 +10,7 @@
 
 #include "sigloc/features/LaserScan.h"
 
-namespace sigloc::testing
+namespace sigloc::test
 {
 /// Surfaces of a scene drawn by hand, in metres.
 struct Surfaces
@@ -102,4 +102,4 @@ inline LaserScan scanByHand(const Surfaces& surfaces, const mrpt::math::TPose2D&
   }
   return scan;
 }
-}  // namespace sigloc::testing
+}  // namespace sigloc::test

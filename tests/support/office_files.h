@@ -4,8 +4,8 @@
 
 #include <filesystem>
 
-namespace sigloc::testing
+namespace sigloc::test
 {
 inline const std::filesystem::path kOfficeMap =
     std::filesystem::path(SIGLOC_SOURCE_DIR) / "maps" / "office.simplemap";
-}  // namespace sigloc::testing
+}  // namespace sigloc::test

@@ -9,7 +9,7 @@
 #include "eval/worlds/world_generators.h"
 #include "sigloc/matching/SignatureMatcher.h"
 
-namespace sigloc::testing
+namespace sigloc::test
 {
 /// A simulated world with the map of a mapping run and query poses.
 class MappedWorld
@@ -80,4 +80,4 @@ inline bool isRight(const mrpt::math::TPose2D& pose, const mrpt::math::TPose2D& 
   return std::hypot(pose.x - truth.x, pose.y - truth.y) < 0.5 &&
          std::abs(std::remainder(pose.phi - truth.phi, 2 * M_PI)) < 10 * M_PI / 180;
 }
-}  // namespace sigloc::testing
+}  // namespace sigloc::test

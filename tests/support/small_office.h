@@ -9,7 +9,7 @@
 #include "eval/worlds/world_generators.h"
 #include "sigloc/map/map_building.h"
 
-namespace sigloc::testing
+namespace sigloc::test
 {
 /// An office world, its mapping scans on a grid of poses, and poses for queries between them.
 struct SmallOffice
@@ -67,4 +67,4 @@ inline OccupancyRaster searchRaster(const SmallOffice& office)
   options.raster_resolution = 0.1;
   return rasterFromScans(office.mapping_scans, options);
 }
-}  // namespace sigloc::testing
+}  // namespace sigloc::test

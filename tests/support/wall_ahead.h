@@ -4,7 +4,7 @@
 
 #include "matching/dense/DenseVerifier.h"
 
-namespace sigloc::testing
+namespace sigloc::test
 {
 /// Three returns in each of a wall's cells of 0.5 m, `cells` of them along x, and one that is
 /// isolated, behind the robot.
@@ -22,4 +22,4 @@ inline DenseScan wallAhead(int cells)
   scan.isolated.push_back(1);
   return scan;
 }
-}  // namespace sigloc::testing
+}  // namespace sigloc::test

@@ -13,7 +13,7 @@ namespace sigloc
 {
 namespace
 {
-using testing::wallAhead;
+using test::wallAhead;
 
 /// Every return explained by the same share. One that is not explained at all is off the map's
 /// walls.

@@ -14,10 +14,10 @@ namespace sigloc
 {
 namespace
 {
-using testing::castByHand;
-using testing::outline;
-using testing::scanByHand;
-using testing::Surfaces;
+using test::castByHand;
+using test::outline;
+using test::scanByHand;
+using test::Surfaces;
 
 constexpr int kRound = 100;  // sides
 

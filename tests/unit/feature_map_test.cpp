@@ -20,10 +20,10 @@ namespace
 {
 using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
-using testing::outline;
-using testing::scanByHand;
-using testing::Scanner;
-using testing::Surfaces;
+using test::outline;
+using test::scanByHand;
+using test::Scanner;
+using test::Surfaces;
 
 /// A wall piece along x from `from` to `to` at height y; its free side is up or down.
 Feature wallPiece(double from, double to, double y, bool faces_up)

@@ -19,10 +19,10 @@ namespace
 {
 using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
-using testing::outline;
-using testing::scanByHand;
-using testing::Scanner;
-using testing::Surfaces;
+using test::outline;
+using test::scanByHand;
+using test::Scanner;
+using test::Surfaces;
 
 std::vector<Feature> ofType(const ObservedScene& scene, FeatureType type)
 {

@@ -12,9 +12,9 @@ namespace sigloc
 {
 namespace
 {
-using testing::scanByHand;
-using testing::Scanner;
-using testing::Surfaces;
+using test::scanByHand;
+using test::Scanner;
+using test::Surfaces;
 
 std::ptrdiff_t countCircles(const ObservedScene& scene)
 {

@@ -63,7 +63,7 @@ TEST(RelocationSchedule, PosesOfASearchThatWasCutShortAreNoSearchOfAll)
 
 TEST(ConfirmTracks, ASearchThatWasCutShortSaysNothingOfWhatItDidNotFind)
 {
-  const DenseScan scan = testing::wallAhead(10);
+  const DenseScan scan = test::wallAhead(10);
   const auto confirmed_after = [&](bool complete)
   {
     TrackSet set{TrackerOptions{}};

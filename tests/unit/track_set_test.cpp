@@ -21,7 +21,7 @@ namespace
 Track newcomer(double weight, double score, double unexplained_cells)
 {
   constexpr int kCells = 10;
-  const DenseScan scan = testing::wallAhead(kCells);
+  const DenseScan scan = test::wallAhead(kCells);
   Track track;
   track.hypothesis.weight = weight;
   track.score = score;

@@ -28,7 +28,7 @@ Track tracked()
 double logOddsAfter(double way, int off_walls)
 {
   constexpr int kCells = 20;
-  const DenseScan scan = testing::wallAhead(kCells);
+  const DenseScan scan = test::wallAhead(kCells);
   std::vector<ExplainedReturn> explained;
   for (std::size_t i = 0; i < scan.size(); ++i)
   {
@@ -82,7 +82,7 @@ TEST(TrackInMap, WhatIsUnexplainedSpeaksAgainstIt)
 // What the map does not hold says nothing about whether this is the map.
 TEST(TrackInMap, UnknownAreaCountsNeitherWay)
 {
-  const DenseScan scan = testing::wallAhead(20);
+  const DenseScan scan = test::wallAhead(20);
   Track track = tracked();
   track.explained.addScan(observedCells(scan, {0, 0, 0}),
                           std::vector<ExplainedReturn>(scan.size(), {0.0F, true, false}), 0);
