@@ -17,6 +17,7 @@
 
 #include "bridge/rawlog_files.h"
 #include "bridge/room_map.h"
+#include "bridge/unpacked_file.h"
 #include "io/archive/ArchiveWalk.h"
 #include "sigloc/io/RawlogReader.h"
 #include "sigloc/plugin/ObservationSignatures.h"
@@ -88,10 +89,7 @@ std::string plainBytesOf(const std::vector<CSerializable::Ptr>& entries)
 {
   const TemporaryFolder folder;
   writeObjects(folder / "log", entries);
-  detail::GzipInput input(folder / "log");
-  std::string bytes(1U << 22U, '\0');
-  bytes.resize(input.Read(bytes.data(), bytes.size()));
-  return bytes;
+  return unpacked(folder / "log");
 }
 
 std::vector<detail::Soundness> judged(const std::filesystem::path& path)
@@ -126,7 +124,7 @@ TEST(LogEntryCheck, FindsTheLogsOfOldAndNewMrptSound)
        {"localization_demo.rawlog", "kf-slam_demo.rawlog", "kf-slam_6D_demo_DA.rawlog",
         "2006-01ENE-21-SENA_Telecom Faculty_one_loop_only.rawlog"})
   {
-    const auto path = std::filesystem::path("/usr/share/mrpt/datasets") / name;
+    const auto path = kDatasets / name;
     if (!std::filesystem::exists(path)) continue;
     const auto found = judged(path);
     EXPECT_GT(found.size(), 70U) << name;

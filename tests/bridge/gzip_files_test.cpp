@@ -19,11 +19,8 @@ namespace
 {
 using namespace sigloc::test;
 
-const std::filesystem::path kLog = "/usr/share/mrpt/datasets/localization_demo.rawlog";
-const std::filesystem::path kMap = "/usr/share/mrpt/datasets/localization_demo.simplemap.gz";
-
 /// One member of gzip.
-std::string packed(const std::string& bytes)
+std::string gzipMember(const std::string& bytes)
 {
   const TemporaryFolder folder;
   gzFile file = gzopen((folder / "a").c_str(), "wb6");
@@ -76,7 +73,7 @@ TEST(GzipFiles, holdWhatWasPackedInOneMemberOrSeveral)
   for (const std::size_t size : {0U, 1U, 1000U, 262144U, 3000000U})
   {
     const std::string bytes = mixed(size);
-    const std::string member = packed(bytes);
+    const std::string member = gzipMember(bytes);
     for (const std::string& zeros : {std::string(), std::string(700000, '\0')})
     {
       const auto [one, damaged] = contentsOf(folder, member + zeros);
@@ -91,7 +88,7 @@ TEST(GzipFiles, cutOffOnesAreToldAndGiveWhatTheyHave)
 {
   const TemporaryFolder folder;
   const std::string bytes = mixed(20000);
-  const std::string whole = packed(bytes);
+  const std::string whole = gzipMember(bytes);
   std::size_t before = 0;
   for (std::size_t size = 4; size < whole.size(); size += 1 + size / 5)
   {
@@ -109,21 +106,21 @@ TEST(GzipFiles, whatFollowsThemAndIsNoneIsDamage)
   const TemporaryFolder folder;
   const std::string bytes = mixed(5000);
   for (const std::string& junk :
-       {std::string("x"), std::string("\x1f"), readBytes(kMap).substr(0, 5),
+       {std::string("x"), std::string("\x1f"), readBytes(kLabMap).substr(0, 5),
         std::string(20, '\0') + "junk", mixed(300000)})
   {
-    const auto [got, damaged] = contentsOf(folder, packed(bytes) + junk);
+    const auto [got, damaged] = contentsOf(folder, gzipMember(bytes) + junk);
     EXPECT_TRUE(damaged) << junk.size();
     EXPECT_TRUE(got.substr(0, bytes.size()) == bytes);
   }
   const auto log = folder / "l.rawlog";
-  writeText(log, readBytes(kLog) + "the end");
+  writeText(log, readBytes(kLabLog) + "the end");
   EXPECT_EQ(messageOf<std::runtime_error>([&] { RawlogReader reader(log); }),
             log.string() + ": damaged");
   const auto map = folder / "m.simplemap";
-  writeText(map, readBytes(kMap) + "the end");
+  writeText(map, readBytes(kLabMap) + "the end");
   EXPECT_EQ(mapErrorOf(map), map.string() + ": damaged");
-  writeText(log, readBytes(kLog) + "\n");
+  writeText(log, readBytes(kLabLog) + "\n");
   EXPECT_EQ(messageOf<std::runtime_error>([&] { RawlogReader reader(log); }),
             log.string() + ": damaged");
 }
@@ -132,7 +129,7 @@ TEST(GzipFiles, noByteThatIsChangedChangesTheContentsUnnoticed)
 {
   const TemporaryFolder folder;
   const std::string bytes = mixed(3000);
-  const std::string whole = packed(bytes);
+  const std::string whole = gzipMember(bytes);
   std::mt19937 generator(9);
   std::size_t noticed = 0;
   for (int k = 0; k < 200; ++k)
@@ -151,12 +148,13 @@ TEST(GzipFiles, whatFollowsAMapIsNotLostWithoutAWord)
   const TemporaryFolder folder;
   const auto office = std::filesystem::path(SIGLOC_GOLDEN_FOLDER) / "../../maps/office.gridmap.gz";
   for (const auto& [name, source] :
-       {std::pair<const char*, std::filesystem::path>{"m.simplemap", kMap}, {"m.gridmap", office}})
+       {std::pair<const char*, std::filesystem::path>{"m.simplemap", kLabMap},
+        {"m.gridmap", office}})
   {
     const std::string bytes = contentsOf(source).bytes;
     for (const std::string& more : {std::string("x"), bytes})
     {
-      writeText(folder / name, packed(bytes + more));
+      writeText(folder / name, gzipMember(bytes + more));
       const std::string message = mapErrorOf(folder / name);
       EXPECT_NE(message.find(": more follows its '"), std::string::npos) << message;
     }
@@ -166,11 +164,12 @@ TEST(GzipFiles, whatFollowsAMapIsNotLostWithoutAWord)
 TEST(GzipFiles, aMapMayBeOfSeveralMembersOrHaveZerosBehindIt)
 {
   const TemporaryFolder folder;
-  saveSigmap(buildMapFromFile(kMap, {}, {}), folder / "m.sigmap");
+  saveSigmap(buildMapFromFile(kLabMap, {}, {}), folder / "m.sigmap");
   const std::string bytes = contentsOf(folder / "m.sigmap").bytes;
-  const std::string two = packed(bytes.substr(0, 1000)) + packed(bytes.substr(1000));
-  const std::string zeros = packed(bytes) + std::string(600, '\0');
-  for (const std::string& file : {packed(bytes), two, zeros, packed(bytes) + packed("")})
+  const std::string two = gzipMember(bytes.substr(0, 1000)) + gzipMember(bytes.substr(1000));
+  const std::string zeros = gzipMember(bytes) + std::string(600, '\0');
+  for (const std::string& file :
+       {gzipMember(bytes), two, zeros, gzipMember(bytes) + gzipMember("")})
   {
     writeText(folder / "again.sigmap", file);
     saveSigmap(loadSigmap(folder / "again.sigmap"), folder / "m2.sigmap");

@@ -8,7 +8,7 @@
 
 #include "bridge/map_error.h"
 #include "bridge/rawlog_files.h"
-#include "io/archive/gzip_input.h"
+#include "bridge/unpacked_file.h"
 #include "io/text_rows.h"
 #include "sigloc/io/RawlogReader.h"
 
@@ -19,9 +19,7 @@ namespace
 using namespace sigloc::test;
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t kSize = std::uintmax_t{3} << 30U;  // bytes
-const fs::path kLog = kDatasets / "localization_demo.rawlog";
-const fs::path kMap = kDatasets / "localization_demo.simplemap.gz";
+constexpr std::uintmax_t kLargeSize = std::uintmax_t{3} << 30U;  // bytes
 
 /// The most memory of this process so far [kB].
 long peak()
@@ -35,21 +33,13 @@ long peak()
 void writeLarge(const fs::path& path, const std::string& head)
 {
   writeText(path, head);
-  fs::resize_file(path, kSize);
+  fs::resize_file(path, kLargeSize);
 }
 
 template <class T>
 void appendValue(std::string& bytes, T value)
 {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof(T));
-}
-
-std::string unpacked(const fs::path& path, std::size_t most)
-{
-  detail::GzipInput input(path);
-  std::string bytes(most, '\0');
-  bytes.resize(input.Read(bytes.data(), most));
-  return bytes;
 }
 
 /// Writes some bytes and so many MB of zeros, packed by gzip.
@@ -98,7 +88,7 @@ TEST(LargeFiles, AreRefusedByTheirBeginningOrSize)
       {"m.sigmap", "none", "not a .sigmap"},
       {"m.metricmap", "\x9f", "not an MRPT file"},
       {"m.metricmap", "\x9bmrpt::maps::CMultiMetricMap\x0b", "holds more than 1024 MB"},
-      {"m.simplemap", unpacked(kMap, 200), "truncated or damaged"},
+      {"m.simplemap", unpacked(kLabMap, 200), "truncated or damaged"},
       {"m.gridmap", "\x9fmrpt::maps::COccupancyGridMap2D\6", "truncated or damaged"},
   };
   const long before = peak();
@@ -129,7 +119,7 @@ TEST(LargeFiles, TextWithoutEndIsRefused)
 TEST(LargeFiles, WhatUnpacksToGigabytesIsRefusedOnTheWay)
 {
   const TemporaryFolder folder;
-  const std::string map = unpacked(kMap, std::size_t{1} << 24U);
+  const std::string map = unpacked(kLabMap, std::size_t{1} << 24U);
   const long before = peak();
   const std::string grid = "\x9fmrpt::maps::COccupancyGridMap2D\6";
   for (const auto& [name, head] : {std::pair<const char*, std::string>{"m.simplemap", map},
@@ -141,7 +131,7 @@ TEST(LargeFiles, WhatUnpacksToGigabytesIsRefusedOnTheWay)
     const std::string message = mapErrorOf(folder / name);
     EXPECT_EQ(message, (folder / name).string() + ": unpacks to more than 50 times its size");
   }
-  writeBomb(folder / "m.rawlog", unpacked(kLog, std::size_t{1} << 20U));
+  writeBomb(folder / "m.rawlog", unpacked(kLabLog, std::size_t{1} << 20U));
   EXPECT_EQ(messageOf<std::runtime_error>([&] { RawlogReader(folder / "m.rawlog"); }),
             (folder / "m.rawlog").string() + ": unpacks to more than 50 times its size");
   EXPECT_LT(peak() - before, 150000) << "[kB]";

@@ -32,11 +32,9 @@ void localize(const fs::path& ini, const fs::path& out, const fs::path& cache)
 TEST(Locale, doesNotChangeWhatARunWrites)
 {
   const TemporaryFolder folder;
-  const fs::path datasets = "/usr/share/mrpt/datasets";
   const fs::path ini = folder / "run.ini";
-  test::writeText(ini, "[LocalizationExperiment]\nmap_file = " +
-                           (datasets / "localization_demo.simplemap.gz").string() +
-                           "\nrawlog_file = " + (datasets / "localization_demo.rawlog").string() +
+  test::writeText(ini, "[LocalizationExperiment]\nmap_file = " + test::kLabMap.string() +
+                           "\nrawlog_file = " + test::kLabLog.string() +
                            "\n3DSceneFrequency = 20\nSTATS_CONF_INTERVAL = 0.25\n");
   const fs::path cache = folder / "cache.sigmap";
   localize(ini, folder / "plain", cache);

@@ -47,7 +47,7 @@ std::string flaser(int beams, double range, const std::string& tail = "1 2 0.5 1
 
 TEST(MapSources, ReadsTheSimplemapsOfMrpt)
 {
-  const MapSource source = readMapSource(kDatasets / "localization_demo.simplemap.gz");
+  const MapSource source = readMapSource(kLabMap);
   const auto& scans = std::get<std::vector<PosedScans>>(source);
   ASSERT_GT(scans.size(), 20U);
   EXPECT_EQ(scans.front().scans.size(), 1U);
@@ -328,7 +328,7 @@ TEST(MapSources, NamesFileAndReasonForUnusableFilesOfEveryKind)
   std::string noise(4000, '\0');
   for (char& c : noise) c = static_cast<char>(random());
   const std::string gridmap = readBytes(kDatasets / "uwb_ro-localization_demo_map.gridmap.gz");
-  const std::string simplemap = readBytes(kDatasets / "localization_demo.simplemap.gz");
+  const std::string simplemap = readBytes(kLabMap);
   testing::internal::CaptureStderr();
   for (const char* extension :
        {"simplemap", "simplemap.gz", "gridmap", "gridmap.gz", "yaml", "log", "clf", "carmen", "csv",
@@ -359,7 +359,7 @@ TEST(MapSources, ReusesACacheUntilSourceOrOptionsChange)
   const TemporaryFolder folder;
   const auto source = folder / "m.simplemap.gz";
   const auto cache = folder / "m.sigmap";
-  std::filesystem::copy_file(kDatasets / "localization_demo.simplemap.gz", source);
+  std::filesystem::copy_file(kLabMap, source);
   const CachedMap first = mapWithCache(source, cache, {}, {});
   EXPECT_FALSE(first.reused);
   EXPECT_GT(first.map.features().size(), 50U);

@@ -13,6 +13,7 @@
 
 #include "bridge/map_error.h"
 #include "bridge/rawlog_files.h"
+#include "bridge/unpacked_file.h"
 #include "io/archive/gzip_input.h"
 
 using namespace sigloc;
@@ -45,15 +46,6 @@ typename Map::Ptr officePoints()
                         static_cast<float>(frame.origin.y + y * frame.resolution), 0);
   }
   return points;
-}
-
-/// A file's bytes without their packing.
-std::string unpacked(const std::filesystem::path& path)
-{
-  detail::GzipInput input(path);
-  std::string bytes(1U << 22U, '\0');
-  bytes.resize(input.Read(bytes.data(), bytes.size()));
-  return bytes;
 }
 
 /// The head of an object of MRPT, and the count that comes behind it.

@@ -12,8 +12,10 @@
 #include <algorithm>
 #include <random>
 
+#include "bridge/log_steps.h"
 #include "bridge/rawlog_files.h"
 #include "bridge/room_map.h"
+#include "bridge/unpacked_file.h"
 #include "io/archive/checked_archive.h"
 #include "io/archive/UnreadObservation.h"
 #include "sigloc/io/RawlogReader.h"
@@ -37,11 +39,10 @@ std::vector<CSerializable::Ptr> entriesOf(const std::filesystem::path& path)
   return entries;
 }
 
-std::vector<RawlogStep> stepsOf(const std::filesystem::path& path)
+std::vector<RawlogStep> stepsOfWholeLog(const std::filesystem::path& path)
 {
   RawlogReader reader(path);
-  std::vector<RawlogStep> steps;
-  while (auto step = reader.next()) steps.push_back(std::move(*step));
+  auto steps = stepsOf(reader);
   EXPECT_FALSE(reader.truncated());
   return steps;
 }
@@ -57,14 +58,6 @@ std::vector<CSerializable::Ptr> mixedEntries()
     entries.push_back(makeScan(++time));
   }
   return entries;
-}
-
-std::string plainBytes(const std::filesystem::path& path)
-{
-  detail::GzipInput input(path);
-  std::string bytes(1U << 22U, '\0');
-  bytes.resize(input.Read(bytes.data(), bytes.size()));
-  return bytes;
 }
 }  // namespace
 
@@ -84,7 +77,7 @@ TEST(MixedLog, EveryClassIsReadOrKeptAsItsBytes)
   }
   EXPECT_GE(unread, 18U);
   writeObjects(folder / "again", found);
-  EXPECT_EQ(plainBytes(folder / "log"), plainBytes(folder / "again"));
+  EXPECT_EQ(unpacked(folder / "log"), unpacked(folder / "again"));
 }
 
 TEST(MixedLog, AFramesObservationsAreSkippedWhereverTheyStand)
@@ -98,11 +91,11 @@ TEST(MixedLog, AFramesObservationsAreSkippedWhereverTheyStand)
     if (!scan_first) frame->insert(makeScan(1));
     writeObjects(folder / "log", {makeAction({0.1, 0, 0}, mrpt::math::CMatrixDouble33()), frame,
                                   makeAction({0.1, 0, 0}, mrpt::math::CMatrixDouble33()), frame});
-    const auto steps = stepsOf(folder / "log");
+    const auto steps = stepsOfWholeLog(folder / "log");
     ASSERT_EQ(steps.size(), 2U) << scan_first;
     EXPECT_EQ(steps[1].frame->size(), frame->size());
     writeObjects(folder / "again", entriesOf(folder / "log"));
-    EXPECT_EQ(plainBytes(folder / "log"), plainBytes(folder / "again"));
+    EXPECT_EQ(unpacked(folder / "log"), unpacked(folder / "again"));
   }
 }
 
@@ -114,8 +107,8 @@ TEST(MixedLog, GivesTheStepsOfItsScansAlone)
   std::vector<CSerializable::Ptr> scans;
   for (std::size_t k = 0; k < entries.size(); k += 2) scans.push_back(entries[k]);
   writeObjects(folder / "scans", scans);
-  const auto mixed = stepsOf(folder / "mixed");
-  const auto alone = stepsOf(folder / "scans");
+  const auto mixed = stepsOfWholeLog(folder / "mixed");
+  const auto alone = stepsOfWholeLog(folder / "scans");
   // MRPT's default scan has no beams, and comes at the time of its making.
   ASSERT_GE(mixed.size(), alone.size());
   for (const RawlogStep& step : alone)
@@ -142,10 +135,10 @@ TEST(MixedLog, ASimplemapsObservationsAreKeptAsTheirBytes)
   detail::readObjectFile(folder / "map", found);
   ASSERT_EQ(found.size(), 3U);
   writeObjects(folder / "again", {std::make_shared<mrpt::maps::CSimpleMap>(found)});
-  EXPECT_EQ(plainBytes(folder / "map"), plainBytes(folder / "again"));
+  EXPECT_EQ(unpacked(folder / "map"), unpacked(folder / "again"));
 
   // The file cut off, and one key frame more than there is.
-  std::string bytes = plainBytes(folder / "map");
+  std::string bytes = unpacked(folder / "map");
   writeText(folder / "cut", bytes.substr(0, bytes.size() - 200));
   const std::string name = "CSimpleMap";
   bytes[bytes.find(name) + name.size() + 1] = 4;
@@ -162,18 +155,18 @@ TEST(MixedLog, AClassThatNobodyRegisteredIsSkipped)
 {
   const TemporaryFolder folder;
   writeObjects(folder / "log", {makeScan(1), mrpt::obs::CObservationIMU::Create(), makeScan(2)});
-  std::string bytes = plainBytes(folder / "log");
+  std::string bytes = unpacked(folder / "log");
   const std::string name = "CObservationIMU";
   bytes.replace(bytes.find(name), name.size(), "CObservationXYZ");
   writeText(folder / "log", bytes);
-  EXPECT_EQ(stepsOf(folder / "log").size(), 2U);
+  EXPECT_EQ(stepsOfWholeLog(folder / "log").size(), 2U);
 }
 
 TEST(MixedLog, AnObservationThatIsCutOffEndsTheLog)
 {
   const TemporaryFolder folder;
   writeObjects(folder / "log", {makeScan(1), mrpt::obs::CObservationIMU::Create()});
-  const std::string bytes = plainBytes(folder / "log");
+  const std::string bytes = unpacked(folder / "log");
   writeText(folder / "log", bytes.substr(0, bytes.size() - 5));
   RawlogReader reader(folder / "log");
   EXPECT_TRUE(reader.next());
@@ -188,7 +181,7 @@ TEST(MixedLog, NoChangedByteHurtsTheReader)
 {
   const TemporaryFolder folder;
   writeObjects(folder / "log", mixedEntries());
-  const std::string sound = plainBytes(folder / "log");
+  const std::string sound = unpacked(folder / "log");
   std::mt19937 random(20260128);
   std::size_t whole = 0;
   constexpr std::size_t kMutants = 300;
@@ -234,8 +227,8 @@ TEST(MixedLog, TheStoredOneGivesTheStepsOfTheOffice)
     entries.erase(entry, entries.end());
     writeObjects(stored, entries);
   }
-  const auto mixed = stepsOf(stored);
-  const auto plain = stepsOf(office);
+  const auto mixed = stepsOfWholeLog(stored);
+  const auto plain = stepsOfWholeLog(office);
   ASSERT_GE(mixed.size(), 30U);
   for (std::size_t k = 0; k < mixed.size(); ++k)
   {

@@ -22,7 +22,7 @@ using mrpt::poses::CPose3D;
 namespace
 {
 /// A scan from the middle of a room of 8 m x 5 m, half a circle ahead.
-mrpt::obs::CObservation2DRangeScan roomScan()
+mrpt::obs::CObservation2DRangeScan halfCircleScan()
 {
   auto scan = *makeScan(12.5);
   for (std::size_t i = 0; i < scan.getScanSize(); ++i)
@@ -46,7 +46,7 @@ std::string textOf(const mrpt::obs::CObservation& observation)
 
 TEST(ObservationSignatures, HoldsTheFeaturesOfAScan)
 {
-  const ObservationSignatures seen(roomScan());
+  const ObservationSignatures seen(halfCircleScan());
   EXPECT_EQ(seen.sensorLabel, "LASER_SIGNATURES");
   EXPECT_EQ(seen.source_label, "LASER");
   EXPECT_EQ(mrpt::Clock::toDouble(seen.timestamp), 12.5);
@@ -68,7 +68,7 @@ TEST(ObservationSignatures, HoldsTheFeaturesOfAScan)
 
 TEST(ObservationSignatures, SurvivesALogThroughTheBaseClass)
 {
-  const ObservationSignatures seen(roomScan());
+  const ObservationSignatures seen(halfCircleScan());
   mrpt::obs::CSensoryFrame frame;
   frame.insert(std::make_shared<ObservationSignatures>(seen));
   mrpt::io::CMemoryStream memory;
@@ -92,7 +92,7 @@ TEST(ObservationSignatures, SurvivesALogThroughTheBaseClass)
 
 TEST(ObservationSignatures, MovesWithTheLaser)
 {
-  auto scan = roomScan();
+  auto scan = halfCircleScan();
   ObservationSignatures moved(scan);
   const CPose3D elsewhere(-0.5, 0.1, 0.3, 2.0, 0, 0);
   moved.setSensorPose(elsewhere);
@@ -109,7 +109,7 @@ TEST(ObservationSignatures, MovesWithTheLaser)
 
 TEST(ObservationSignatures, DescribesExportsAndDrawsItself)
 {
-  const ObservationSignatures seen(roomScan());
+  const ObservationSignatures seen(halfCircleScan());
   const std::string text = textOf(seen);
   EXPECT_NE(text.find("Features of the scan 'LASER': 5"), std::string::npos) << text;
   EXPECT_NE(text.find("segment at (4.2"), std::string::npos) << text;
@@ -132,7 +132,7 @@ TEST(ObservationSignatures, DescribesExportsAndDrawsItself)
 
 TEST(ObservationSignatures, DescribesEachTypeByItsOwnSize)
 {
-  ObservationSignatures seen(roomScan());
+  ObservationSignatures seen(halfCircleScan());
   seen.features = sampleFeatures();
   const std::string text = textOf(seen);
   for (const char* const expected :
@@ -145,7 +145,7 @@ TEST(ObservationSignatures, DescribesEachTypeByItsOwnSize)
 
 TEST(ObservationSignatures, IsEmptyForAScanThatCannotBeUsed)
 {
-  auto tilted = roomScan();
+  auto tilted = halfCircleScan();
   tilted.sensorPose = CPose3D(0, 0, 0, 0, 0.6, 0);
   const ObservationSignatures seen(tilted);
   EXPECT_TRUE(seen.features.empty());

@@ -19,6 +19,8 @@
 namespace sigloc::test
 {
 inline const std::filesystem::path kDatasets = "/usr/share/mrpt/datasets";
+inline const std::filesystem::path kLabMap = kDatasets / "localization_demo.simplemap.gz";
+inline const std::filesystem::path kLabLog = kDatasets / "localization_demo.rawlog";
 
 /// A fresh folder of its own for the running test, removed with the object.
 class TemporaryFolder

@@ -10,6 +10,7 @@
 #include <random>
 #include <stdexcept>
 
+#include "bridge/log_steps.h"
 #include "bridge/rawlog_files.h"
 
 using namespace sigloc;
@@ -27,25 +28,10 @@ CMatrixDouble33 diagonal(double xy, double phi)
   return m;
 }
 
-std::vector<RawlogStep> readAll(RawlogReader& reader)
-{
-  std::vector<RawlogStep> steps;
-  while (auto step = reader.next()) steps.push_back(std::move(*step));
-  return steps;
-}
-
-std::vector<RawlogStep> readAll(const std::filesystem::path& path)
-{
-  RawlogReader reader(path);
-  return readAll(reader);
-}
-
 std::string logErrorOf(const std::filesystem::path& path)
 {
   return messageOf<std::runtime_error>([&] { RawlogReader reader(path); });
 }
-
-const std::filesystem::path kDemoLog = "/usr/share/mrpt/datasets/localization_demo.rawlog";
 }  // namespace
 
 TEST(RawlogReader, TakesMotionAndCovarianceOfActionsAsGiven)
@@ -56,7 +42,7 @@ TEST(RawlogReader, TakesMotionAndCovarianceOfActionsAsGiven)
                {makeAction({0, 0, 0}, diagonal(0.01, 0.001)), makeFrame(makeScan(10.0)),
                 makeAction({0.5, 0.1, 0.2}, diagonal(0.04, 0.002)), makeFrame(makeScan(11.0))});
   RawlogReader reader(path);
-  const auto steps = readAll(reader);
+  const auto steps = stepsOf(reader);
   ASSERT_EQ(steps.size(), 2U);
   EXPECT_NEAR(steps[1].time, 11.0, 1e-6);
   ASSERT_TRUE(steps[1].motion);
@@ -80,8 +66,8 @@ TEST(RawlogReader, ReadsSampledOdometryTheSameEveryTime)
   actions->insert(movement);
   const TemporaryFolder folder;
   writeObjects(folder / "a.rawlog", {actions, makeFrame(makeScan(1.0))});
-  const auto first = readAll(folder / "a.rawlog");
-  const auto second = readAll(folder / "a.rawlog");
+  const auto first = stepsOf(folder / "a.rawlog");
+  const auto second = stepsOf(folder / "a.rawlog");
   ASSERT_EQ(first.size(), 1U);
   EXPECT_DOUBLE_EQ(first[0].motion->mean.x, 0.5);
   EXPECT_EQ(first[0].motion->mean, second[0].motion->mean);
@@ -93,7 +79,7 @@ TEST(RawlogReader, GivesAZeroCovarianceAFloor)
   const TemporaryFolder folder;
   const auto path = folder / "actions.rawlog";
   writeObjects(path, {makeAction({0.5, 0, 0}, diagonal(0, 0)), makeFrame(makeScan(1.0))});
-  const auto steps = readAll(path);
+  const auto steps = stepsOf(path);
   ASSERT_EQ(steps.size(), 1U);
   EXPECT_GT(steps[0].motion->covariance(0, 0), 0.0);
   EXPECT_GT(steps[0].motion->covariance(2, 2), 0.0);
@@ -106,13 +92,13 @@ TEST(RawlogReader, CountsStepsAsMrptDoesWhenAFrameComesBeforeTheFirstAction)
   const auto action = makeAction({0.1, 0, 0}, diagonal(0.01, 0.001));
   writeObjects(path, {makeFrame(makeScan(9.0)), action, makeFrame(makeScan(10.0)), action,
                       makeFrame(makeScan(11.0))});
-  const auto steps = readAll(path);
+  const auto steps = stepsOf(path);
   ASSERT_EQ(steps.size(), 2U);
   EXPECT_NEAR(steps[0].time, 10.0, 1e-6);
   EXPECT_EQ(steps[0].entry, 2U);
   EXPECT_EQ(steps[1].entry, 4U);
   writeObjects(path, {makeFrame(makeScan(9.0)), makeFrame(makeScan(10.0))});
-  EXPECT_EQ(readAll(path).size(), 2U) << "a log of frames alone keeps them all";
+  EXPECT_EQ(stepsOf(path).size(), 2U) << "a log of frames alone keeps them all";
 }
 
 TEST(RawlogReader, AddsUpTheMotionAcrossFramesWithoutScans)
@@ -123,7 +109,7 @@ TEST(RawlogReader, AddsUpTheMotionAcrossFramesWithoutScans)
   const auto turn = CPose2D(1, 0, M_PI / 2);
   writeObjects(path, {makeAction(turn, diagonal(0.01, 0.001)), empty_frame,
                       makeAction(turn, diagonal(0.01, 0.001)), makeFrame(makeScan(1.0))});
-  const auto steps = readAll(path);
+  const auto steps = stepsOf(path);
   ASSERT_EQ(steps.size(), 1U);
   EXPECT_NEAR(steps[0].motion->mean.x, 1.0, 1e-9);
   EXPECT_NEAR(steps[0].motion->mean.y, 1.0, 1e-9);
@@ -138,7 +124,7 @@ TEST(RawlogReader, ReportsNoMotionForNaNOdometry)
   writeObjects(folder / "actions.rawlog",
                {makeAction({nan, 0, 0}, diagonal(0.01, 0.001)), makeFrame(makeScan(1.0)),
                 makeAction({0.5, 0, 0}, diagonal(0.01, 0.001)), makeFrame(makeScan(2.0))});
-  const auto steps = readAll(folder / "actions.rawlog");
+  const auto steps = stepsOf(folder / "actions.rawlog");
   ASSERT_EQ(steps.size(), 2U);
   EXPECT_FALSE(steps[0].motion);
   ASSERT_TRUE(steps[1].motion);
@@ -174,7 +160,7 @@ TEST(RawlogReader, DifferencesAndInterpolatesOdometryBetweenScans)
   writeObjects(path, {makeOdometry(10.0, {5, 5, M_PI / 2}), makeScan(10.0),
                       makeOdometry(10.4, {5, 5, M_PI / 2}), makeScan(10.5),
                       makeOdometry(10.6, {5, 7, M_PI / 2})});
-  const auto steps = readAll(path);
+  const auto steps = stepsOf(path);
   ASSERT_EQ(steps.size(), 2U);
   ASSERT_TRUE(steps[0].motion);
   EXPECT_NEAR(steps[0].motion->mean.norm(), 0.0, 1e-9);
@@ -190,7 +176,7 @@ TEST(RawlogReader, GroupsSensorsThatFireTogether)
   const auto path = folder / "observations.rawlog";
   writeObjects(path, {makeScan(1.00, 3.0F, "FRONT"), makeScan(1.02, 4.0F, "BACK"),
                       makeScan(1.03, 3.0F, "FRONT"), makeScan(2.00, 3.0F, "BACK")});
-  const auto steps = readAll(path);
+  const auto steps = stepsOf(path);
   ASSERT_EQ(steps.size(), 3U);
   EXPECT_EQ(steps[0].scans.size(), 2U);
   EXPECT_EQ(steps[1].scans.size(), 1U);
@@ -204,7 +190,7 @@ TEST(RawlogReader, TakesAnOdometryResetForNoMotion)
   const auto path = folder / "observations.rawlog";
   writeObjects(path, {makeOdometry(1.0, {500, 0, 0}), makeScan(1.0), makeOdometry(1.2, {0, 0, 0}),
                       makeScan(1.2)});
-  const auto steps = readAll(path);
+  const auto steps = stepsOf(path);
   ASSERT_EQ(steps.size(), 2U);
   EXPECT_FALSE(steps[1].motion);
 }
@@ -220,7 +206,7 @@ TEST(RawlogReader, TakesAJumpOfActionsForNoMotion)
                       makeAction({0.5, 0, 0}, diagonal(1e30, 0.1)), makeFrame(makeScan(4.0)),
                       makeAction({12, 0, 0}, small), makeFrame(makeScan(5.0))});
   RawlogReader reader(path);
-  const auto steps = readAll(reader);
+  const auto steps = stepsOf(reader);
   ASSERT_EQ(steps.size(), 5U);
   EXPECT_TRUE(steps[0].motion);
   EXPECT_FALSE(steps[1].motion);
@@ -270,7 +256,7 @@ TEST(RawlogReader, LeavesOutWhatASensorCannotBe)
       });
   writeObjects(path, log);
   RawlogReader reader(path);
-  const auto steps = readAll(reader);
+  const auto steps = stepsOf(reader);
   ASSERT_EQ(steps.size(), 3U);
   EXPECT_EQ(reader.leftOut().observations, 8U);
   EXPECT_LT(steps[1].scans[0].range_sigma, 0.1) << "as if the log gave none";
@@ -292,7 +278,7 @@ TEST(RawlogReader, LeavesOutLandmarksThatMakeNoSense)
   const TemporaryFolder folder;
   writeObjects(folder / "l.rawlog", {makeFrame(sound), makeFrame(lost)});
   RawlogReader reader(folder / "l.rawlog");
-  const auto steps = readAll(reader);
+  const auto steps = stepsOf(reader);
   ASSERT_EQ(steps.size(), 1U);
   ASSERT_EQ(steps[0].landmarks.size(), 1U);
   EXPECT_GT(steps[0].landmarks[0].position_covariance(0, 0), 0);
@@ -311,7 +297,7 @@ TEST(RawlogReader, TurnsBearingsAndRangesIntoPoints)
   observation->sensedData[1] = {std::numeric_limits<float>::quiet_NaN(), 0.0F, 0.0F, 8, {}};
   const TemporaryFolder folder;
   writeObjects(folder / "l.rawlog", {makeFrame(observation)});
-  const auto steps = readAll(folder / "l.rawlog");
+  const auto steps = stepsOf(folder / "l.rawlog");
   ASSERT_EQ(steps.size(), 1U);
   ASSERT_EQ(steps[0].landmarks.size(), 1U);
   const Feature& point = steps[0].landmarks[0];
@@ -324,8 +310,8 @@ TEST(RawlogReader, TurnsBearingsAndRangesIntoPoints)
 
 TEST(RawlogReader, ReadsTheDemoLogOfMrpt)
 {
-  RawlogReader reader(kDemoLog);
-  const auto steps = readAll(reader);
+  RawlogReader reader(kLabLog);
+  const auto steps = stepsOf(reader);
   EXPECT_EQ(steps.size(), 37U);
   EXPECT_FALSE(reader.truncated());
   double length = 0;
@@ -337,10 +323,10 @@ TEST(RawlogReader, MarksATruncatedLog)
 {
   const TemporaryFolder folder;
   const auto path = folder / "cut.rawlog";
-  const std::string bytes = readBytes(kDemoLog);
+  const std::string bytes = readBytes(kLabLog);
   writeText(path, bytes.substr(0, bytes.size() / 2));
   RawlogReader reader(path);
-  const auto steps = readAll(reader);
+  const auto steps = stepsOf(reader);
   EXPECT_GT(steps.size(), 5U);
   EXPECT_LT(steps.size(), 37U);
   EXPECT_TRUE(reader.truncated());
@@ -350,14 +336,14 @@ TEST(RawlogReader, RefusesDamagedCompressedLogsAndNeverCrashes)
 {
   const TemporaryFolder folder;
   const auto path = folder / "damaged.rawlog";
-  const std::string bytes = readBytes(kDemoLog);
+  const std::string bytes = readBytes(kLabLog);
   std::mt19937 random(20120215);
   for (int i = 0; i < 200; ++i)
   {
     std::string damaged = bytes;
     damaged[10 + random() % (bytes.size() - 18)] ^= static_cast<char>(1U << random() % 8U);
     writeText(path, damaged);
-    const std::string message = messageOf<std::runtime_error>([&] { readAll(path); });
+    const std::string message = messageOf<std::runtime_error>([&] { stepsOf(path); });
     EXPECT_EQ(message, path.string() + ": damaged");
   }
 }
@@ -384,7 +370,7 @@ TEST(RawlogReader, NamesFileAndReasonForUnusableFiles)
   writeText(folder / "random.rawlog", noise);
   writeText(folder / "empty.rawlog", "");
   writeText(folder / "text.rawlog", "FLASER 3 1 2 3\n");
-  writeText(folder / "stub.rawlog", readBytes(kDemoLog).substr(0, 40));
+  writeText(folder / "stub.rawlog", readBytes(kLabLog).substr(0, 40));
   writeObjects(folder / "foreign.rawlog", {mrpt::poses::CPosePDFGaussian::Create()});
   for (const char* name : {"random", "empty", "text", "stub", "foreign", "missing"})
   {

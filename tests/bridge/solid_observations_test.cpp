@@ -15,8 +15,9 @@
 #include <cstring>
 #include <functional>
 
+#include "bridge/log_steps.h"
 #include "bridge/room_map.h"
-#include "io/archive/gzip_input.h"
+#include "bridge/unpacked_file.h"
 #include "sigloc/io/RawlogReader.h"
 
 using namespace sigloc;
@@ -195,15 +196,6 @@ CObservation::Ptr rotatingOfLaser()
   return scan;
 }
 
-std::vector<RawlogStep> stepsOf(const std::filesystem::path& path,
-                                const ReadingOptions& reading = {})
-{
-  RawlogReader reader(path, reading);
-  std::vector<RawlogStep> steps;
-  while (auto step = reader.next()) steps.push_back(std::move(*step));
-  return steps;
-}
-
 /// The one scan of a log with one observation.
 LaserScan scanOf(const CObservation::Ptr& observation, const ReadingOptions& reading = {})
 {
@@ -339,9 +331,7 @@ TEST(SolidObservations, HostileCountsDoNoHarm)
        std::vector<CObservation::Ptr>{small, packets, rotatingOfLaser(), cameraOfPoints()})
   {
     writeObjects(folder / "sound.rawlog", {sound});
-    detail::GzipInput input(folder / "sound.rawlog");
-    std::string bytes(1U << 20U, '\0');
-    bytes.resize(input.Read(bytes.data(), bytes.size()));
+    const std::string bytes = unpacked(folder / "sound.rawlog", 1U << 20U);
     // The counts are near the front; behind them a byte in some is enough.
     for (std::size_t at = 0; at < bytes.size(); at += at < 400 ? 5 : 499)
     {

@@ -10,6 +10,7 @@
 
 #include "bridge/map_error.h"
 #include "bridge/rawlog_files.h"
+#include "bridge/unpacked_file.h"
 #include "io/archive/gzip_input.h"
 #include "io/archive/zstd_walk.h"
 #include "sigloc/io/RawlogReader.h"
@@ -21,7 +22,7 @@ namespace
 using namespace sigloc::test;
 
 /// One frame of zstd, with the checksum that its program and MRPT add.
-std::string packed(const std::string& bytes)
+std::string zstdFrame(const std::string& bytes)
 {
   ZSTD_CCtx* const context = ZSTD_createCCtx();
   ZSTD_CCtx_setParameter(context, ZSTD_c_checksumFlag, 1);
@@ -39,15 +40,6 @@ std::string skippable(unsigned kind, std::size_t size)
   return frame + std::string(size, 'n');
 }
 
-std::string unpacked(const std::filesystem::path& path)
-{
-  detail::GzipInput input(path);
-  std::string bytes(std::size_t{1} << 22U, '\0');
-  bytes.resize(input.Read(bytes.data(), bytes.size()));
-  EXPECT_FALSE(input.damaged());
-  return bytes;
-}
-
 std::string noise(std::size_t count)
 {
   std::mt19937 generator(5);
@@ -56,19 +48,16 @@ std::string noise(std::size_t count)
   return bytes;
 }
 
-const std::filesystem::path kLog = "/usr/share/mrpt/datasets/localization_demo.rawlog";
-const std::filesystem::path kMap = "/usr/share/mrpt/datasets/localization_demo.simplemap.gz";
-
 TEST(ZstdFiles, holdWhatWasPacked)
 {
   const TemporaryFolder folder;
   for (const std::size_t size : {1U, 1000U, 131072U, 1000000U})
   {
     const std::string bytes = noise(size);
-    writeText(folder / "a", packed(bytes));
+    writeText(folder / "a", zstdFrame(bytes));
     EXPECT_EQ(unpacked(folder / "a"), bytes) << size;
     EXPECT_NO_THROW(detail::requireIntact(folder / "a"));
-    writeText(folder / "a", packed(bytes) + packed(bytes));
+    writeText(folder / "a", zstdFrame(bytes) + zstdFrame(bytes));
     EXPECT_EQ(unpacked(folder / "a"), bytes + bytes) << "two frames of " << size;
   }
 }
@@ -82,15 +71,17 @@ TEST(ZstdFiles, framesToBeSkippedAreSkipped)
     for (const unsigned kind : {0U, 7U, 15U})
     {
       const std::string skipped = skippable(kind, size);
-      writeText(folder / "a", skipped + skipped + packed(bytes) + skipped + packed("b") + skipped);
+      writeText(folder / "a",
+                skipped + skipped + zstdFrame(bytes) + skipped + zstdFrame("b") + skipped);
       EXPECT_EQ(unpacked(folder / "a"), bytes + "b") << size << ' ' << kind;
       EXPECT_NO_THROW(detail::requireIntact(folder / "a"));
     }
   }
-  writeText(folder / "m.simplemap", skippable(3, 50) + packed(unpacked(kMap)) + skippable(3, 50));
+  writeText(folder / "m.simplemap",
+            skippable(3, 50) + zstdFrame(unpacked(kLabMap)) + skippable(3, 50));
   EXPECT_EQ(std::get<std::vector<PosedScans>>(readMapSource(folder / "m.simplemap")).size(),
-            std::get<std::vector<PosedScans>>(readMapSource(kMap)).size());
-  writeText(folder / "m.simplemap", packed(unpacked(kMap)) + skippable(3, 50).substr(0, 40));
+            std::get<std::vector<PosedScans>>(readMapSource(kLabMap)).size());
+  writeText(folder / "m.simplemap", zstdFrame(unpacked(kLabMap)) + skippable(3, 50).substr(0, 40));
   EXPECT_NE(mapErrorOf(folder / "m.simplemap").find("truncated"), std::string::npos);
   writeText(folder / "m.simplemap", skippable(3, 50));
   EXPECT_NE(mapErrorOf(folder / "m.simplemap").find("not an MRPT file"), std::string::npos);
@@ -101,37 +92,37 @@ TEST(ZstdFiles, namesThatEndInZstAreTaken)
   const TemporaryFolder folder;
   const std::filesystem::path office =
       std::filesystem::path(SIGLOC_GOLDEN_FOLDER) / "../../maps/office.gridmap.gz";
-  writeText(folder / "m.simplemap.zst", packed(unpacked(kMap)));
-  writeText(folder / "m.gridmap.zst", packed(unpacked(office)));
+  writeText(folder / "m.simplemap.zst", zstdFrame(unpacked(kLabMap)));
+  writeText(folder / "m.gridmap.zst", zstdFrame(unpacked(office)));
   EXPECT_FALSE(
       std::get<std::vector<PosedScans>>(readMapSource(folder / "m.simplemap.zst")).empty());
   EXPECT_EQ(std::get<OccupancyRaster>(readMapSource(folder / "m.gridmap.zst")).cells,
             std::get<OccupancyRaster>(readMapSource(office)).cells);
-  writeText(folder / "m.log.zst", packed("FLASER 3 1 2 1 0 0 0 0 0 0 1 host 1\n"));
+  writeText(folder / "m.log.zst", zstdFrame("FLASER 3 1 2 1 0 0 0 0 0 0 1 host 1\n"));
   EXPECT_TRUE(RawlogReader(folder / "m.log.zst").next());
 }
 
 TEST(ZstdFiles, aReadyMapMayBePackedSoInPlaceOfItsOwnPacking)
 {
   const TemporaryFolder folder;
-  const FeatureMap map = buildMapFromFile(kMap, {}, {});
+  const FeatureMap map = buildMapFromFile(kLabMap, {}, {});
   saveSigmap(map, folder / "m.sigmap");
-  writeText(folder / "packed.sigmap", packed(unpacked(folder / "m.sigmap")));
+  writeText(folder / "packed.sigmap", zstdFrame(unpacked(folder / "m.sigmap")));
   EXPECT_EQ(loadSigmap(folder / "packed.sigmap").features().size(), map.features().size());
 }
 
 TEST(ZstdFiles, whatIsPackedTwiceSaysSo)
 {
   const TemporaryFolder folder;
-  saveSigmap(buildMapFromFile(kMap, {}, {}), folder / "m.sigmap");
+  saveSigmap(buildMapFromFile(kLabMap, {}, {}), folder / "m.sigmap");
   const std::string map = readBytes(folder / "m.sigmap");
   const std::vector<std::pair<const char*, std::string>> cases = {
-      {"a.sigmap", packed(map)},
-      {"a.sigmap.zst", packed(map)},
-      {"a.simplemap.gz.zst", packed(readBytes(kMap))},
-      {"a.simplemap.zst", packed(packed(unpacked(kMap)))},
-      {"a.ply", packed(readBytes(kMap))},
-      {"a.txt", packed(readBytes(kMap))},
+      {"a.sigmap", zstdFrame(map)},
+      {"a.sigmap.zst", zstdFrame(map)},
+      {"a.simplemap.gz.zst", zstdFrame(readBytes(kLabMap))},
+      {"a.simplemap.zst", zstdFrame(zstdFrame(unpacked(kLabMap)))},
+      {"a.ply", zstdFrame(readBytes(kLabMap))},
+      {"a.txt", zstdFrame(readBytes(kLabMap))},
   };
   for (const auto& [name, bytes] : cases)
   {
@@ -141,21 +132,21 @@ TEST(ZstdFiles, whatIsPackedTwiceSaysSo)
                   ": is compressed twice; unpack it once, with gunzip or "
                   "zstd -d");
   }
-  writeText(folder / "l.rawlog", packed(readBytes(kMap)));
+  writeText(folder / "l.rawlog", zstdFrame(readBytes(kLabMap)));
   EXPECT_THROW(RawlogReader(folder / "l.rawlog"), std::runtime_error);
 }
 
 TEST(ZstdFiles, mapsAndLogsAreReadAsPlainOnes)
 {
   const TemporaryFolder folder;
-  writeText(folder / "m.simplemap", packed(unpacked(kMap)));
-  const auto expected = std::get<std::vector<PosedScans>>(readMapSource(kMap));
+  writeText(folder / "m.simplemap", zstdFrame(unpacked(kLabMap)));
+  const auto expected = std::get<std::vector<PosedScans>>(readMapSource(kLabMap));
   const auto found = std::get<std::vector<PosedScans>>(readMapSource(folder / "m.simplemap"));
   ASSERT_EQ(found.size(), expected.size());
   EXPECT_EQ(found.back().scans.front().ranges, expected.back().scans.front().ranges);
 
-  writeText(folder / "l.rawlog", packed(unpacked(kLog)));
-  RawlogReader plain(kLog);
+  writeText(folder / "l.rawlog", zstdFrame(unpacked(kLabLog)));
+  RawlogReader plain(kLabLog);
   RawlogReader log(folder / "l.rawlog");
   double progress = 0;
   std::size_t steps = 0;
@@ -177,15 +168,15 @@ TEST(ZstdFiles, cutOffOnesAreTold)
   const TemporaryFolder folder;
   // zstd packs 128 kB at a time, which is more than the whole of a short log.
   std::string bytes;
-  for (int k = 0; k < 20; ++k) bytes += unpacked(kLog);
-  const std::string whole = packed(bytes + noise(300000));
+  for (int k = 0; k < 20; ++k) bytes += unpacked(kLabLog);
+  const std::string whole = zstdFrame(bytes + noise(300000));
   writeText(folder / "l.rawlog", whole.substr(0, whole.size() - 250000));
   RawlogReader log(folder / "l.rawlog");
   std::size_t steps = 0;
   while (log.next()) ++steps;
   EXPECT_GT(steps, 10U);
   EXPECT_TRUE(log.truncated());
-  const std::string map = packed(unpacked(kMap));
+  const std::string map = zstdFrame(unpacked(kLabMap));
   for (const std::size_t size : {4U, 6U, 100U, 5000U, static_cast<unsigned>(map.size() - 1)})
   {
     writeText(folder / "m.simplemap", map.substr(0, size));
@@ -196,7 +187,7 @@ TEST(ZstdFiles, cutOffOnesAreTold)
 TEST(ZstdFiles, damagedOnesAreRefused)
 {
   const TemporaryFolder folder;
-  const std::string whole = packed(unpacked(kMap));
+  const std::string whole = zstdFrame(unpacked(kLabMap));
   std::mt19937 generator(9);
   for (int k = 0; k < 40; ++k)
   {
@@ -219,7 +210,7 @@ TEST(ZstdFiles, numbersThatUnpackToFarMoreAreRefused)
   {
     std::string rows = head;
     while (rows.size() <= detail::kUsualLimits.always) rows += "1 2 0\n";
-    writeText(folder / name, packed(rows));
+    writeText(folder / name, zstdFrame(rows));
     EXPECT_EQ(mapErrorOf(folder / name),
               (folder / name).string() + ": unpacks to more than 50 times its size");
   }
@@ -236,7 +227,7 @@ TEST(ZstdFiles, unpackedBytesAreLimitedByTheFilesSize)
   constexpr std::size_t kSize = 1U << 20U;
   const TemporaryFolder folder;
   const std::filesystem::path path = folder / "zeros";
-  writeText(path, packed(std::string(kSize, '0')));
+  writeText(path, zstdFrame(std::string(kSize, '0')));
   EXPECT_EQ(unpackedBytes(path, kSize).size(), kSize);
   EXPECT_THROW(unpackedBytes(path, kSize / 4), std::runtime_error);
   writeText(path, std::string(kSize, '0'));
@@ -256,17 +247,17 @@ TEST(ZstdFiles, aWalkOverTheHeadsTellsTheSizeAndWhatIsCutOff)
 {
   for (const std::size_t size : {0U, 1U, 255U, 256U, 70000U, 1000000U})
   {
-    const std::string frame = packed(noise(size));
+    const std::string frame = zstdFrame(noise(size));
     EXPECT_EQ(walkOver(frame).least, size);
     EXPECT_GE(walkOver(frame).most, size);
     EXPECT_FALSE(walkOver(frame).cut_off);
-    const std::string more = frame + skippable(3, 20) + packed(std::string(size, '0'));
+    const std::string more = frame + skippable(3, 20) + zstdFrame(std::string(size, '0'));
     EXPECT_EQ(walkOver(more).least, 2 * size);
     EXPECT_FALSE(walkOver(more).cut_off);
     for (std::size_t end = 1; end < frame.size(); end += 1 + end / 3)
       EXPECT_TRUE(walkOver(frame.substr(0, end)).cut_off) << end << " of " << size;
   }
-  EXPECT_FALSE(walkOver(packed("a") + "no zstd").cut_off);
+  EXPECT_FALSE(walkOver(zstdFrame("a") + "no zstd").cut_off);
 }
 
 TEST(ZstdFiles, aWalkOverAHoleEnds)
@@ -289,7 +280,7 @@ TEST(ZstdFiles, whatIsToldToUnpackToMuchIsRefusedBeforeAnythingIsRead)
   const TemporaryFolder folder;
   const std::filesystem::path path = folder / "zeros";
   constexpr std::size_t kSize = 1U << 20U;
-  writeText(path, packed(std::string(kSize, '0')));
+  writeText(path, zstdFrame(std::string(kSize, '0')));
   detail::GzipInput input(path);
   EXPECT_NO_THROW(input.limitTo({detail::kUsualLimits.most, kSize}));
   EXPECT_THROW(input.limitTo({detail::kUsualLimits.most, kSize / 4}), std::runtime_error);

@@ -5,6 +5,7 @@
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 
 #include "command_line.h"
+#include "runs.h"
 
 namespace sigloc
 {
@@ -21,18 +22,6 @@ void expectRefused(const TemporaryFolder& folder, const std::set<std::string>& b
   EXPECT_NE(result.errors.find(name), std::string::npos) << result.errors;
   EXPECT_EQ(result.output, "");
   EXPECT_EQ(listing(folder), before);
-}
-
-void writeConfig(const TemporaryFolder& folder, const std::string& map, const std::string& rawlog,
-                 const std::string& more = "")
-{
-  writeText(folder / "run.ini", "[LocalizationExperiment]\nmap_file = " + map +
-                                    "\nrawlog_file = " + rawlog + "\n" + more);
-}
-
-CommandResult localize(const TemporaryFolder& folder)
-{
-  return run(folder, "sigloc-localize", {"run.ini", "--out", "new/out", "--quiet"});
 }
 
 class BadFile : public ::testing::TestWithParam<Damage>
@@ -65,7 +54,7 @@ TEST_P(BadFile, asMapOfARunIsRefused)
   makeBadFile(GetParam(), kLabMap, folder / "bad.simplemap.gz");
   writeConfig(folder, "bad.simplemap.gz", kLabLog.string());
   const auto before = listing(folder);
-  expectRefused(folder, before, localize(folder), "bad.simplemap.gz");
+  expectRefused(folder, before, localize(folder, "new/out"), "bad.simplemap.gz");
 }
 
 TEST_P(BadFile, asRawlogIsRefused)
@@ -75,7 +64,7 @@ TEST_P(BadFile, asRawlogIsRefused)
   makeBadFile(GetParam(), kLabLog, folder / "bad.rawlog");
   writeConfig(folder, kLabMap.string(), "bad.rawlog");
   const auto before = listing(folder);
-  expectRefused(folder, before, localize(folder), "bad.rawlog");
+  expectRefused(folder, before, localize(folder, "new/out"), "bad.rawlog");
 }
 
 TEST_P(BadFile, asConfigurationIsRefused)
@@ -98,7 +87,7 @@ TEST(BadInput, rawlogWithoutScansIsRefused)
   writeObjects(folder / "bad.rawlog", {makeOdometry(1, {}), makeOdometry(2, {1, 0, 0})});
   writeConfig(folder, kLabMap.string(), "bad.rawlog");
   const auto before = listing(folder);
-  expectRefused(folder, before, localize(folder), "bad.rawlog");
+  expectRefused(folder, before, localize(folder, "new/out"), "bad.rawlog");
 }
 
 TEST(BadInput, mapWithoutFeaturesIsRefused)
@@ -111,7 +100,7 @@ TEST(BadInput, mapWithoutFeaturesIsRefused)
   ASSERT_TRUE(map.saveToFile((folder / "bad.simplemap").string()));
   writeConfig(folder, "bad.simplemap", kLabLog.string());
   const auto before = listing(folder);
-  expectRefused(folder, before, localize(folder), "bad.simplemap");
+  expectRefused(folder, before, localize(folder, "new/out"), "bad.simplemap");
   expectRefused(folder, before,
                 run(folder, "sigloc-map", {"build", "-i", "bad.simplemap", "-o", "m.sigmap"}),
                 "bad.simplemap");
@@ -130,7 +119,7 @@ TEST(BadInput, whatCannotBeReachedSaysWhy)
   std::filesystem::create_symlink("loop", folder / "loop");
   writeConfig(folder, kLabMap.string(), "loop/a.rawlog");
   const auto before = listing(folder);
-  const auto result = localize(folder);
+  const auto result = localize(folder, "new/out");
   expectRefused(folder, before, result, "loop/a.rawlog: Too many levels");
   expectRefused(folder, before, run(folder, "sigloc-localize", {"loop/run.ini", "--quiet"}),
                 "loop/run.ini: Too many levels");
@@ -175,7 +164,7 @@ TEST(BadInput, unknownKeyIsNamed)
   const TemporaryFolder folder;
   writeConfig(folder, kLabMap.string(), kLabLog.string(), "[sigloc.tracker]\nmax_hypothesis = 3\n");
   const auto before = listing(folder);
-  const auto result = localize(folder);
+  const auto result = localize(folder, "new/out");
   expectRefused(folder, before, result, "run.ini");
   EXPECT_NE(result.errors.find("max_hypothesis"), std::string::npos) << result.errors;
 }
@@ -188,7 +177,7 @@ TEST(BadInput, aWarningIsNotSaidBeforeAnError)
   writeConfig(folder, kLabMap.string(), (folder / "bad.rawlog").string(), twice);
   writeText(folder / "bad.simplemap", "no map");
   const auto before = listing(folder);
-  expectRefused(folder, before, localize(folder), "bad.rawlog");
+  expectRefused(folder, before, localize(folder, "new/out"), "bad.rawlog");
   const Arguments build = {"build", "-i", "bad.simplemap", "-o", "m.sigmap", "--config", "run.ini"};
   expectRefused(folder, before, run(folder, "sigloc-map", build), "bad.simplemap");
   // Of sound inputs they are said, and once, however many runs there are.
@@ -217,7 +206,7 @@ TEST(BadInput, unknownSectionIsNamed)
   const TemporaryFolder folder;
   writeConfig(folder, kLabMap.string(), kLabLog.string(), "[sigloc.trakcer]\nseed = 3\n");
   const auto before = listing(folder);
-  const auto result = localize(folder);
+  const auto result = localize(folder, "new/out");
   expectRefused(folder, before, result, "run.ini");
   EXPECT_NE(result.errors.find("sigloc.trakcer"), std::string::npos) << result.errors;
 }
@@ -227,7 +216,7 @@ TEST(BadInput, badValueIsNamed)
   const TemporaryFolder folder;
   writeConfig(folder, kLabMap.string(), kLabLog.string(), "[sigloc.map]\nmerge_gap = wide\n");
   const auto before = listing(folder);
-  const auto result = localize(folder);
+  const auto result = localize(folder, "new/out");
   expectRefused(folder, before, result, "run.ini");
   EXPECT_NE(result.errors.find("merge_gap"), std::string::npos) << result.errors;
 }
@@ -239,7 +228,7 @@ TEST(BadInput, foreignOutputFolderIsLeftAlone)
   std::filesystem::create_directories(folder / "new/out");
   writeText(folder / "new/out/thesis.tex", "dear");
   const auto before = listing(folder);
-  expectRefused(folder, before, localize(folder), "new/out");
+  expectRefused(folder, before, localize(folder, "new/out"), "new/out");
 }
 
 TEST(BadInput, pictureOfAnotherKindIsRefused)

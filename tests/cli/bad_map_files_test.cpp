@@ -25,7 +25,6 @@ namespace
 {
 using namespace sigloc::test;
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr std::uint32_t kHuge = 0xFFFFFFF0U;
 
 /// A file's bytes without gzip.
@@ -210,7 +209,7 @@ Kind pcdKind()
   {
     const auto x = static_cast<float>(point.x);
     data += bytesOf(x) + bytesOf(static_cast<float>(point.y)) + bytesOf(0.5F);
-    of_nan += bytesOf(x) + bytesOf(kNan) + bytesOf(0.5F);
+    of_nan += bytesOf(x) + bytesOf(kFloatNan) + bytesOf(0.5F);
   }
   const std::string count = std::to_string(points.size());
   return kindOf("bad.pcd", pcd(count, data),
@@ -239,9 +238,9 @@ Kind rowsKind()
 std::vector<std::string> spoiltGrids(const std::string& bytes)
 {
   const std::string name = "COccupancyGridMap2D";
-  return {withValue(bytes, name, 1, kHuge), withValue(bytes, name, 5, kHuge),
-          withValue(bytes, name, 9, kNan),  withValue(bytes, name, 25, kNan),
-          withValue(bytes, name, 9, 1e30F), withValue(bytes, name, 25, 1e30F)};
+  return {withValue(bytes, name, 1, kHuge),     withValue(bytes, name, 5, kHuge),
+          withValue(bytes, name, 9, kFloatNan), withValue(bytes, name, 25, kFloatNan),
+          withValue(bytes, name, 9, 1e30F),     withValue(bytes, name, 25, 1e30F)};
 }
 
 Kind gridKind()
@@ -257,7 +256,7 @@ Kind pointsKind()
   const std::size_t count = officePoints().size();
   std::string of_nan = points;
   for (std::size_t i = 0; i < count; ++i)
-    of_nan = withValue(std::move(of_nan), name, 4 + 4 * i, kNan);
+    of_nan = withValue(std::move(of_nan), name, 4 + 4 * i, kFloatNan);
   return kindOf("bad.metricmap", points,
                 {of_nan, withValue(points, name, 0, kHuge), withValue(points, name, 4, 1e30F)});
 }

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "command_line.h"
+#include "runs.h"
 #include "sigloc/io/RawlogReader.h"
 
 namespace sigloc
@@ -54,14 +55,14 @@ std::string carmenDrive(double turn = 0)
   return log;
 }
 
-json localize(const TemporaryFolder& folder, const std::string& log, const std::string& out,
-              int code = 0)
+json summaryOfDrive(const TemporaryFolder& folder, const std::string& log, const std::string& out,
+                    int code = 0)
 {
   const CommandResult result =
       run(folder, "sigloc-localize",
           {"--map", kOffice.string(), "--log", log, "--out", out, "--quiet"});
   EXPECT_EQ(result.exit_code, code) << result.errors;
-  return json::parse(readBytes(folder / (out + "/summary.json")));
+  return summaryOf(folder, out);
 }
 
 TEST(CarmenDrive, aMountThatIsTurnedIsTold)
@@ -72,7 +73,7 @@ TEST(CarmenDrive, aMountThatIsTurnedIsTold)
   const CommandResult result = run(
       folder, "sigloc-localize", {"--map", kOffice.string(), "--log", "drive.clf", "--out", "out"});
   ASSERT_EQ(result.exit_code, 0) << result.errors;
-  const json summary = json::parse(readBytes(folder / "out/summary.json"));
+  const json summary = summaryOf(folder);
   ASSERT_GT(summary["localized_steps"], 10);
   EXPECT_NEAR(summary["odometry_turn_deg"], kTurn * 180 / M_PI, 6);
   EXPECT_NEAR(summary["odometry_stretch"], 1, 0.1);
@@ -85,8 +86,8 @@ TEST(CarmenDrive, isLocalizedAsItsRawlogIs)
 {
   const TemporaryFolder folder;
   writeText(folder / "drive.clf", carmenDrive());
-  const json expected = localize(folder, kDrive.string(), "rawlog");
-  const json carmen = localize(folder, "drive.clf", "carmen");
+  const json expected = summaryOfDrive(folder, kDrive.string(), "rawlog");
+  const json carmen = summaryOfDrive(folder, "drive.clf", "carmen");
   EXPECT_EQ(carmen["steps"], expected["steps"]);
   EXPECT_EQ(carmen["final_verdict"], "localized");
   EXPECT_NEAR(carmen["distance_m"].get<double>(), expected["distance_m"].get<double>(), 0.1);
@@ -106,9 +107,9 @@ TEST(CarmenDrive, thatIsCutOffIsReadUpToThere)
   writeText(folder / "whole.log", whole);
   writeText(folder / "cut.log", whole.substr(0, whole.size() - 700));
   writeText(folder / "damaged.log", whole.substr(0, whole.size() - 700) + "\n");
-  const json expected = localize(folder, "whole.log", "whole");
+  const json expected = summaryOfDrive(folder, "whole.log", "whole");
   constexpr int kCutOff = 2;
-  const json cut = localize(folder, "cut.log", "cut", kCutOff);
+  const json cut = summaryOfDrive(folder, "cut.log", "cut", kCutOff);
   EXPECT_EQ(cut["steps"].get<int>(), expected["steps"].get<int>() - 1);
   const CommandResult damaged =
       run(folder, "sigloc-localize",
@@ -121,7 +122,7 @@ TEST(CarmenDrive, isWrittenAsARawlogWithThePoses)
 {
   const TemporaryFolder folder;
   writeText(folder / "drive.log", carmenDrive());
-  const json summary = localize(folder, "drive.log", "out");
+  const json summary = summaryOfDrive(folder, "drive.log", "out");
   RawlogReader annotated(folder / "out/annotated.rawlog");
   std::size_t steps = 0;
   std::size_t poses = 0;
@@ -140,7 +141,7 @@ TEST(CarmenDrive, withoutOdometryAndTimesItIsAnsweredToo)
   std::string line = "FLASER 181";
   for (int i = 0; i < 181; ++i) line += " 3";
   writeText(folder / "drive.log", line + " 0 0 0\n" + line + " 0 0 0\n");
-  const json summary = localize(folder, "drive.log", "out");
+  const json summary = summaryOfDrive(folder, "drive.log", "out");
   EXPECT_EQ(summary["steps"], 2);
   EXPECT_TRUE(summary["distance_m"].is_null());
 }

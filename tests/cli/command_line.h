@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <limits>
 #include <random>
 #include <set>
 #include <string>
@@ -21,8 +22,6 @@ using Arguments = std::vector<std::string>;
 inline const std::filesystem::path kSources =
     std::filesystem::path(SIGLOC_SHARE_FOLDER) / ".." / "..";
 inline const std::filesystem::path kOffice = kSources / "maps/office.simplemap";
-inline const std::filesystem::path kLabMap = kDatasets / "localization_demo.simplemap.gz";
-inline const std::filesystem::path kLabLog = kDatasets / "localization_demo.rawlog";
 
 struct CommandResult
 {
@@ -93,6 +92,9 @@ inline std::ptrdiff_t countLines(const std::string& text)
 {
   return std::count(text.begin(), text.end(), '\n');
 }
+
+/// What tests write into files in place of a number.
+inline constexpr float kFloatNan = std::numeric_limits<float>::quiet_NaN();
 
 /// The ways in which a file can be bad.
 enum class Damage

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "command_line.h"
+#include "runs.h"
 #include "support/landmark_log.h"
 
 namespace sigloc
@@ -26,7 +27,7 @@ class EvalSummary : public testing::TestWithParam<SmallRun>
 {
 };
 
-json summaryOf(const TemporaryFolder& folder, Arguments arguments)
+json summaryOfEval(const TemporaryFolder& folder, Arguments arguments)
 {
   writeTwoRounds(folder.path());
   for (std::string& argument : arguments)
@@ -36,7 +37,7 @@ json summaryOf(const TemporaryFolder& folder, Arguments arguments)
   for (const char* more : {"--quiet", "--out", "out"}) arguments.emplace_back(more);
   const auto done = run(folder, "sigloc-eval", arguments);
   EXPECT_EQ(done.exit_code, 0) << done.errors;
-  return json::parse(readBytes(folder / "out" / "summary.json"));
+  return summaryOf(folder);
 }
 
 void expectKeys(const json& object, const std::vector<const char*>& keys)
@@ -47,7 +48,7 @@ void expectKeys(const json& object, const std::vector<const char*>& keys)
 TEST_P(EvalSummary, HoldsWhatOtherProgramsRelyOn)
 {
   const TemporaryFolder folder;
-  const json summary = summaryOf(folder, GetParam().arguments);
+  const json summary = summaryOfEval(folder, GetParam().arguments);
   ASSERT_FALSE(summary.at("methods").empty());
   for (const auto& [name, method] : summary.at("methods").items())
   {
@@ -78,10 +79,10 @@ TEST(EvalSummaryOfTrack, HoldsWhatDrivesAreJudgedBy)
 {
   const TemporaryFolder folder;
   const json summary =
-      summaryOf(folder, {"track", "--map", kOffice.string(), "--rawlog",
-                         (kSources / "rawlogs" / "office.rawlog").string(), "--ground-truth",
-                         (kSources / "rawlogs" / "office-truth.txt").string(), "--starts", "2",
-                         "--travel", "4", "--kidnap", "--method", "signature"});
+      summaryOfEval(folder, {"track", "--map", kOffice.string(), "--rawlog",
+                             (kSources / "rawlogs" / "office.rawlog").string(), "--ground-truth",
+                             (kSources / "rawlogs" / "office-truth.txt").string(), "--starts", "2",
+                             "--travel", "4", "--kidnap", "--method", "signature"});
   const json& method = summary.at("methods").at("signature");
   EXPECT_EQ(method.at("queries"), 2);
   expectKeys(method, {"right_at_end", "settled", "noticed", "confidently_wrong_steps",
@@ -99,8 +100,8 @@ TEST(EvalSummaryOfTrack, HoldsWhatDrivesAreJudgedBy)
 TEST(EvalSummaryOfLandmarks, DrawsErrorsAndTimes)
 {
   const TemporaryFolder folder;
-  summaryOf(folder, {"landmarks", "--dataset", "dlr", "LANDMARKS", "--local-map-steps", "5,10",
-                     "--max-queries", "3"});
+  summaryOfEval(folder, {"landmarks", "--dataset", "dlr", "LANDMARKS", "--local-map-steps", "5,10",
+                         "--max-queries", "3"});
   const std::string report = readBytes(folder / "out" / "report.md");
   for (const char* const plot : {"errors.png", "times.png"})
   {
@@ -112,7 +113,8 @@ TEST(EvalSummaryOfLandmarks, DrawsErrorsAndTimes)
 TEST(EvalSummaryOfScale, TellsTimesRelativeToAThousandFeatures)
 {
   const TemporaryFolder folder;
-  const json summary = summaryOf(folder, {"scale", "--map-features", "500,1000", "--poses", "2"});
+  const json summary =
+      summaryOfEval(folder, {"scale", "--map-features", "500,1000", "--poses", "2"});
   for (const auto& [name, method] : summary.at("methods").items())
   {
     EXPECT_EQ(method.at("rows").at(1).at("time_ratio"), 1.0) << name;

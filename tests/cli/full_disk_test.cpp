@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "command_line.h"
+#include "runs.h"
 
 namespace sigloc
 {
@@ -31,19 +32,15 @@ void expectOneLine(const CommandResult& result, const std::string& file)
       << result.errors;
 }
 
-void writeConfig(const TemporaryFolder& folder)
+void writeOfficeConfig(const TemporaryFolder& folder)
 {
-  writeText(
-      folder / "run.ini",
-      "[LocalizationExperiment]\nmap_file = " + (kSources / "maps/office.simplemap").string() +
-          "\nrawlog_file = " + (kSources / "rawlogs/office.rawlog").string() +
-          "\n[sigloc.localize]\npictures = false\n");
+  writeConfig(folder, kOffice.string(), (kSources / "rawlogs/office.rawlog").string(), kNoPictures);
 }
 
 TEST(FullDisk, aRunWritesAllOrNothing)
 {
   const TemporaryFolder folder;
-  writeConfig(folder);
+  writeOfficeConfig(folder);
   const Arguments arguments = {"run.ini", "--quiet", "--out", "out"};
   const std::size_t room = 163840;  // enough for all but the log with its poses
   const auto limited = [&] { return runLimited(folder, room, "sigloc-localize", arguments); };
@@ -62,7 +59,7 @@ TEST(FullDisk, aRunWritesAllOrNothing)
 TEST(FullDisk, aRunReplacesWhatAKilledOneLeft)
 {
   const TemporaryFolder folder;
-  writeConfig(folder);
+  writeOfficeConfig(folder);
   fs::create_directories(folder / "out.partial/belief");
   writeText(folder / "out.partial/belief/step_00001.txt.part-77", "1");
   writeText(folder / "out.partial/annotated.rawlog.part-77", "1");

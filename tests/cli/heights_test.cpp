@@ -18,14 +18,14 @@ namespace
 using namespace sigloc::test;
 using mrpt::math::TPose2D;
 
-constexpr std::size_t kSteps = 40;
+constexpr std::size_t kCloudSteps = 40;
 const std::string kMap = (kSources / "maps" / "office.simplemap").string();
 
 /// The begin of the office's drive as clouds: its returns at 0.5 m, and nearer ones, as of things
 /// that hang from the ceiling, at 1.2 m.
 void writeClouds(const std::filesystem::path& path)
 {
-  const auto entries = solidEntries(kSources / "rawlogs" / "office.rawlog", kSteps,
+  const auto entries = solidEntries(kSources / "rawlogs" / "office.rawlog", kCloudSteps,
                                     [](const mrpt::obs::CObservation2DRangeScan& scan)
                                     {
                                       auto points = mrpt::maps::CSimplePointsMap::Create();
@@ -43,9 +43,9 @@ TEST(Heights, ofReferenceChooseWhatTheScansAre)
   std::vector<double> times;
   RawlogReader log(folder / "drive.rawlog");
   while (const auto step = log.next()) times.push_back(step->time);
-  ASSERT_EQ(times.size(), kSteps);
+  ASSERT_EQ(times.size(), kCloudSteps);
   const GroundTruth truth = GroundTruth::read(kSources / "rawlogs" / "office-truth.txt");
-  const auto last = truth.at(kSteps - 1, times.back());
+  const auto last = truth.at(kCloudSteps - 1, times.back());
   ASSERT_TRUE(last);
   Arguments reference = {"reference",
                          "--map",
@@ -68,7 +68,7 @@ TEST(Heights, ofReferenceChooseWhatTheScansAre)
   const CommandResult low = run(folder, "sigloc-eval", reference);
   ASSERT_EQ(low.exit_code, 0) << low.errors;
   const GroundTruth found = GroundTruth::read(folder / "truth.txt");
-  for (std::size_t k = 0; k < kSteps; ++k)
+  for (std::size_t k = 0; k < kCloudSteps; ++k)
   {
     const auto expected = truth.at(k, times[k]);
     const auto pose = found.at(k, times[k]);

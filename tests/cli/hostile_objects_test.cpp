@@ -13,7 +13,6 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
-#include <limits>
 
 #include "bridge/room_map.h"
 #include "command_line.h"
@@ -26,7 +25,6 @@ namespace
 using namespace sigloc::test;
 using mrpt::serialization::CSerializable;
 
-constexpr float kFloatNan = std::numeric_limits<float>::quiet_NaN();
 constexpr std::uint32_t kAll = 0xFFFFFFFFU;
 
 std::string bytesOf(const CSerializable& object)

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command_line.h"
+#include "runs.h"
 
 namespace sigloc
 {
@@ -20,14 +21,12 @@ TEST(Localize, followsARobotThatSeesLandmarksOnly)
       folder, "sigloc-simulate",
       {"--world", "points", "--points", "400", "--seed", "12", "--metres", "20", "--out", "sim"});
   ASSERT_EQ(made.exit_code, 0) << made.errors;
-  writeText(folder / "run.ini",
-            "[LocalizationExperiment]\nmap_file = sim/map.txt\nrawlog_file = sim/drive.rawlog\n"
-            "ground_truth_path_file = sim/truth.txt\n[sigloc.localize]\npictures = false\n");
-  const CommandResult result =
-      run(folder, "sigloc-localize", {"run.ini", "--out", "out", "--quiet"});
+  writeConfig(folder, "sim/map.txt", "sim/drive.rawlog",
+              std::string("ground_truth_path_file = sim/truth.txt\n") + kNoPictures);
+  const CommandResult result = localize(folder);
   ASSERT_EQ(result.exit_code, 0) << result.errors;
 
-  const json summary = json::parse(readBytes(folder / "out/summary.json"));
+  const json summary = summaryOf(folder);
   EXPECT_EQ(summary["map_features"], 400);
   EXPECT_GT(summary["steps"], 70);
   EXPECT_EQ(summary["final_verdict"], "localized");

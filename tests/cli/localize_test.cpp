@@ -15,6 +15,7 @@
 
 #include "command_line.h"
 #include "picture_pixels.h"
+#include "runs.h"
 #include "sigloc/io/RawlogReader.h"
 #include "sigloc/plugin/map_drawing.h"
 
@@ -25,30 +26,20 @@ namespace
 using namespace sigloc::test;
 using nlohmann::json;
 
-constexpr std::size_t kLabSteps = 37;
+/// Keys of a run without pictures, with where the robot is at the end of the lab's log.
+const std::string kLabTruth =
+    std::string(kNoPictures) +
+    "use_final_truth = true\n"
+    "final_truth_x = 15.90\nfinal_truth_y = -10.01\nfinal_truth_phi_deg = 4.9\n";
 
-void writeConfig(const TemporaryFolder& folder, const std::string& rawlog)
+void writeLabConfig(const TemporaryFolder& folder, const std::string& rawlog)
 {
-  writeText(folder / "run.ini",
-            "[LocalizationExperiment]\nmap_file = " + kLabMap.string() +
-                "\nrawlog_file = " + rawlog +
-                "\n[sigloc.localize]\npictures = false\nuse_final_truth = true\n"
-                "final_truth_x = 15.90\nfinal_truth_y = -10.01\nfinal_truth_phi_deg = 4.9\n");
+  writeConfig(folder, kLabMap.string(), rawlog, kLabTruth);
 }
 
-CommandResult localize(const TemporaryFolder& folder)
+std::ptrdiff_t beliefsWithAPose(const TemporaryFolder& folder)
 {
-  return run(folder, "sigloc-localize", {"run.ini", "--out", "out", "--quiet"});
-}
-
-json summaryOf(const TemporaryFolder& folder)
-{
-  return json::parse(readBytes(folder / "out/summary.json"));
-}
-
-std::size_t beliefsWithAPose(const TemporaryFolder& folder)
-{
-  std::size_t count = 0;
+  std::ptrdiff_t count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder / "out/belief"))
   {
     if (entry.path().extension() != ".CPosePDFSOG") continue;
@@ -63,7 +54,7 @@ std::size_t beliefsWithAPose(const TemporaryFolder& folder)
 TEST(Localize, writesACompleteOutputFolder)
 {
   const TemporaryFolder folder;
-  writeConfig(folder, kLabLog.string());
+  writeLabConfig(folder, kLabLog.string());
   const CommandResult result = localize(folder);
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.errors, "");
@@ -78,16 +69,15 @@ TEST(Localize, writesACompleteOutputFolder)
   EXPECT_EQ(beliefsWithAPose(folder), kLabSteps);
   const std::ptrdiff_t rows = countLines(readBytes(folder / "out/path.tum")) +
                               countLines(readBytes(folder / "out/path_unsure.tum"));
-  EXPECT_EQ(rows, static_cast<std::ptrdiff_t>(kLabSteps + 2)) << "each with a comment";
-  EXPECT_EQ(countLines(readBytes(folder / "out/steps.csv")),
-            static_cast<std::ptrdiff_t>(kLabSteps + 1));
+  EXPECT_EQ(rows, kLabSteps + 2) << "each with a comment";
+  EXPECT_EQ(countLines(readBytes(folder / "out/steps.csv")), kLabSteps + 1);
   EXPECT_FALSE(std::filesystem::exists(folder / "out.partial"));
 }
 
 TEST(Localize, endsRightInTheLab)
 {
   const TemporaryFolder folder;
-  writeConfig(folder, kLabLog.string());
+  writeLabConfig(folder, kLabLog.string());
   ASSERT_EQ(localize(folder).exit_code, 0);
   const json summary = summaryOf(folder);
   EXPECT_EQ(summary["final_verdict"], "localized");
@@ -102,13 +92,9 @@ TEST(Localize, endsRightInTheLab)
 TEST(Localize, tracksWithParticlesWhenAsked)
 {
   const TemporaryFolder folder;
-  writeText(folder / "run.ini", "[LocalizationExperiment]\nmap_file = " + kLabMap.string() +
-                                    "\nrawlog_file = " + kLabLog.string() +
-                                    "\ntracker = particles // MRPT's filter\n"
-                                    "[sigloc.particles]\nparticles = 200\n"
-                                    "[sigloc.localize]\npictures = false\nuse_final_truth = true\n"
-                                    "final_truth_x = 15.90\nfinal_truth_y = -10.01\n"
-                                    "final_truth_phi_deg = 4.9\n");
+  writeConfig(
+      folder, kLabMap.string(), kLabLog.string(),
+      "tracker = particles // MRPT's filter\n[sigloc.particles]\nparticles = 200\n" + kLabTruth);
   ASSERT_EQ(localize(folder).exit_code, 0);
   const json summary = summaryOf(folder);
   EXPECT_EQ(summary["final_verdict"], "localized");
@@ -121,7 +107,7 @@ TEST(Localize, tracksWithParticlesWhenAsked)
 TEST(Localize, annotatesLogsOfActionsAndFrames)
 {
   const TemporaryFolder folder;
-  writeConfig(folder, kLabLog.string());
+  writeLabConfig(folder, kLabLog.string());
   ASSERT_EQ(localize(folder).exit_code, 0);
   std::size_t annotations = 0;
   mrpt::obs::CRawlog log;
@@ -158,7 +144,7 @@ TEST(Localize, annotatesLogsOfObservations)
     time += 1;
   }
   writeObjects(folder / "observations.rawlog", objects);
-  writeConfig(folder, "observations.rawlog");
+  writeLabConfig(folder, "observations.rawlog");
   ASSERT_EQ(localize(folder).exit_code, 0);
   EXPECT_EQ(summaryOf(folder)["steps"], kLabSteps);
   EXPECT_EQ(summaryOf(folder)["final_verdict"], "localized");
@@ -181,7 +167,7 @@ TEST(Localize, annotatesLogsOfObservations)
 TEST(Localize, reusesTheUnchangedMapAndReplacesItsOwnFolder)
 {
   const TemporaryFolder folder;
-  writeConfig(folder, kLabLog.string());
+  writeLabConfig(folder, kLabLog.string());
   ASSERT_EQ(localize(folder).exit_code, 0);
   const auto first = listing(folder);
   const std::string first_path = readBytes(folder / "out/path.tum");
@@ -194,7 +180,7 @@ TEST(Localize, reusesTheUnchangedMapAndReplacesItsOwnFolder)
 TEST(Localize, neverReplacesWhatItDidNotWrite)
 {
   const TemporaryFolder folder;
-  writeConfig(folder, kLabLog.string());
+  writeLabConfig(folder, kLabLog.string());
   ASSERT_EQ(localize(folder).exit_code, 0);
   writeText(folder / "out/belief/notes.tex", "mine");
   const CommandResult result = localize(folder);
@@ -213,7 +199,7 @@ TEST(Localize, saysThatATruncatedLogWasCovered)
 {
   const TemporaryFolder folder;
   makeBadFile(Damage::truncated, kLabLog, folder / "cut.rawlog");
-  writeConfig(folder, "cut.rawlog");
+  writeLabConfig(folder, "cut.rawlog");
   const CommandResult result = localize(folder);
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_EQ(countLines(result.errors), 1) << result.errors;
@@ -238,7 +224,7 @@ TEST(Localize, leavesOutWhatIsBrokenAndSaysSo)
     log.push_back(makeFrame(scan));
   }
   writeObjects(folder / "broken.rawlog", log);
-  writeConfig(folder, "broken.rawlog");
+  writeLabConfig(folder, "broken.rawlog");
   const CommandResult result = localize(folder);
   EXPECT_EQ(result.exit_code, 0) << result.errors;
   EXPECT_EQ(countLines(result.errors), 1) << result.errors;
@@ -256,7 +242,7 @@ TEST(Localize, takesAScanWithoutAnyValidBeam)
   auto blind = makeScan(1);
   for (std::size_t i = 0; i < blind->getScanSize(); ++i) blind->setScanRangeValidity(i, false);
   writeObjects(folder / "blind.rawlog", {blind});
-  writeConfig(folder, "blind.rawlog");
+  writeLabConfig(folder, "blind.rawlog");
   const CommandResult result = localize(folder);
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.errors, "");
@@ -268,7 +254,7 @@ TEST(Localize, knowsNoDistanceWithoutOdometry)
 {
   const TemporaryFolder folder;
   writeObjects(folder / "still.rawlog", {makeScan(1), makeScan(2), makeScan(3)});
-  writeConfig(folder, "still.rawlog");
+  writeLabConfig(folder, "still.rawlog");
   const CommandResult result = localize(folder);
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_NE(result.output.find("3 steps, distance unknown"), std::string::npos) << result.output;
@@ -331,7 +317,7 @@ std::size_t expectSmallObjects(const mrpt::opengl::CSetOfObjects& objects)
 TEST(Localize, scenesShowTheRobotInStockViewers)
 {
   const TemporaryFolder folder;
-  writeConfig(folder, kLabLog.string());
+  writeLabConfig(folder, kLabLog.string());
   ASSERT_EQ(localize(folder).exit_code, 0);
   mrpt::opengl::COpenGLScene scene;
   ASSERT_TRUE(scene.loadFromFile((folder / "out/3D/step_00037.3Dscene").string()));
@@ -352,9 +338,8 @@ TEST(Localize, scenesShowTheRobotInStockViewers)
 TEST(Localize, writesOnlyTheFiguresWhenAsked)
 {
   const TemporaryFolder folder;
-  writeText(folder / "run.ini", "[LocalizationExperiment]\nmap_file = " + kLabMap.string() +
-                                    "\nrawlog_file = " + kLabLog.string() +
-                                    "\nSAVE_STATS_ONLY = true\n3DSceneFrequency = 5\n");
+  writeConfig(folder, kLabMap.string(), kLabLog.string(),
+              "SAVE_STATS_ONLY = true\n3DSceneFrequency = 5\n");
   for (int i = 0; i < 2; ++i)  // the second replaces the first
   {
     ASSERT_EQ(localize(folder).exit_code, 0);
@@ -374,7 +359,7 @@ TEST(Localize, writesOnlyTheFiguresWhenAsked)
 TEST(Localize, saysThatNothingIsWritten)
 {
   const TemporaryFolder folder;
-  writeConfig(folder, kLabLog.string());
+  writeLabConfig(folder, kLabLog.string());
   const CommandResult result = run(folder, "sigloc-localize", {"run.ini", "--quiet"});
   EXPECT_EQ(result.exit_code, 0) << result.errors;
   EXPECT_NE(result.output.find("\nwritten to              nothing"), std::string::npos)
@@ -388,8 +373,7 @@ TEST(Localize, saysThatAReadyMapIsLoaded)
   ASSERT_EQ(
       run(folder, "sigloc-map", {"build", "-i", kLabMap.string(), "-o", "lab.sigmap"}).exit_code,
       0);
-  writeText(folder / "run.ini", "[LocalizationExperiment]\nmap_file = lab.sigmap\nrawlog_file = " +
-                                    kLabLog.string() + "\n");
+  writeConfig(folder, "lab.sigmap", kLabLog.string());
   const CommandResult result = run(folder, "sigloc-localize", {"run.ini", "--quiet"});
   EXPECT_NE(result.output.find(" features, loaded in "), std::string::npos) << result.output;
 }

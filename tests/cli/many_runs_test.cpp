@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
 #include "command_line.h"
+#include "runs.h"
 
 namespace sigloc
 {
@@ -39,7 +38,7 @@ TEST(ManyRuns, GnuParallelSpreadsThemAndMergePoolsThem)
 
   const auto merged = run(folder, "sigloc-eval", {"merge", "runs/1", "runs/2", "--out", "all"});
   ASSERT_EQ(merged.exit_code, 0) << merged.errors;
-  const auto summary = nlohmann::json::parse(readBytes(folder / "all" / "summary.json"));
+  const auto summary = summaryOf(folder, "all");
   const auto& method = summary.at("methods").at("signature");
   EXPECT_EQ(method.at("queries"), 12);
   ASSERT_EQ(method.at("rows").size(), 2U);

@@ -19,6 +19,7 @@
 #include "command_line.h"
 #include "metres_text.h"
 #include "picture_pixels.h"
+#include "runs.h"
 
 namespace sigloc
 {
@@ -36,11 +37,6 @@ CommandResult check(const TemporaryFolder& folder, const std::filesystem::path& 
   arguments.insert(arguments.end(), kFew.begin(), kFew.end());
   arguments.insert(arguments.end(), more.begin(), more.end());
   return run(folder, "sigloc-map", arguments);
-}
-
-json summaryIn(const TemporaryFolder& folder, const std::string& out)
-{
-  return json::parse(readBytes(folder / (out + "/summary.json")));
 }
 
 /// The rows of a table without quotes, the first with the names left out.
@@ -76,7 +72,7 @@ TEST(MapCheck, anOfficeIsToldToBeEasyInFilesThatAgree)
   ASSERT_EQ(result.exit_code, 0) << result.errors;
   EXPECT_EQ(result.errors, "");
   EXPECT_NE(result.output.find("localized"), std::string::npos);
-  const json summary = summaryIn(folder, "answer");
+  const json summary = summaryOf(folder, "answer");
   EXPECT_GT(summary["recall_at_1"], 0.95);
   EXPECT_GT(summary["localized_share"], 0.7);
   const auto places = rowsOf(readBytes(folder / "answer/places.csv"));
@@ -112,7 +108,7 @@ TEST(MapCheck, asksAtAsManyPlacesAsItIsTold)
                  "-o", "answer"})
                 .exit_code,
             0);
-  EXPECT_EQ(summaryIn(folder, "answer")["places"], 150);
+  EXPECT_EQ(summaryOf(folder, "answer")["places"], 150);
 }
 
 TEST(MapCheck, aMapWhoseNameIsNoUtf8IsCheckedAsOthers)
@@ -121,7 +117,7 @@ TEST(MapCheck, aMapWhoseNameIsNoUtf8IsCheckedAsOthers)
   std::filesystem::copy(kOffice, folder / "\xff.simplemap");
   const CommandResult result = check(folder, "\xff.simplemap", "answer");
   EXPECT_EQ(result.exit_code, 0) << result.errors;
-  EXPECT_EQ(summaryIn(folder, "answer")["places"], 60);
+  EXPECT_EQ(summaryOf(folder, "answer")["places"], 60);
 }
 
 TEST(MapCheck, equalSeedsGiveEqualLists)
@@ -142,7 +138,7 @@ TEST(MapCheck, roomsThatRepeatAreNamedAsTwins)
   const TemporaryFolder folder;
   makeCorridor(folder);
   ASSERT_EQ(check(folder, folder / "corridor/map.simplemap", "answer").exit_code, 0);
-  const json corridor = summaryIn(folder, "answer");
+  const json corridor = summaryOf(folder, "answer");
   EXPECT_LT(corridor["localized_share"], 0.3);
   const auto twins = rowsOf(readBytes(folder / "answer/twins.csv"));
   ASSERT_GE(twins.size(), 10U);
@@ -217,7 +213,7 @@ TEST(MapCheck, aMapsOwnScansTellItsErrors)
   const auto errorsIn = [&](const std::string& name)
   {
     EXPECT_EQ(check(folder, folder / (name + ".simplemap"), name).exit_code, 0);
-    return summaryIn(folder, name)["laser"];
+    return summaryOf(folder, name)["laser"];
   };
   const json exact = errorsIn("exact");
   EXPECT_LT(exact["map_sigma_m"], 0.03);
@@ -233,8 +229,8 @@ TEST(MapCheck, anOldMapIsHarder)
   const std::string old = std::string(SIGLOC_SHARE_FOLDER) + "/check-old-map.ini";
   ASSERT_EQ(check(folder, kOffice, "new").exit_code, 0);
   ASSERT_EQ(check(folder, kOffice, "old", {"--laser", old}).exit_code, 0);
-  EXPECT_LT(summaryIn(folder, "old")["localized_share"].get<double>(),
-            summaryIn(folder, "new")["localized_share"].get<double>() - 0.2);
+  EXPECT_LT(summaryOf(folder, "old")["localized_share"].get<double>(),
+            summaryOf(folder, "new")["localized_share"].get<double>() - 0.2);
 }
 
 TEST(MapCheck, badInputIsRefusedInOneLine)

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "command_line.h"
+#include "runs.h"
 
 namespace sigloc
 {
@@ -97,22 +98,20 @@ TEST(Outputs, aPictureNeverReplacesTheMapsSource)
   }
 }
 
-void writeConfig(const TemporaryFolder& folder, const std::string& rawlog,
-                 const std::string& more = "")
+void writeConfigWithoutPictures(const TemporaryFolder& folder, const std::string& rawlog,
+                                const std::string& more = "")
 {
-  writeText(folder / "run.ini", "[LocalizationExperiment]\nmap_file = " + kLabMap.string() +
-                                    "\nrawlog_file = " + rawlog + "\n" + more +
-                                    "[sigloc.localize]\npictures = false\n");
+  writeConfig(folder, kLabMap.string(), rawlog, more + kNoPictures);
 }
 
 TEST(Outputs, leaveOutTheBeliefOfEachStepWhereTheIniSaysSo)
 {
   const TemporaryFolder folder;
-  writeConfig(folder, kLabLog.string());
-  ASSERT_EQ(run(folder, "sigloc-localize", {"run.ini", "--out", "all", "--quiet"}).exit_code, 0);
+  writeConfigWithoutPictures(folder, kLabLog.string());
+  ASSERT_EQ(localize(folder, "all").exit_code, 0);
   EXPECT_FALSE(fs::is_empty(folder / "all/belief"));
   std::ofstream(folder / "run.ini", std::ios::app) << "beliefs = false\n";
-  ASSERT_EQ(run(folder, "sigloc-localize", {"run.ini", "--out", "less", "--quiet"}).exit_code, 0);
+  ASSERT_EQ(localize(folder, "less").exit_code, 0);
   EXPECT_TRUE(fs::is_empty(folder / "less/belief"));
   EXPECT_EQ(readBytes(folder / "less/steps.csv"), readBytes(folder / "all/steps.csv"));
 }
@@ -120,13 +119,13 @@ TEST(Outputs, leaveOutTheBeliefOfEachStepWhereTheIniSaysSo)
 TEST(Outputs, aRunNeverReplacesTheLogItReads)
 {
   const TemporaryFolder folder;
-  writeConfig(folder, kLabLog.string());
-  ASSERT_EQ(run(folder, "sigloc-localize", {"run.ini", "--out", "out", "--quiet"}).exit_code, 0);
-  writeConfig(folder, "out/annotated.rawlog");
+  writeConfigWithoutPictures(folder, kLabLog.string());
+  ASSERT_EQ(localize(folder).exit_code, 0);
+  writeConfigWithoutPictures(folder, "out/annotated.rawlog");
   expectUntouched(folder, "sigloc-localize", {"run.ini", "--out", "out"}, "annotated.rawlog");
   // If one of several runs would replace a file, none starts.
   fs::rename(folder / "out", folder / "more_001");
-  writeConfig(folder, "more_001/annotated.rawlog", "experimentRepetitions = 2\n");
+  writeConfigWithoutPictures(folder, "more_001/annotated.rawlog", "experimentRepetitions = 2\n");
   expectUntouched(folder, "sigloc-localize", {"run.ini", "--out", "more"}, "annotated.rawlog");
 }
 
@@ -135,11 +134,10 @@ TEST(Outputs, aRunFillsAFolderThatSomethingIsMountedOn)
   const TemporaryFolder folder;
   fs::create_directory(folder / "out");
   if (runShell(folder, "mount -t tmpfs none out").exit_code != 0) GTEST_SKIP() << "cannot mount";
-  writeConfig(folder, kLabLog.string());
+  writeConfigWithoutPictures(folder, kLabLog.string());
   for (const char* const which : {"an empty one", "one with an earlier run"})
   {
-    EXPECT_EQ(run(folder, "sigloc-localize", {"run.ini", "--out", "out", "--quiet"}).exit_code, 0)
-        << which;
+    EXPECT_EQ(localize(folder).exit_code, 0) << which;
     EXPECT_TRUE(fs::exists(folder / "out/summary.json")) << which;
     EXPECT_FALSE(fs::exists(folder / "out/.partial")) << which;
   }
@@ -149,7 +147,7 @@ TEST(Outputs, aRunFillsAFolderThatSomethingIsMountedOn)
 TEST(Outputs, aFolderWithFilesNamedLikeARunsIsNoRun)
 {
   const TemporaryFolder folder;
-  writeConfig(folder, kLabLog.string());
+  writeConfigWithoutPictures(folder, kLabLog.string());
   fs::create_directory(folder / "out");
   writeText(folder / "out/steps.csv", "1,2,3\n");
   expectUntouched(folder, "sigloc-localize", {"run.ini", "--out", "out"}, "/out: ");

@@ -5,10 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "command_line.h"
+#include "runs.h"
 
 namespace sigloc
 {
@@ -16,16 +16,12 @@ namespace
 {
 using namespace sigloc::test;
 
-constexpr std::ptrdiff_t kLabSteps = 37;
-
 /// Runs in `folder` on the lab's log with more keys in [LocalizationExperiment].
-CommandResult localize(const TemporaryFolder& folder, const std::string& keys,
-                       const std::string& out = "out")
+CommandResult localizeWithKeys(const TemporaryFolder& folder, const std::string& keys,
+                               const std::string& out = "out")
 {
-  writeText(folder / "run.ini", "[LocalizationExperiment]\nmap_file = " + kLabMap.string() +
-                                    "\nrawlog_file = " + kLabLog.string() + "\n" + keys +
-                                    "\n[sigloc.localize]\npictures = false\n");
-  return run(folder, "sigloc-localize", {"run.ini", "--out", out, "--quiet"});
+  writeConfig(folder, kLabMap.string(), kLabLog.string(), keys + "\n" + kNoPictures);
+  return localize(folder, out);
 }
 
 std::vector<std::vector<double>> numbersIn(const std::filesystem::path& path)
@@ -42,18 +38,13 @@ std::vector<std::vector<double>> numbersIn(const std::filesystem::path& path)
   return rows;
 }
 
-nlohmann::json summaryOf(const TemporaryFolder& folder)
-{
-  return nlohmann::json::parse(readBytes(folder / "out/summary.json"));
-}
-
 TEST(PfLocalizationParity, writesTheFilesOfItsLogFolder)
 {
   const TemporaryFolder folder;
   writeText(folder / "gt.txt", "36 15.90 -10.01 0.0855\n");
-  ASSERT_EQ(localize(folder,
-                     "ground_truth_path_file = gt.txt\n3DSceneFrequency = 10\n"
-                     "initial_odo_x = 5\ninitial_odo_y = 1\n")
+  ASSERT_EQ(localizeWithKeys(folder,
+                             "ground_truth_path_file = gt.txt\n3DSceneFrequency = 10\n"
+                             "initial_odo_x = 5\ninitial_odo_y = 1\n")
                 .exit_code,
             0);
   for (const char* const name : {"cov_est.txt", "odo_est.txt", "GT_error.txt", "ODO_error.txt",
@@ -83,7 +74,7 @@ TEST(PfLocalizationParity, writesTheFilesOfItsLogFolder)
 TEST(PfLocalizationParity, writesNoErrorsWithoutATruth)
 {
   const TemporaryFolder folder;
-  ASSERT_EQ(localize(folder, "").exit_code, 0);
+  ASSERT_EQ(localizeWithKeys(folder, "").exit_code, 0);
   for (const char* const name : {"GT_error.txt", "ODO_error.txt"})
   {
     const auto file = folder / ("out/" + std::string(name));
@@ -97,12 +88,12 @@ TEST(PfLocalizationParity, testsConvergenceWhereItIsTold)
   const TemporaryFolder folder;
   writeText(folder / "gt.txt", "36 15.90 -10.01 0.0855\n");
   const std::string keys = "ground_truth_path_file = gt.txt\nexperimentTestConvergenceAtStep = ";
-  ASSERT_EQ(localize(folder, keys + "36\n").exit_code, 0);
+  ASSERT_EQ(localizeWithKeys(folder, keys + "36\n").exit_code, 0);
   EXPECT_EQ(summaryOf(folder)["converged"], true);
   EXPECT_EQ(numbersIn(folder / "out/_SUMMARY.txt")[0][0], 1.0);
 
   writeText(folder / "gt.txt", "20 0 0 0\n");  // not where it is
-  ASSERT_EQ(localize(folder, keys + "20\nrawlog_offset = 5\n").exit_code, 0);
+  ASSERT_EQ(localizeWithKeys(folder, keys + "20\nrawlog_offset = 5\n").exit_code, 0);
   EXPECT_EQ(summaryOf(folder)["converged"], false);
   EXPECT_EQ(summaryOf(folder)["steps"], 16) << "steps 5 to 20 of the log";
 }
@@ -110,11 +101,12 @@ TEST(PfLocalizationParity, testsConvergenceWhereItIsTold)
 TEST(PfLocalizationParity, repetitionsAreIndependentAndComplete)
 {
   const TemporaryFolder folder;
-  ASSERT_EQ(localize(folder,
-                     "experimentRepetitions = 2\ntracker = particles\nparticles_count = 100 150\n"
-                     "rawlog_offset = 2\n")
-                .exit_code,
-            0);
+  ASSERT_EQ(
+      localizeWithKeys(folder,
+                       "experimentRepetitions = 2\ntracker = particles\nparticles_count = 100 150\n"
+                       "rawlog_offset = 2\n")
+          .exit_code,
+      0);
   for (const char* const name :
        {"out_000_0000100", "out_001_0000100", "out_000_0000150", "out_001_0000150"})
   {
@@ -132,7 +124,7 @@ TEST(PfLocalizationParity, neverReplacesAForeignSummary)
 {
   const TemporaryFolder folder;
   writeText(folder / "out_SUMMARY.txt", "mine\n");
-  const CommandResult result = localize(folder, "experimentRepetitions = 2\n");
+  const CommandResult result = localizeWithKeys(folder, "experimentRepetitions = 2\n");
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_NE(result.errors.find("not overwritten"), std::string::npos) << result.errors;
   EXPECT_EQ(readBytes(folder / "out_SUMMARY.txt"), "mine\n");
@@ -145,11 +137,11 @@ TEST(PfLocalizationParity, writesIntoAFolderWithNothingBesideIt)
 {
   const TemporaryFolder folder;
   const std::string name(250, 'o');
-  EXPECT_EQ(localize(folder, "", name).exit_code, 1) << "the folder would have to be made";
+  EXPECT_EQ(localizeWithKeys(folder, "", name).exit_code, 1) << "the folder would have to be made";
   std::filesystem::create_directory(folder / name);
   for (int i = 0; i < 2; ++i)  // the second replaces the first
   {
-    const CommandResult result = localize(folder, "", name);
+    const CommandResult result = localizeWithKeys(folder, "", name);
     EXPECT_EQ(result.exit_code, 0) << result.errors;
     EXPECT_EQ(countLines(readBytes((folder / name) / "odo_est.txt")), kLabSteps);
     EXPECT_TRUE(std::filesystem::exists((folder / name) / "_SUMMARY.txt"));
@@ -160,7 +152,7 @@ TEST(PfLocalizationParity, writesIntoAFolderWithNothingBesideIt)
 TEST(PfLocalizationParity, everythingThatARunWritesLiesInItsFolder)
 {
   const TemporaryFolder folder;
-  ASSERT_EQ(localize(folder, "").exit_code, 0);
+  ASSERT_EQ(localizeWithKeys(folder, "").exit_code, 0);
   for (const std::string& path : listing(folder))
   {
     const std::string name = std::filesystem::relative(path, folder.path()).begin()->string();
@@ -180,7 +172,7 @@ TEST(PfLocalizationParity, aRunNeedsNoCache)
 {
   const TemporaryFolder folder;
   writeText(cacheFor(folder), "a file where the folder would be");
-  const CommandResult result = localize(folder, "");
+  const CommandResult result = localizeWithKeys(folder, "");
   EXPECT_EQ(result.exit_code, 0) << result.errors;
   EXPECT_EQ(summaryOf(folder)["map_reused"], false);
 }
@@ -188,7 +180,7 @@ TEST(PfLocalizationParity, aRunNeedsNoCache)
 TEST(PfLocalizationParity, refusesAnEmptyOutputFolder)
 {
   const TemporaryFolder folder;
-  const CommandResult result = localize(folder, "", "");
+  const CommandResult result = localizeWithKeys(folder, "", "");
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_EQ(result.errors, "sigloc-localize: --out is empty\n");
 }

@@ -4,6 +4,7 @@
 
 #include "command_line.h"
 #include "picture_pixels.h"
+#include "runs.h"
 #include "sigloc/plugin/map_drawing.h"
 
 namespace sigloc
@@ -26,10 +27,8 @@ int legendPixels(const TemporaryFolder& folder, const std::string& step,
 
 CommandResult localizeInLab(const TemporaryFolder& folder, const std::string& keys)
 {
-  writeText(folder / "run.ini", "[LocalizationExperiment]\nmap_file = " + kLabMap.string() +
-                                    "\nrawlog_file = " + kLabLog.string() +
-                                    "\n[sigloc.localize]\n" + keys);
-  return run(folder, "sigloc-localize", {"run.ini", "--out", "out", "--quiet"});
+  writeConfig(folder, kLabMap.string(), kLabLog.string(), "[sigloc.localize]\n" + keys);
+  return localize(folder);
 }
 
 TEST(PictureLegend, hasTheColorsBetweenWhichHypothesesAre)

@@ -5,11 +5,11 @@
 // Their folder has the map and the log of a newcomer, and the ini files of the page.
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "command_line.h"
 #include "office_image.h"
+#include "runs.h"
 
 namespace sigloc
 {
@@ -115,7 +115,7 @@ TEST(Readme, itsCommandsDoWhatItSays)
   EXPECT_EQ(readBytes(folder / "my_map.png").substr(1, 3), "PNG");
   EXPECT_EQ(readBytes(folder / "check/check.png").substr(1, 3), "PNG");
   EXPECT_EQ(readBytes(folder / "align.png").substr(1, 3), "PNG");
-  const auto summary = nlohmann::json::parse(readBytes(folder / "answer/summary.json"));
+  const auto summary = summaryOf(folder, "answer");
   EXPECT_EQ(summary["final_verdict"], "localized");
   for (const char* const name : {"report.html", "path.tum", "path_unsure.tum", "annotated.rawlog",
                                  "steps.csv", "pictures", "3D", "belief"})

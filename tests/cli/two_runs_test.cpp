@@ -11,11 +11,11 @@
 #include <csignal>
 #include <cstdlib>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <thread>
 
 #include "command_line.h"
+#include "runs.h"
 
 namespace sigloc
 {
@@ -99,7 +99,7 @@ int writeIni(const TemporaryFolder& folder, const std::string& name, int offset)
 /// Expects all files of a run with so many steps, and nothing else in the test's folder.
 void expectWhole(const TemporaryFolder& folder, int steps)
 {
-  const auto summary = nlohmann::json::parse(readBytes(folder / "out/summary.json"));
+  const auto summary = summaryOf(folder);
   EXPECT_EQ(summary.at("steps"), steps);
   EXPECT_EQ(filesBelow(folder / "out/belief"), static_cast<std::size_t>(2 * steps));
   EXPECT_EQ(countLines(readBytes(folder / "out/steps.csv")), steps + 1);

@@ -16,6 +16,7 @@
 #include <sstream>
 
 #include "command_line.h"
+#include "runs.h"
 #include "sigloc/matching/RelocationResult.h"
 
 namespace sigloc
@@ -26,19 +27,17 @@ using namespace sigloc::test;
 using nlohmann::json;
 
 constexpr double kSureSigma = 0.5;  // [m] a pose may be taken for sure below
-constexpr std::ptrdiff_t kSteps = 202;
+constexpr std::ptrdiff_t kOfficeSteps = 202;
 
 class UnsurePoses : public testing::Test
 {
  protected:
   void SetUp() override
   {
-    writeText(folder_ / "run.ini",
-              "[LocalizationExperiment]\nmap_file = " + kLabMap.string() +
-                  "\nrawlog_file = " + (kSources / "rawlogs/office.rawlog").string() + "\n");
-    result_ = run(folder_, "sigloc-localize", {"run.ini", "--out", "out", "--quiet"});
+    writeConfig(folder_, kLabMap.string(), (kSources / "rawlogs/office.rawlog").string());
+    result_ = localize(folder_);
     ASSERT_EQ(result_.exit_code, 0) << result_.errors;
-    const json summary = json::parse(readBytes(folder_ / "out/summary.json"));
+    const json summary = summaryOf(folder_);
     ASSERT_EQ(summary["localized_steps"], 0) << "the premise of these tests";
   }
 
@@ -96,7 +95,7 @@ TEST_F(UnsurePoses, theRawlogLabelsThemAndKeepsThemWide)
     ++beliefs;
   }
   EXPECT_GT(poses, 100U);
-  EXPECT_EQ(beliefs, kSteps);
+  EXPECT_EQ(beliefs, kOfficeSteps);
 }
 
 TEST_F(UnsurePoses, thePathHoldsNoneOfThem)
@@ -116,7 +115,7 @@ TEST_F(UnsurePoses, pfLocalizationsFilesShowHowWideTheBeliefIs)
     const double volume = std::stod(row);
     EXPECT_TRUE(std::isnan(volume) || volume > kSureVolume) << count << ": " << row;
   }
-  EXPECT_EQ(count, kSteps);
+  EXPECT_EQ(count, kOfficeSteps);
 }
 
 TEST_F(UnsurePoses, theBeliefFilesHoldSomewhereElse)
@@ -134,7 +133,7 @@ TEST_F(UnsurePoses, theBeliefFilesHoldSomewhereElse)
     EXPECT_GT(std::sqrt(covariance(0, 0) + covariance(1, 1)), kSureSigma) << entry.path();
     ++count;
   }
-  EXPECT_EQ(count, kSteps);
+  EXPECT_EQ(count, kOfficeSteps);
 }
 
 TEST_F(UnsurePoses, theTerminalAndTheSummarySayWhy)
@@ -142,7 +141,7 @@ TEST_F(UnsurePoses, theTerminalAndTheSummarySayWhy)
   EXPECT_NE(result_.output.find("NOT LOCALIZED: "), std::string::npos) << result_.output;
   EXPECT_NE(result_.output.find("\nwhy not sure "), std::string::npos) << result_.output;
   EXPECT_NE(result_.output.find("0 of 202 steps, 0.0 of 45."), std::string::npos) << result_.output;
-  const json summary = json::parse(text("summary.json"));
+  const json summary = summaryOf(folder_);
   EXPECT_TRUE(summary["confidently_wrong_steps"].is_null()) << "no truth was given";
   EXPECT_NE(summary["final_verdict"], "localized");
   EXPECT_LT(summary["final_pose"].is_null() ? 0.0 : summary["final_pose_probability"].get<double>(),
@@ -162,7 +161,7 @@ TEST(PoseInBrackets, isHowProbableTheFirstPoseIs)
         run(folder, "sigloc-localize",
             {"--map", map.string(), "--log", kLabLog.string(), "--out", "out", "--quiet"});
     ASSERT_EQ(result.exit_code, 0) << result.errors;
-    const json summary = json::parse(readBytes(folder / "out/summary.json"));
+    const json summary = summaryOf(folder);
     std::string expected = summary["final_verdict"];
     expected = (expected == "localized" ? "" : "NOT LOCALIZED: ") + expected;
     if (summary["final_pose"].is_null())

@@ -34,7 +34,7 @@ OccupancyRaster rasterOfRoom()
   return raster;
 }
 
-void requireLaws(const GaussianPose& pose)
+void requireLawsOfPose(const GaussianPose& pose)
 {
   require(std::isfinite(pose.mean.x) && std::isfinite(pose.mean.y), "a place that is no number");
   require(std::abs(pose.mean.phi) <= M_PI + 1e-9, "a heading beyond half a turn");
@@ -97,7 +97,7 @@ void requireLaws(const Belief& belief)
   double sum = belief.elsewhere;
   for (const TrackedHypothesis& hypothesis : belief.hypotheses)
   {
-    requireLaws(hypothesis.pose);
+    requireLawsOfPose(hypothesis.pose);
     require(isShare(hypothesis.weight), "a weight outside [0, 1]");
     require(hypothesis.weight <= belief.hypotheses.front().weight, "the first is not the best");
     sum += hypothesis.weight;
@@ -118,7 +118,7 @@ void requireLaws(const RelocationResult& result)
   double sum = result.elsewhere;
   for (const Candidate& candidate : result.candidates)
   {
-    requireLaws(candidate.pose);
+    requireLawsOfPose(candidate.pose);
     for (const double share :
          {candidate.probability, candidate.explained, candidate.through_wall, candidate.in_free})
     {

@@ -117,21 +117,21 @@ TEST(SimulatedTrack, CarriesTheRobotToAnotherPlace)
   EXPECT_GE(run.steps.back().travelled, 1.9 * options.travel);
 }
 
-struct Outcome
+struct DriveCounts
 {
   std::size_t right = 0;
   std::size_t wrong = 0;  ///< drives with a wrong claim
 };
 
-Outcome outcomeOf(const SimulatedTrackOptions& options)
+DriveCounts countsOf(const SimulatedTrackOptions& options)
 {
-  Outcome outcome;
+  DriveCounts counts;
   for (const Wakeup& run : runsOf(options))
   {
-    outcome.right += run.right_at_end;
-    outcome.wrong += run.wrong_steps > 0;
+    counts.right += run.right_at_end;
+    counts.wrong += run.wrong_steps > 0;
   }
-  return outcome;
+  return counts;
 }
 
 TEST(SimulatedTrack, IsSeldomConfidentInForeignMaps)
@@ -142,7 +142,7 @@ TEST(SimulatedTrack, IsSeldomConfidentInForeignMaps)
   options.travel = 10;
   options.threads = 2;
   options.foreign = true;
-  EXPECT_LE(outcomeOf(options).wrong, 1U);
+  EXPECT_LE(countsOf(options).wrong, 1U);
 }
 
 TEST(SimulatedTrack, FindsTheRobotThroughClutter)
@@ -154,9 +154,9 @@ TEST(SimulatedTrack, FindsTheRobotThroughClutter)
   options.travel = 10;
   options.threads = 2;
   options.clutter_share = 0.3;
-  const Outcome outcome = outcomeOf(options);
-  EXPECT_GE(outcome.right, 14U);
-  EXPECT_EQ(outcome.wrong, 0U);
+  const DriveCounts counts = countsOf(options);
+  EXPECT_GE(counts.right, 14U);
+  EXPECT_EQ(counts.wrong, 0U);
 }
 
 // In corridors of look-alikes few features come into view that only the right pose explains. There
@@ -172,13 +172,13 @@ TEST(SimulatedTrack, BelievesWhatItHasFollowedForLongAmongMovedFurniture)
   options.method.seed = 2;
   options.moved_share = 0.5;
   options.threads = 2;
-  const Outcome few = outcomeOf(options);
+  const DriveCounts few = countsOf(options);
   EXPECT_GE(few.right, 17U);
   EXPECT_EQ(few.wrong, 0U);
   options.drives = 200;
   options.drives_per_world = 2;
   options.method.seed = 501;
-  const Outcome many = outcomeOf(options);
+  const DriveCounts many = countsOf(options);
   EXPECT_GE(many.right, 163U);
   EXPECT_LE(many.wrong, 2U);
 }
@@ -193,9 +193,9 @@ TEST(SimulatedTrack, FollowsARobotWithoutOdometryThroughItsTurns)
   options.travel = 10;
   options.threads = 2;
   options.odometry = false;
-  const Outcome outcome = outcomeOf(options);
-  EXPECT_GE(outcome.right, 15U);
-  EXPECT_EQ(outcome.wrong, 0U);
+  const DriveCounts counts = countsOf(options);
+  EXPECT_GE(counts.right, 15U);
+  EXPECT_EQ(counts.wrong, 0U);
 }
 
 /// The squared normalised error of right claims, 3 expected.

@@ -9,11 +9,13 @@
 #include "matching/keypoints/KeyPairSearch.h"
 #include "support/simulated_office.h"
 
-namespace sigloc::test
+namespace sigloc
 {
 namespace
 {
 using mrpt::math::TPose2D;
+using test::MappedWorld;
+using test::officeWorld;
 
 constexpr std::size_t kAll = 100000;  // proposals
 
@@ -172,4 +174,4 @@ TEST(KeyPairLaws, BuildingIsDeterministic)
   }
 }
 }  // namespace
-}  // namespace sigloc::test
+}  // namespace sigloc

@@ -23,7 +23,7 @@ using mrpt::math::TPose2D;
 
 const std::filesystem::path kSource = SIGLOC_SOURCE_DIR;
 constexpr std::size_t kParticles = 300;
-constexpr std::uint32_t kSeed = 11;
+constexpr std::uint32_t kFilterSeed = 11;
 
 /// The simulated office, its drive with truth, and MRPT's executor.
 struct Office
@@ -34,7 +34,7 @@ struct Office
         std::make_shared<SignatureMap>(buildMapFromFile(kSource / "maps/office.simplemap", {}, {}));
     RawlogReader log(kSource / "rawlogs/office.rawlog");
     while (auto step = log.next()) steps.push_back(std::move(*step));
-    mrpt::random::getRandomGenerator() = mrpt::random::CRandomGenerator(kSeed);
+    mrpt::random::getRandomGenerator() = mrpt::random::CRandomGenerator(kFilterSeed);
   }
 
   TPose2D truthAt(std::size_t step) const { return truth.at(step, steps[step].time).value(); }
@@ -180,16 +180,16 @@ TEST(ParticleTracker, IsAFunctionOfItsSeed)
     for (std::size_t i = 0; i < 15; ++i) tracker.step(office.steps[i]);
     return tracker.filter().belief().hypotheses.front().pose.mean;
   };
-  const TPose2D first = endOf(kSeed);
-  EXPECT_EQ(first, endOf(kSeed));
-  EXPECT_NE(first, endOf(kSeed + 1));
+  const TPose2D first = endOf(kFilterSeed);
+  EXPECT_EQ(first, endOf(kFilterSeed));
+  EXPECT_NE(first, endOf(kFilterSeed + 1));
 }
 
 TEST(ParticleTracker, FollowsWithoutOdometry)
 {
   const Office office;
   const auto matcher = std::make_shared<const SignatureMatcher>(office.map->featureMap());
-  ParticleTracker tracker(office.map, matcher, {}, {}, kSeed);
+  ParticleTracker tracker(office.map, matcher, {}, {}, kFilterSeed);
   constexpr std::size_t kEnd = 30;
   for (std::size_t i = 0; i <= kEnd; ++i)
   {
@@ -219,7 +219,7 @@ TEST(ParticleTracker, SeesFeaturesAsItIsTold)
   {
     FeatureExtractorOptions extraction;
     extraction.min_segment_length = min_segment_length;
-    ParticleTracker tracker(office.map, matcher, {}, {}, kSeed, extraction);
+    ParticleTracker tracker(office.map, matcher, {}, {}, kFilterSeed, extraction);
     tracker.step(office.steps[0]);
     const Belief& belief = tracker.filter().belief();
     return belief.hypotheses.empty() ? TPose2D() : belief.hypotheses.front().pose.mean;

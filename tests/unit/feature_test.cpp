@@ -25,7 +25,7 @@ void expectNear(const TPoint2D& actual, const TPoint2D& expected)
 }
 
 /// A wall across the x axis at x = 2, 3 m long, free space on the side of the origin.
-Feature wallAhead()
+Feature wallAcrossX()
 {
   Feature wall;
   wall.type = FeatureType::segment;
@@ -45,7 +45,7 @@ Feature wallAhead()
 
 TEST(Feature, segmentRunsFromTheEndThatACounterClockwiseScanSeesFirst)
 {
-  const Feature wall = wallAhead();
+  const Feature wall = wallAcrossX();
   expectNear(directionVector(wall), {-1.0, 0.0});
   expectNear(tangentVector(wall), {0.0, 1.0});
   expectNear(segmentStart(wall), {2.0, -1.0});
@@ -57,12 +57,12 @@ TEST(Feature, segmentRunsFromTheEndThatACounterClockwiseScanSeesFirst)
 
 TEST(Feature, lineDistanceIsNegativeForAnObserverInTheFreeSpace)
 {
-  EXPECT_NEAR(lineDistance(wallAhead()), -2.0, kTolerance);
+  EXPECT_NEAR(lineDistance(wallAcrossX()), -2.0, kTolerance);
 }
 
 TEST(Feature, transformedMovesThePlaceAndTurnsDirectionAndCovariance)
 {
-  const Feature wall = wallAhead();
+  const Feature wall = wallAcrossX();
   const Feature turned = transformed(TPose2D(1.0, 2.0, kPi / 2), wall);
   expectNear(turned.position, {0.5, 4.0});
   EXPECT_NEAR(turned.direction, -kPi / 2, kTolerance) << "wrapped";
@@ -93,7 +93,7 @@ TEST(Feature, transformingIsAnActionOfTheGroupOfPoses)
   const auto random_pose = [&] { return TPose2D(metres(random), metres(random), radians(random)); };
   for (int run = 0; run < 200; ++run)
   {
-    Feature feature = wallAhead();
+    Feature feature = wallAcrossX();
     feature.position = {metres(random), metres(random)};
     feature.direction = radians(random);
     const TPose2D b_from_a = random_pose();

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "matching/keypoints/KeyPairSearch.h"
+#include "support/wall_between.h"
 
 namespace sigloc
 {
@@ -16,21 +17,9 @@ namespace
 using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
 using mrpt::math::wrapToPi;
+using test::wallBetween;
 
 constexpr double kGate = 7.879;
-
-Feature wall(const TPoint2D& start, const TPoint2D& end)
-{
-  Feature feature;
-  feature.type = FeatureType::segment;
-  const TPoint2D way = end - start;
-  feature.position = (start + end) * 0.5;
-  feature.direction = std::atan2(way.y, way.x) + M_PI / 2;
-  feature.size = way.norm();
-  feature.position_covariance(0, 0) = feature.position_covariance(1, 1) = 1e-4;
-  feature.direction_variance = 1e-4;
-  return feature;
-}
 
 KeyPoint randomKeyPoint(std::mt19937_64& random, double side)
 {
@@ -161,7 +150,7 @@ TEST(KeyPairIndex, HoldsNothingOfAnEmptyMap)
 {
   const KeyPairIndex index({}, {});
   EXPECT_EQ(index.size(), 0U);
-  KeyPairSearch search(index, {wall({0, 1}, {2, 1}), wall({2, 1}, {2, -1})});
+  KeyPairSearch search(index, {wallBetween({0, 1}, {2, 1}), wallBetween({2, 1}, {2, -1})});
   EXPECT_TRUE(search.next(100).empty());
   EXPECT_TRUE(search.finished());
 }
@@ -169,7 +158,8 @@ TEST(KeyPairIndex, HoldsNothingOfAnEmptyMap)
 TEST(KeyPoints, CrossingLiesOnBothLines)
 {
   const std::vector<KeyPoint> points =
-      observedKeyPoints({wall({-3, 2}, {1, 2}), wall({3, 0}, {3, -4}), wall({0, -3}, {1, -3.2})});
+      observedKeyPoints({wallBetween({-3, 2}, {1, 2}), wallBetween({3, 0}, {3, -4}),
+                         wallBetween({0, -3}, {1, -3.2})});
   // The third wall is too far from the first one's end, and crosses the second one.
   const auto at = [&](double x, double y)
   {
@@ -188,7 +178,8 @@ TEST(KeyPoints, CrossingHasTheCovarianceOfItsWalls)
   constexpr std::uint64_t kSeed = 7;
   std::mt19937_64 random(kSeed);
   std::normal_distribution<double> noise(0, 1);
-  const std::vector<Feature> walls = {wall({-3, 2}, {1, 2.3}), wall({2, 1}, {2.5, -3})};
+  const std::vector<Feature> walls = {wallBetween({-3, 2}, {1, 2.3}),
+                                      wallBetween({2, 1}, {2.5, -3})};
   const std::vector<KeyPoint> points = observedKeyPoints(walls);
   ASSERT_EQ(points.size(), 1U);
   const KeyPoint& crossing = points.front();

@@ -8,28 +8,13 @@
 #include <cmath>
 
 #include "sigloc/map/FeatureMap.h"
+#include "support/wall_between.h"
 
 namespace sigloc
 {
 namespace
 {
-using mrpt::math::TPoint2D;
-
-/// Returns a wall from start to end, with the free space on its left.
-Feature wall(const TPoint2D& start, const TPoint2D& end)
-{
-  const TPoint2D along = end - start;
-  Feature segment;
-  segment.type = FeatureType::segment;
-  segment.position = (start + end) * 0.5;
-  segment.direction = std::atan2(along.y, along.x) + M_PI / 2;
-  segment.size = along.norm();
-  segment.position_covariance.setIdentity();
-  segment.position_covariance *= 1e-4;
-  segment.direction_variance = 1e-4;
-  segment.size_variance = 1e-4;
-  return segment;
-}
+using test::wallBetween;
 
 bool anyAtOrigin(const std::vector<PoseProposal>& proposals)
 {
@@ -45,16 +30,18 @@ TEST(PoseProposer, SlidesAParallelWallWhereTheLongestIsMappedFromItsOtherSide)
 {
   // The robot looks at a thin wall on its right and at a shorter one farther off, parallel to it.
   // The mapping robot saw the first from behind.
-  const PoseProposer proposer(FeatureMap({wall({2, -1.1}, {-2, -1.1}), wall({-4, -5}, {4, -5})}));
-  const std::vector<Feature> observed = {wall({-1.5, -1}, {1.5, -1}), wall({-1, -5}, {1, -5})};
+  const PoseProposer proposer(
+      FeatureMap({wallBetween({2, -1.1}, {-2, -1.1}), wallBetween({-4, -5}, {4, -5})}));
+  const std::vector<Feature> observed = {wallBetween({-1.5, -1}, {1.5, -1}),
+                                         wallBetween({-1, -5}, {1, -5})};
   EXPECT_TRUE(anyAtOrigin(proposer.proposeFurther(observed)));
 }
 
 TEST(PoseProposer, SlidesPiecesOfOneWallOnce)
 {
-  const PoseProposer proposer(FeatureMap({wall({-8, -5}, {8, -5})}));
-  const std::vector<Feature> one = {wall({-3, -5}, {0, -5})};
-  const std::vector<Feature> two = {one.front(), wall({1, -5}, {3, -5})};
+  const PoseProposer proposer(FeatureMap({wallBetween({-8, -5}, {8, -5})}));
+  const std::vector<Feature> one = {wallBetween({-3, -5}, {0, -5})};
+  const std::vector<Feature> two = {one.front(), wallBetween({1, -5}, {3, -5})};
   // The longest is slid before.
   EXPECT_TRUE(proposer.proposeFurther(one).empty());
   EXPECT_TRUE(proposer.proposeFurther(two).empty());

@@ -8,20 +8,13 @@
 #include <cmath>
 #include <vector>
 
+#include "support/wall_between.h"
+
 namespace sigloc
 {
 namespace
 {
-/// A wall from one point to another [m], seen from its left.
-Feature wallBetween(const mrpt::math::TPoint2D& start, const mrpt::math::TPoint2D& end)
-{
-  Feature wall;
-  wall.type = FeatureType::segment;
-  wall.position = (start + end) * 0.5;
-  wall.size = (end - start).norm();
-  wall.direction = std::atan2(end.y - start.y, end.x - start.x) + M_PI / 2;
-  return wall;
-}
+using test::wallBetween;
 
 /// Chords of the circle of a radius [m] around (1, 2), each over `step` [rad], as seen from inside,
 /// where `step` is negative from outside.

@@ -17,7 +17,7 @@ constexpr std::uint32_t kSide = 200;  // [cells] of 5 cm
 constexpr std::size_t kWallAt = 180;  // column of a wall across the whole raster
 
 /// Free space with a wall at x = 9.025 m. What is left of x = 1 m is unknown.
-DenseField wallAhead(CellState wall = CellState::solid_wall, CellState behind = CellState::free)
+DenseField fieldWithWall(CellState wall = CellState::solid_wall, CellState behind = CellState::free)
 {
   OccupancyRaster raster;
   raster.frame = {{0, 0}, 0.05, kSide, kSide};
@@ -69,7 +69,7 @@ double shareOfReturns(const ScanSimulator& simulator, const Test& test)
 
 TEST(ScanSimulator, withoutErrorsBeamsEndOnTheRidgeOfTheWall)
 {
-  const DenseField field = wallAhead();
+  const DenseField field = fieldWithWall();
   const ScanSimulator simulator(field, exactLaser());
   EXPECT_EQ(shareOfReturns(simulator, [](bool valid, double ahead)
                            { return valid && std::abs(ahead - 5.0) < 0.02; }),
@@ -78,7 +78,7 @@ TEST(ScanSimulator, withoutErrorsBeamsEndOnTheRidgeOfTheWall)
 
 TEST(ScanSimulator, equalSeedsGiveEqualScansAndOthersDoNot)
 {
-  const DenseField field = wallAhead();
+  const DenseField field = fieldWithWall();
   const ScanSimulator simulator(field, {});
   EXPECT_EQ(simulator.scan(kPose, kSeed).ranges, simulator.scan(kPose, kSeed).ranges);
   EXPECT_NE(simulator.scan(kPose, kSeed).ranges, simulator.scan(kPose, kSeed + 1).ranges);
@@ -86,7 +86,7 @@ TEST(ScanSimulator, equalSeedsGiveEqualScansAndOthersDoNot)
 
 TEST(ScanSimulator, clutterEndsItsShareOfTheBeamsBeforeTheWall)
 {
-  const DenseField field = wallAhead();
+  const DenseField field = fieldWithWall();
   SimulatedLaserOptions laser = exactLaser();
   laser.clutter_share = 0.2;
   EXPECT_NEAR(shareOfReturns(ScanSimulator(field, laser),
@@ -96,7 +96,7 @@ TEST(ScanSimulator, clutterEndsItsShareOfTheBeamsBeforeTheWall)
 
 TEST(ScanSimulator, beamsGoOnWhereAMappedObjectIsGone)
 {
-  const DenseField field = wallAhead();
+  const DenseField field = fieldWithWall();
   SimulatedLaserOptions laser = exactLaser();
   laser.moved_share = 0.2;
   // Behind the wall the raster ends without another one.
@@ -107,7 +107,7 @@ TEST(ScanSimulator, beamsGoOnWhereAMappedObjectIsGone)
 
 TEST(ScanSimulator, rarelyHitWallsStopBeamsInTheirShareOfTheDirections)
 {
-  const DenseField field = wallAhead(CellState::wall);
+  const DenseField field = fieldWithWall(CellState::wall);
   SimulatedLaserOptions laser = exactLaser();
   laser.thin_share = 0.4;
   EXPECT_NEAR(shareOfReturns(ScanSimulator(field, laser), [](bool valid, double) { return valid; }),
@@ -116,7 +116,7 @@ TEST(ScanSimulator, rarelyHitWallsStopBeamsInTheirShareOfTheDirections)
 
 TEST(ScanSimulator, rarelyHitWallsBeforeUnknownSpaceStopEveryBeam)
 {
-  const DenseField field = wallAhead(CellState::wall, CellState::unknown);
+  const DenseField field = fieldWithWall(CellState::wall, CellState::unknown);
   SimulatedLaserOptions laser = exactLaser();
   laser.thin_share = 0.4;
   laser.unknown_range = 1000;
@@ -130,7 +130,7 @@ TEST(ScanSimulator, rarelyHitWallsBeforeUnknownSpaceStopEveryBeam)
 
 TEST(ScanSimulator, unknownSpaceHasSurfacesAtTheGivenRange)
 {
-  const DenseField field = wallAhead();
+  const DenseField field = fieldWithWall();
   SimulatedLaserOptions laser = exactLaser();
   laser.sensor_phi = M_PI;
   laser.unknown_range = 0.25;
@@ -142,7 +142,7 @@ TEST(ScanSimulator, unknownSpaceHasSurfacesAtTheGivenRange)
 
 TEST(ScanSimulator, refusesOptionsOutOfRange)
 {
-  const DenseField field = wallAhead();
+  const DenseField field = fieldWithWall();
   SimulatedLaserOptions laser;
   laser.clutter_share = 2;
   EXPECT_THROW(ScanSimulator(field, laser), std::invalid_argument);

@@ -8,7 +8,7 @@ namespace sigloc
 {
 namespace
 {
-constexpr double kSure = 0.99;
+constexpr double kSureProbability = 0.99;
 
 VerdictGrounds grounds(bool confirmed, bool doubtful = false, bool sees_too_little = false,
                        bool unfinished = false)
@@ -91,7 +91,7 @@ TEST(DecideVerdict, ClaimsOnlyWhatNothingSpeaksAgainst)
   for (const Case& c : cases)
   {
     Belief belief = c.belief;
-    setVerdict(belief, c.grounds, kSure, nullptr);
+    setVerdict(belief, c.grounds, kSureProbability, nullptr);
     EXPECT_EQ(belief.verdict, c.verdict) << c.what;
     EXPECT_NEAR(belief.probability, c.probability, 1e-9) << c.what;
     EXPECT_NE(belief.reason.find(c.reason), std::string::npos) << c.what << ": " << belief.reason;
