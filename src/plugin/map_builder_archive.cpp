@@ -39,34 +39,37 @@ void requireOwn(const Feature& feature)
   if (flaw) throw BadContent("a merged feature " + *flaw);
 }
 
-void write(const FeatureMerger::MergedSegment& segment, CArchive& out)
+void write(const MergedWall& wall, CArchive& out)
 {
-  out << segment.weight << segment.weighted_sum.x << segment.weighted_sum.y << segment.xx
-      << segment.xy << segment.yy << segment.sightings;
-  writeFeature(segment.line, out);
+  out << wall.weight << wall.weighted_sum.x << wall.weighted_sum.y << wall.xx << wall.xy << wall.yy
+      << wall.sightings;
+  writeFeature(wall.line, out);
 }
 
-void read(CArchive& in, FeatureMerger::MergedSegment& segment)
+void read(CArchive& in, MergedWall& wall)
 {
-  in >> segment.weight >> segment.weighted_sum.x >> segment.weighted_sum.y >> segment.xx >>
-      segment.xy >> segment.yy >> segment.sightings;
-  segment.line = readFeature(in);
-  if (!isSegment(segment.line.type) ||
-      !areSums({segment.weight, segment.weighted_sum.x, segment.weighted_sum.y, segment.xx,
-                segment.xy, segment.yy}))
+  in >> wall.weight >> wall.weighted_sum.x >> wall.weighted_sum.y >> wall.xx >> wall.xy >>
+      wall.yy >> wall.sightings;
+  wall.line = readFeature(in);
+  if (!isSegment(wall.line.type) || !(wall.weight > 0) ||
+      !areSums({wall.weight, wall.weighted_sum.x, wall.weighted_sum.y, wall.xx, wall.xy, wall.yy}))
   {
     throw BadContent("a merged wall of impossible sums");
   }
-  requireOwn(segment.line);
+  requireOwn(wall.line);
+  // Walls that are merged lie about the mean of their sums.
+  const auto mean = wall.weighted_sum * (1.0 / wall.weight);
+  if (!((mean - wall.line.position).norm() <= 0.5 * wall.line.size + 1))
+    throw BadContent("a merged wall whose sums are of another place");
 }
 
-void write(const FeatureMerger::MergedPlace& place, CArchive& out)
+void write(const MergedPlace& place, CArchive& out)
 {
   out << place.cosine_sum << place.sine_sum << place.count;
   writeFeature(place.feature, out);
 }
 
-void read(CArchive& in, FeatureMerger::MergedPlace& place)
+void read(CArchive& in, MergedPlace& place)
 {
   in >> place.cosine_sum >> place.sine_sum >> place.count;
   place.feature = readFeature(in);
@@ -78,12 +81,12 @@ void read(CArchive& in, FeatureMerger::MergedPlace& place)
   requireOwn(place.feature);
 }
 
-const Feature& featureOf(const FeatureMerger::MergedSegment& segment)
+const Feature& featureOf(const MergedWall& wall)
 {
-  return segment.line;
+  return wall.line;
 }
 
-const Feature& featureOf(const FeatureMerger::MergedPlace& place)
+const Feature& featureOf(const MergedPlace& place)
 {
   return place.feature;
 }
@@ -179,7 +182,7 @@ void writeMapBuilder(const MapBuilder& builder, CArchive& out)
 {
   out << kVersion;
   writeOptions(builder.options(), out);
-  writeAll(builder.merger().segments(), out);
+  writeAll(builder.merger().walls(), out);
   writeAll(builder.merger().places(), out);
   writeCounts(builder.counts(), out);
 }
@@ -191,12 +194,11 @@ MapBuilder readMapBuilder(CArchive& in, std::shared_ptr<const FeatureMap> base)
   if (version > kVersion) throw BadContent("a map builder of a later version");
   const auto options = readOptions<MapBuildingOptions>(in);
   MapBuilder builder(options, std::move(base));
-  auto segments = readAll<FeatureMerger::MergedSegment>(in);
-  auto places = readAll<FeatureMerger::MergedPlace>(in);
+  auto walls = readAll<MergedWall>(in);
+  auto places = readAll<MergedPlace>(in);
   BeamCounts counts = builder.counts();
   readCounts(in, counts, version != kVersionWithoutSums);
-  builder.restore(FeatureMerger(options, std::move(segments), std::move(places)),
-                  std::move(counts));
+  builder.restore(FeatureMerger(options, std::move(walls), std::move(places)), std::move(counts));
   return builder;
 }
 }  // namespace sigloc::detail

@@ -11,8 +11,9 @@
 #include <stdexcept>
 #include <vector>
 
-#include "map/building/FeatureMerger.h"
+#include "sigloc/map/map_building.h"
 #include "support/hand_made_scan.h"
+#include "support/wall_piece.h"
 
 namespace sigloc
 {
@@ -24,105 +25,13 @@ using test::outline;
 using test::scanByHand;
 using test::Scanner;
 using test::Surfaces;
-
-/// A wall piece along x from `from` to `to` at height y; its free side is up or down.
-Feature wallPiece(double from, double to, double y, bool faces_up)
-{
-  Feature wall;
-  wall.type = FeatureType::segment;
-  wall.position = {0.5 * (from + to), y};
-  wall.direction = faces_up ? M_PI / 2 : -M_PI / 2;
-  wall.size = to - from;
-  wall.position_covariance(0, 0) = wall.position_covariance(1, 1) = 1e-4;
-  wall.direction_variance = 1e-4;
-  return wall;
-}
+using test::wallPiece;
 
 std::size_t countOf(const std::vector<Feature>& features, FeatureType type)
 {
   return static_cast<std::size_t>(std::count_if(features.begin(), features.end(),
                                                 [&](const Feature& feature)
                                                 { return feature.type == type; }));
-}
-
-MapBuildingOptions twoSightings()
-{
-  MapBuildingOptions options;
-  options.min_sightings = 2;
-  return options;
-}
-
-TEST(FeatureMerger, KeepsBothFacesOfAThinWall)
-{
-  FeatureMerger merger(twoSightings());
-  for (int k = 0; k < 3; ++k)
-    merger.add({wallPiece(0, 4, 0.03, true), wallPiece(0, 4, -0.03, false)});
-  const std::vector<Feature> merged = merger.features();
-  ASSERT_EQ(merged.size(), 2U);
-  EXPECT_NEAR(std::abs(std::remainder(merged[0].direction - merged[1].direction, 2 * M_PI)), M_PI,
-              1e-9);
-  for (const Feature& face : merged)
-  {
-    EXPECT_NEAR(face.size, 4.0, 1e-9);
-    EXPECT_NEAR(face.position.y, face.direction > 0 ? 0.03 : -0.03, 1e-9);
-    EXPECT_EQ(face.sightings, 3U);
-  }
-}
-
-TEST(FeatureMerger, JoinsOverlappingPiecesAndDropsWhatWasSeenOnce)
-{
-  FeatureMerger merger(twoSightings());
-  merger.add({wallPiece(0, 2, 0, true)});
-  merger.add({wallPiece(1.5, 4, 0.02, true)});
-  merger.add({wallPiece(3.8, 6, -0.02, true), wallPiece(0, 2, 3, true)});
-  const std::vector<Feature> merged = merger.features();
-  ASSERT_EQ(merged.size(), 1U);
-  EXPECT_NEAR(merged[0].size, 6.0, 0.05);
-  EXPECT_NEAR(merged[0].position.x, 3.0, 0.05);
-  EXPECT_EQ(merged[0].sightings, 3U);
-}
-
-TEST(FeatureMerger, MeanOfAPlaceWeighsEverySightingAlike)
-{
-  Feature corner;
-  corner.type = FeatureType::corner;
-  corner.size = M_PI / 2;
-  corner.position_covariance(0, 0) = corner.position_covariance(1, 1) = 1e-4;
-  FeatureMerger merger(twoSightings());
-  // Two lasers see the same corner in one step: two sightings for the mean, one scan.
-  std::vector<double> places = {0.0, 0.06, 0.12, 0.02};
-  std::vector<Feature> step;
-  for (int k = 0; k < 2; ++k)
-  {
-    corner.position = {places[static_cast<std::size_t>(k)], 0};
-    step.push_back(corner);
-  }
-  merger.add(step);
-  for (int k = 2; k < 4; ++k)
-  {
-    corner.position = {places[static_cast<std::size_t>(k)], 0};
-    merger.add({corner});
-  }
-  const std::vector<Feature> merged = merger.features();
-  ASSERT_EQ(merged.size(), 1U);
-  EXPECT_NEAR(merged[0].position.x, 0.05, 1e-12);
-  EXPECT_EQ(merged[0].sightings, 3U);
-}
-
-TEST(FeatureMerger, MeanHeadingAcrossTheWrap)
-{
-  Feature corner;
-  corner.type = FeatureType::corner;
-  corner.size = M_PI / 2;
-  corner.position = {1, 1};
-  FeatureMerger merger(twoSightings());
-  corner.direction = 3.1;
-  merger.add({corner});
-  corner.direction = -3.1;
-  merger.add({corner});
-  const std::vector<Feature> merged = merger.features();
-  ASSERT_EQ(merged.size(), 1U);
-  EXPECT_NEAR(std::abs(merged[0].direction), M_PI, 1e-6);
 }
 
 /// A room of 5 m x 4 m with a post in it, seen from many places.
