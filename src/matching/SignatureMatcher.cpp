@@ -29,6 +29,7 @@ namespace
 constexpr double kPoorScore = 0.65;  // below this score further poses are proposed, section 4 (e)
 constexpr std::array<std::size_t, 3> kPairProposals = {1024, 4096, 16000};  // after each round
 constexpr std::size_t kLeastSupporters = 3;  // of a pose that ends the search
+constexpr std::size_t kLastSupporters = 5;  // the same where no pair is left
 constexpr std::size_t kMinLandmarks = 2;  // features needed without a laser
 constexpr std::size_t kMaxBeams = 400;  // of a scene that are used; more are thinned evenly
 // The probability that the right pose was not proposed where nothing significant was found.
@@ -65,7 +66,9 @@ bool isSettled(const std::vector<RankedPose>& poses, const KeyPairSearch& search
   const double score = poses[0].evidence.score;
   const double lead = poses.size() > 1 ? score - poses[1].evidence.score : score;
   if (lead < kLead || score < kFair || (score < kGood && score + lead < 1)) return false;
-  return search.supportersOf(poses[0].pose) >= kLeastSupporters;
+  // A pose that few of all pairs support has few mapped key points. One like it may have none.
+  return search.supportersOf(poses[0].pose) >=
+         (search.finished() ? kLastSupporters : kLeastSupporters);
 }
 
 std::vector<PoseProposal> proposalsOf(const std::vector<FeatureHypothesis>& hypotheses)

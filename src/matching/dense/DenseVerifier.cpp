@@ -25,8 +25,10 @@ constexpr std::size_t kRoughKept = 8000;  // proposals that are left, ties not c
 constexpr std::size_t kFirstBatch = 4;  // places refined first: one of them often explains all
 constexpr std::size_t kBatch = 64;  // places refined at a time after that
 constexpr std::size_t kMostRefined = 400;  // places; bounds the cost where many poses fit
-// Share of the coarse score behind the best refined pose, from which a place is not refined.
-constexpr double kCoarseMargin = 0.2;
+// Share of the coarse score behind the best refined pose, from which a place is not refined. It is
+// so many times what that pose leaves unexplained, because a rival can gain no more by far.
+constexpr double kMarginOfUnexplained = 3;
+constexpr double kCoarseMargin = 0.2;  // at most
 constexpr float kMiddleShare = 0.7F;  // of the weights (6.6) of the best; with less one is dropped
 constexpr std::size_t kMiddleBeams = 32;  // returns that refine
 constexpr std::size_t kMiddleScored = 48;  // returns that score
@@ -236,7 +238,12 @@ std::vector<DenseVerifier::Raced> DenseVerifier::race(const DenseScan& scan,
   float most_weight = 0;
   double best_middle = bestScore(before);
   std::size_t refined = 0;
-  const auto can_win = [&] { return !order.empty() && order.bestScore() + kMargin >= best; };
+  const auto can_win = [&]
+  {
+    const double margin = std::min(kCoarseMargin, kMarginOfUnexplained * (1 - best_middle));
+    return !order.empty() &&
+           order.bestScore() + static_cast<std::uint32_t>(margin * CoarseScore::kMost) >= best;
+  };
   while (refined < kMostRefined && can_win())
   {
     const std::size_t batch = std::min(refined == 0 ? kFirstBatch : kBatch, kMostRefined - refined);
