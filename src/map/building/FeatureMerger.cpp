@@ -13,6 +13,7 @@
 
 namespace sigloc
 {
+using mrpt::math::TPoint2D;
 using mrpt::math::wrapToPi;
 
 namespace
