@@ -34,7 +34,7 @@ namespace sigloc
 namespace
 {
 /// Raised whenever the same source and options give another map than before.
-constexpr int kBuildVersion = 8;
+constexpr int kBuildVersion = 9;
 
 using detail::MapKind;
 
