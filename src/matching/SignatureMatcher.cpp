@@ -223,7 +223,11 @@ SignatureMatcher::VerifiedPoses SignatureMatcher::searchDensely(
     if (search.finished() || isSettled(verified.inside, search)) break;
   }
   counters.signature_pairs += search.entriesRead();
-  if (isSettled(verified.inside, search)) return verified;
+  if (isSettled(verified.inside, search))
+  {
+    ++counters.settled_by_pairs;
+    return verified;
+  }
   return verifyMinimalSets(scene, scan, region, counters, std::move(pending), std::move(verified));
 }
 

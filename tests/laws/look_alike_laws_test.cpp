@@ -39,6 +39,7 @@ TEST(LookAlikes, ExactCopiesShareTheWeight)
       ++asked;
       const RelocationResult result = corridor.matcher()->localize(corridor.sceneAt(truth, random));
       EXPECT_NE(result.verdict, Verdict::localized);
+      EXPECT_EQ(result.counters.settled_by_pairs, 0U);
       ASSERT_GE(result.candidates.size(), copies);
       double lightest = 1;
       double heaviest = 0;

@@ -50,6 +50,7 @@ struct MatchingCounters
   std::uint64_t visits = 0;  ///< cells and list entries read to find map features
   std::uint64_t poses_scored = 0;  ///< poses scored in the dense field
   std::uint64_t cut_short = 0;  ///< searches that ended at their budget, before they were complete
+  std::uint64_t settled_by_pairs = 0;  ///< searches that pairs of key points ended, mode (f)
 };
 
 /// How many of the constraints that a scan's features give on the pose the map meets.

@@ -78,6 +78,15 @@ std::string remarks(const RelocateReport& report)
           "until then.\n",
           method.name, cut_short, method.records.size());
     }
+    const std::size_t by_pairs = total(&RelocationRecord::settled_by_pairs)(method);
+    if (by_pairs > 0)
+    {
+      text += fmt::format(
+          "* `{}`: pairs of key points settled {} of {} queries; minimal sets proposed more for "
+          "the "
+          "others.\n",
+          method.name, by_pairs, method.records.size());
+    }
     if (std::isnan(method.ns_per_lookup)) continue;
     text += fmt::format(
         "* `{}`: {:.2f} ns a look-up, everything included (the published figures of this search "

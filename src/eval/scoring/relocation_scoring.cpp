@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <sstream>
+#include <string_view>
 
 namespace sigloc
 {
@@ -16,7 +17,8 @@ using mrpt::math::TPose2D;
 namespace
 {
 constexpr std::size_t kListedCandidates = 10;
-constexpr const char* kAddedLater = "cut_short";  // earlier versions did not write it
+// Columns that earlier versions did not write.
+constexpr std::array<std::string_view, 2> kAddedLater = {"cut_short", "settled_by_pairs"};
 }  // namespace
 
 const char* toString(Claim claim)
@@ -85,6 +87,7 @@ RelocationRecord judgeRelocation(const EvaluationQuery& query, const RelocationR
   record.candidates = answer.candidates.size();
   record.poses_scored = answer.counters.poses_scored;
   record.cut_short = answer.counters.cut_short > 0;
+  record.settled_by_pairs = answer.counters.settled_by_pairs > 0;
   record.view = answer.view;
   if (!answer.candidates.empty())
   {
@@ -142,7 +145,8 @@ const Columns<RelocationRecord>& relocationColumns()
         "whether a right one is among them; empty: not asked, or no truth"),
       C("claim", &R::claim, "a confident answer, judged; empty for a method without a verdict"),
       C("poses_scored", &R::poses_scored, "poses compared with the scan"),
-      C(kAddedLater, &R::cut_short, "the search ended at its budget"),
+      C("cut_short", &R::cut_short, "the search ended at its budget"),
+      C("settled_by_pairs", &R::settled_by_pairs, "pairs of key points ended the search"),
       C("time_ms", &R::time_ms, "CPU time, from raw scan to ranked candidates")};
   return kColumns;
 }
@@ -177,7 +181,9 @@ RelocationRecord storedRelocation(const detail::CsvTable& results, std::size_t r
   RelocationRecord record;
   for (const Column<RelocationRecord>& column : relocationColumns())
   {
-    if (column.name == kAddedLater && !results.has(column.name)) continue;
+    const bool added_later =
+        std::find(kAddedLater.begin(), kAddedLater.end(), column.name) != kAddedLater.end();
+    if (added_later && !results.has(column.name)) continue;
     Cells cells;
     std::istringstream names(column.name);
     for (std::string name; std::getline(names, name, ',');)

@@ -78,6 +78,7 @@ struct RelocationRecord
   std::optional<Claim> claim;  ///< none: the method does not say whether it is sure
   std::uint64_t poses_scored = 0;
   bool cut_short = false;  ///< the search ended at its budget, unfinished
+  bool settled_by_pairs = false;  ///< pairs of key points ended the search
   double time_ms = 0;
   double view = 0;  ///< [rad] angular coverage of the scan
   std::vector<CandidateRecord> listed;  ///< the first ten
