@@ -200,7 +200,7 @@ std::vector<TPose2D> SignatureMatcher::propose(const ObservedScene& scene) const
   return poses;
 }
 
-/// Pairs of key points come first. What they propose is judged where a pose may be settled by it,
+/// Pairs of key points come first. What they propose is judged once any pose has three supporters,
 /// else together with what minimal sets propose.
 SignatureMatcher::VerifiedPoses SignatureMatcher::searchDensely(
     const ObservedScene& scene, const DenseScan& scan, const std::optional<PoseRegion>& region,

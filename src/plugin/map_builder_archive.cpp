@@ -199,6 +199,8 @@ MapBuilder readMapBuilder(CArchive& in, std::shared_ptr<const FeatureMap> base)
   BeamCounts counts = builder.counts();
   readCounts(in, counts, version != kVersionWithoutSums);
   builder.restore(FeatureMerger(options, std::move(walls), std::move(places)), std::move(counts));
+  // Each may be sound and what they are merged to be beyond all bounds.
+  if (auto flaw = flawOf(builder.features())) throw BadContent("merged features: " + *flaw);
   return builder;
 }
 }  // namespace sigloc::detail

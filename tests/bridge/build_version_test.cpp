@@ -33,14 +33,21 @@ std::string contentOf(const FeatureMap& map)
 {
   std::map<FeatureType, int> counts;
   double wall_length = 0;
+  double spread = 0;
+  mrpt::math::TPoint2D sum;
+  std::uint64_t sightings = 0;
   for (const Feature& feature : map.features())
   {
     ++counts[feature.type];
     if (isSegment(feature.type)) wall_length += feature.size;
+    sum += feature.position;
+    spread += feature.position_covariance(0, 0) + feature.position_covariance(1, 1);
+    sightings += feature.sightings;
   }
-  return fmt::format("{} {} {} {} {:.1f} {}", counts[FeatureType::segment],
+  return fmt::format("{} {} {} {} {:.1f} {:.0f} {:.0f} {:.3f} {} {}", counts[FeatureType::segment],
                      counts[FeatureType::circle], counts[FeatureType::corner],
-                     counts[FeatureType::wall_end], wall_length, map.field()->wall_cells);
+                     counts[FeatureType::wall_end], wall_length, sum.x, sum.y, spread, sightings,
+                     map.field()->wall_cells);
 }
 
 Built build(const std::string& name)

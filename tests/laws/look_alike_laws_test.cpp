@@ -21,6 +21,20 @@ using test::lawOffice;
 using test::MappedWorld;
 using test::officeWorld;
 
+TEST(LookAlikes, PairsOfKeyPointsSettleWhatLooksLikeNothingElse)
+{
+  const MappedWorld office(makeWorld(WorldKind::office, {}, 9), 9, 0.8);
+  Random random(1006);
+  std::uint64_t settled = 0;
+  for (int k = 0; k < 20; ++k)
+  {
+    const auto scene = office.sceneAt(office.randomPose(random), random);
+    settled += office.matcher()->localize(scene).counters.settled_by_pairs;
+  }
+  EXPECT_GE(settled, 12U);
+  EXPECT_LE(settled, 20U);
+}
+
 TEST(LookAlikes, ExactCopiesShareTheWeight)
 {
   for (const std::uint32_t copies : {2U, 4U})

@@ -65,23 +65,31 @@ std::vector<RelocationRecord> askQueries(const RelocationMethod& method,
                                          const std::string& what, const ShowProgress& progress)
 {
   std::vector<RelocationResult> answers(queries.size());
+  std::vector<double> times(queries.size());
   std::vector<RelocationRecord> records(queries.size());
   const auto ask = [&](std::size_t i)
   {
     const double start = threadCpuSeconds();
     answers[i] = method.localize(queries[i].scans);
-    records[i].time_ms = 1e3 * (threadCpuSeconds() - start);
+    times[i] = 1e3 * (threadCpuSeconds() - start);
   };
   // After all are answered: a million proposals that are listed leave cold caches.
   const auto judge = [&](std::size_t i)
   {
-    const double time = records[i].time_ms;
     records[i] = judgeRelocation(queries[i], answers[i], method.claimsVerdict(),
                                  method.propose(queries[i].scans), gates);
-    records[i].time_ms = time;
+    records[i].time_ms = times[i];
+    answers[i] = {};
   };
-  runParallel(queries.size(), threads, ask, what, progress);
-  runParallel(queries.size(), threads, judge, what + ", judged", progress);
+  const auto halfAfter = [&](double before)
+  {
+    return [&progress, before](const std::string& name, double share)
+    {
+      if (progress) progress(name, before + share / 2);
+    };
+  };
+  runParallel(queries.size(), threads, ask, what, halfAfter(0));
+  runParallel(queries.size(), threads, judge, what, halfAfter(0.5));
   return records;
 }
 

@@ -52,8 +52,8 @@ struct RelocateReport
   Provenance provenance;
 };
 
-/// Asks one method every query, on up to `threads` threads, and judges the answers; each query is
-/// timed on its own. `progress` is told after each, `what` being the name of it all.
+/// Asks one method every query, on up to `threads` threads, and then judges the answers; each query
+/// is timed on its own. `progress` is told after each of both, `what` being the name of it all.
 std::vector<RelocationRecord> askQueries(const RelocationMethod& method,
                                          const std::vector<EvaluationQuery>& queries,
                                          const AccuracyGates& gates, std::uint32_t threads,

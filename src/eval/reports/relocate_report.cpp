@@ -82,9 +82,7 @@ std::string remarks(const RelocateReport& report)
     if (by_pairs > 0)
     {
       text += fmt::format(
-          "* `{}`: pairs of key points settled {} of {} queries; minimal sets proposed more for "
-          "the "
-          "others.\n",
+          "* `{}`: pairs of key points settled {} of {} queries, without any minimal set.\n",
           method.name, by_pairs, method.records.size());
     }
     if (std::isnan(method.ns_per_lookup)) continue;

@@ -20,7 +20,7 @@ namespace
 {
 constexpr double kPlaceCell = 0.5;  // [m] of the hash over point-like features
 
-std::uint64_t keyAt(double x, double y)
+std::uint64_t placeCellAt(double x, double y)
 {
   return cellKey(static_cast<std::int32_t>(std::floor(x / kPlaceCell)),
                  static_cast<std::int32_t>(std::floor(y / kPlaceCell)));
@@ -33,8 +33,8 @@ bool areAlike(const Feature& a, const Feature& b)
 }
 
 /// Takes a sighting into the running means. The hash keeps the first place, from which the mean
-/// moves by less than a cell.
-void absorb(MergedPlace& merged, const Feature& place)
+/// hardly moves.
+void absorbSighting(MergedPlace& merged, const Feature& place)
 {
   Feature& feature = merged.feature;
   const double n = merged.count++;
@@ -90,7 +90,7 @@ std::vector<Feature> FeatureMerger::features() const
 void FeatureMerger::registerPlace(std::uint32_t index)
 {
   const TPoint2D& p = places_[index].feature.position;
-  place_cells_[keyAt(p.x, p.y)].push_back(index);
+  place_cells_[placeCellAt(p.x, p.y)].push_back(index);
 }
 
 /// Returns the place that another one is a sighting of, if any.
@@ -105,7 +105,7 @@ MergedPlace* FeatureMerger::placeFor(const Feature& place)
     for (int dy = -cells; dy <= cells; ++dy)
     {
       const auto cell = place_cells_.find(
-          keyAt(place.position.x + dx * kPlaceCell, place.position.y + dy * kPlaceCell));
+          placeCellAt(place.position.x + dx * kPlaceCell, place.position.y + dy * kPlaceCell));
       if (cell == place_cells_.end()) continue;
       for (const std::uint32_t k : cell->second)
       {
@@ -124,7 +124,7 @@ void FeatureMerger::addPlace(const Feature& place)
   MergedPlace* known = placeFor(place);
   if (known != nullptr)
   {
-    absorb(*known, place);
+    absorbSighting(*known, place);
     if (known->last_scan != scan_) ++known->feature.sightings;
     known->last_scan = scan_;
     return;

@@ -21,7 +21,7 @@ namespace
 {
 constexpr double kWallCell = 1.0;  // [m] of the hash over walls
 
-std::uint64_t keyAt(const TPoint2D& p)
+std::uint64_t wallCellAt(const TPoint2D& p)
 {
   return cellKey(static_cast<std::int32_t>(std::floor(p.x / kWallCell)),
                  static_cast<std::int32_t>(std::floor(p.y / kWallCell)));
@@ -73,7 +73,7 @@ void fitLine(MergedWall& merged, const Feature& other)
   line.position = mean + along * (0.5 * (low + high));
 }
 
-void absorb(MergedWall& merged, const MergedWall& wall)
+void absorbWall(MergedWall& merged, const MergedWall& wall)
 {
   merged.weight += wall.weight;
   merged.weighted_sum += wall.weighted_sum;
@@ -122,7 +122,7 @@ void WallMerger::add(const Feature& segment, std::uint32_t scan)
   else
   {
     MergedWall& wall = walls_[best];
-    absorb(wall, seen);
+    absorbWall(wall, seen);
     if (wall.last_scan != scan) ++wall.sightings;
     wall.last_scan = scan;
   }
@@ -146,7 +146,7 @@ std::vector<MergedWall> WallMerger::mergedAgain(std::uint32_t least_sightings) c
     }
     else
     {
-      absorb(again.walls_[best], wall);
+      absorbWall(again.walls_[best], wall);
       // One scan may have seen both.
       again.walls_[best].sightings = std::max(again.walls_[best].sightings, wall.sightings);
     }
@@ -162,7 +162,7 @@ std::uint32_t WallMerger::bestFor(const Feature& segment) const
   double best_offset = 1e9;
   const auto look = [&](const TPoint2D& p)
   {
-    const auto cell = cells_.find(keyAt(p));
+    const auto cell = cells_.find(wallCellAt(p));
     if (cell == cells_.end()) return;
     for (const std::uint32_t k : cell->second)
     {
@@ -192,7 +192,7 @@ void WallMerger::enter(std::uint32_t index)
   walkAlong(walls_[index].line, 0.5 * kWallCell, 0.0,
             [&](const TPoint2D& p)
             {
-              auto& cell = cells_[keyAt(p)];
+              auto& cell = cells_[wallCellAt(p)];
               if (std::find(cell.begin(), cell.end(), index) == cell.end()) cell.push_back(index);
             });
 }

@@ -21,7 +21,8 @@ namespace
 constexpr double kPoseSigma = 0.03;  // [m] of the poses of the scans, eq. (2.7)
 constexpr double kHeadingSigma = 0.01;  // [rad] of the headings of the scans
 constexpr double kEndNearCorner = 0.3;  // [m] within which a wall end is that of a corner
-constexpr double kPostDiameters = 2;  // of a circle; on a longer wall it is a part of the wall
+constexpr double kPostRadii = 4;  // of a circle; on a longer wall it is a part of the wall
+constexpr double kWidestPost = 5;  // [m] radius; wider circles are kept
 constexpr double kWallStep = 0.5;  // [m] between the points by which walls are found
 
 /// Sets the covariance of a merged place. Averaging reduces the errors that are independent between
@@ -68,6 +69,7 @@ Feature wallEndOfCorner(const Feature& corner, WallSide side)
   end.size = 0;
   return end;
 }
+
 /// The walls of a map, by place.
 class WallsByPlace
 {
@@ -89,7 +91,7 @@ class WallsByPlace
     return any(circle.position,
                [&](const Feature& wall, double along, double across)
                {
-                 return wall.size > 2 * kPostDiameters * circle.size &&
+                 return circle.size <= kWidestPost && wall.size > kPostRadii * circle.size &&
                         std::abs(along) < 0.5 * wall.size &&
                         std::abs(across) < circle.size + offset;
                });
@@ -202,7 +204,8 @@ std::vector<Feature> mergedFeatures(const std::vector<MergedWall>& walls,
   double widest = 0;
   for (const Feature& place : others)
   {
-    if (place.type == FeatureType::circle) widest = std::max(widest, place.size);
+    if (place.type == FeatureType::circle && place.size <= kWidestPost)
+      widest = std::max(widest, place.size);
   }
   const WallsByPlace nearby(segments, widest + options.merge_offset);
   const auto in_a_wall = [&](const Feature& place)

@@ -25,8 +25,8 @@ constexpr std::size_t kRoughKept = 8000;  // proposals that are left, ties not c
 constexpr std::size_t kFirstBatch = 4;  // places refined first: one of them often explains all
 constexpr std::size_t kBatch = 64;  // places refined at a time after that
 constexpr std::size_t kMostRefined = 400;  // places; bounds the cost where many poses fit
-// Share of the coarse score behind the best refined pose, from which a place is not refined. It is
-// so many times what that pose leaves unexplained, because a rival can gain no more by far.
+// Share of the coarse score behind the best refined pose. Places behind it are not refined. It is
+// so many times what that pose leaves unexplained, chosen in docs/lab-notes/large-maps.md.
 constexpr double kMarginOfUnexplained = 3;
 constexpr double kCoarseMargin = 0.2;  // at most
 constexpr float kMiddleShare = 0.7F;  // of the weights (6.6) of the best; with less one is dropped
