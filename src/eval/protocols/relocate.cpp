@@ -81,15 +81,15 @@ std::vector<RelocationRecord> askQueries(const RelocationMethod& method,
     records[i].time_ms = times[i];
     answers[i] = {};
   };
-  const auto halfAfter = [&](double before)
+  const auto half_after = [&](double before)
   {
     return [&progress, before](const std::string& name, double share)
     {
       if (progress) progress(name, before + share / 2);
     };
   };
-  runParallel(queries.size(), threads, ask, what, halfAfter(0));
-  runParallel(queries.size(), threads, judge, what, halfAfter(0.5));
+  runParallel(queries.size(), threads, ask, what, half_after(0));
+  runParallel(queries.size(), threads, judge, what, half_after(0.5));
   return records;
 }
 
