@@ -114,64 +114,6 @@ TEST(Tracker, WorksWithoutOdometry)
   EXPECT_EQ(wrong, 0);
 }
 
-/// A belief that is ambiguous after its first scan must stay so while the robot stands still. The
-/// same scan again is no new evidence. Its noise alone may tip one that is nearly sure, and right.
-void standStill(const MappedWorld& world, bool with_odometry, std::uint64_t seed, int tries,
-                int at_least)
-{
-  Random random(seed);
-  int ambiguous = 0;
-  int tipped = 0;
-  for (int k = 0; k < tries; ++k)
-  {
-    const TPose2D truth = world.randomPose(random);
-    HypothesisTracker tracker(world.matcher());
-    MotionIncrement still;
-    const std::optional<MotionIncrement> motion =
-        with_odometry ? std::optional(still) : std::nullopt;
-    const Belief& first = tracker.step(motion, world.sceneAt(truth, random));
-    if (first.verdict != Verdict::ambiguous) continue;
-    ++ambiguous;
-    const bool nearly_sure = first.hypotheses.front().weight > 0.95;
-    for (int step = 0; step < 60; ++step)
-    {
-      const Belief& belief = tracker.step(motion, world.sceneAt(truth, random));
-      expectWellFormed(belief);
-      if (belief.verdict != Verdict::localized) continue;
-      EXPECT_TRUE(isRight(belief.hypotheses.front().pose.mean, truth))
-          << "try " << k << ", step " << step << ", odometry " << with_odometry;
-      EXPECT_TRUE(nearly_sure) << "try " << k << ", step " << step;
-      ++tipped;
-      break;
-    }
-  }
-  EXPECT_GE(ambiguous, at_least);
-  EXPECT_LE(tipped, 2) << "of " << ambiguous;
-}
-
-const MappedWorld& corridor()
-{
-  static const MappedWorld world = []
-  {
-    WorldOptions options;
-    options.copies = 4;
-    return MappedWorld(makeWorld(WorldKind::corridor, options, 9), 9);
-  }();
-  return world;
-}
-
-TEST(Tracker, StandingStillSettlesNothing)
-{
-  standStill(corridor(), true, 51, 10, 3);
-  standStill(office(), true, 52, 40, 1);
-}
-
-TEST(Tracker, StandingStillWithoutOdometrySettlesNothing)
-{
-  standStill(corridor(), false, 53, 10, 3);
-  standStill(office(), false, 54, 40, 1);
-}
-
 TEST(Tracker, NoticesAKidnap)
 {
   int noticed = 0;

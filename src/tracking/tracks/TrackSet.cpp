@@ -130,7 +130,7 @@ void TrackSet::follow(const DenseScan& scan, double travelled, double driven)
 void TrackSet::weigh(const DenseScan& scan, const DenseVerifier& verifier, double travelled,
                      double travel)
 {
-  if (tracks.empty()) return;
+  if (tracks.empty() || travel <= 0) return;
   noteChange(travel);
   weighRivals(scan, verifier, travelled, travel);
   normalise();

@@ -49,7 +49,8 @@ class TrackSet
   void score(const DenseScan& scan, const DenseVerifier& verifier);
 
   /// Weighs tracks against each other. The scan is taken after `travelled` [m] in all, `travel` [m]
-  /// after the one before. Includes noteChange(). Eq. (8.5), (8.26)
+  /// after the one before. Where that is 0 nothing changes: the same scan again is no new evidence.
+  /// Includes noteChange(). Eq. (8.5), (8.26)
   void weigh(const DenseScan& scan, const DenseVerifier& verifier, double travelled, double travel);
 
   /// Updates the mean share that the best track leaves unexplained, where there are tracks. Eq.

@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 the sigloc authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include "sigloc/tracking/HypothesisTracker.h"
+#include "support/followed_drive.h"
+#include "support/simulated_office.h"
+
+namespace sigloc
+{
+namespace
+{
+using mrpt::math::TPose2D;
+using test::expectWellFormed;
+using test::isRight;
+using test::MappedWorld;
+using test::office;
+
+enum class Odometry
+{
+  none,
+  exact,
+  jittering
+};
+
+/// A belief that is ambiguous after its first scan must stay so while the robot stands still. The
+/// same scan again is no new evidence.
+void standStill(const MappedWorld& world, Odometry odometry, std::uint64_t seed, int tries,
+                int at_least)
+{
+  Random random(seed);
+  int ambiguous = 0;
+  int tipped = 0;
+  for (int k = 0; k < tries; ++k)
+  {
+    const TPose2D truth = world.randomPose(random);
+    HypothesisTracker tracker(world.matcher());
+    const auto step = [&]() -> const Belief&
+    {
+      std::optional<MotionIncrement> motion;
+      if (odometry != Odometry::none) motion.emplace();
+      if (odometry == Odometry::jittering)
+        motion->mean = {0.002 * random.normal(), 0.002 * random.normal(), 0.001 * random.normal()};
+      return tracker.step(motion, world.sceneAt(truth, random));
+    };
+    if (step().verdict != Verdict::ambiguous) continue;
+    ++ambiguous;
+    for (int scan = 0; scan < 60; ++scan)
+    {
+      const Belief& belief = step();
+      expectWellFormed(belief);
+      if (belief.verdict != Verdict::localized) continue;
+      EXPECT_TRUE(isRight(belief.hypotheses.front().pose.mean, truth))
+          << "try " << k << ", scan " << scan;
+      ++tipped;
+      break;
+    }
+  }
+  EXPECT_GE(ambiguous, at_least);
+  EXPECT_EQ(tipped, 0) << "of " << ambiguous;
+}
+
+const MappedWorld& corridor()
+{
+  static const MappedWorld world = []
+  {
+    WorldOptions options;
+    options.copies = 4;
+    return MappedWorld(makeWorld(WorldKind::corridor, options, 9), 9);
+  }();
+  return world;
+}
+
+TEST(Tracker, StandingStillSettlesNothing)
+{
+  standStill(corridor(), Odometry::exact, 51, 10, 3);
+  standStill(office(), Odometry::exact, 52, 40, 1);
+}
+
+TEST(Tracker, StandingStillWithJitteringOdometrySettlesNothing)
+{
+  standStill(corridor(), Odometry::jittering, 51, 10, 3);
+  standStill(office(), Odometry::jittering, 52, 40, 1);
+}
+
+TEST(Tracker, StandingStillWithoutOdometrySettlesNothing)
+{
+  standStill(corridor(), Odometry::none, 53, 10, 3);
+  standStill(office(), Odometry::none, 54, 40, 1);
+}
+}  // namespace
+}  // namespace sigloc
