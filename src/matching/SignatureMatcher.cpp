@@ -55,6 +55,13 @@ bool seesWalls(const ObservedScene& scene)
                      [](const Feature& feature) { return feature.type == FeatureType::segment; });
 }
 
+/// How many pairs must propose a pose that ends the search. One that few of all pairs support has
+/// few mapped key points, and one like it may have none. \cite algorithm eq. (4.13)
+std::size_t supportersNeeded(const KeyPairSearch& search)
+{
+  return search.finished() ? kLastSupporters : kLeastSupporters;
+}
+
 /// Returns whether the best pose needs no further search: it explains the scan well, leads, and
 /// different pairs of key points have proposed it. \cite algorithm eq. (4.13)
 bool isSettled(const std::vector<RankedPose>& poses, const KeyPairSearch& search)
@@ -66,9 +73,7 @@ bool isSettled(const std::vector<RankedPose>& poses, const KeyPairSearch& search
   const double score = poses[0].evidence.score;
   const double lead = poses.size() > 1 ? score - poses[1].evidence.score : score;
   if (lead < kLead || score < kFair || (score < kGood && score + lead < 1)) return false;
-  // A pose that few of all pairs support has few mapped key points. One like it may have none.
-  return search.supportersOf(poses[0].pose) >=
-         (search.finished() ? kLastSupporters : kLeastSupporters);
+  return search.supportersOf(poses[0].pose) >= supportersNeeded(search);
 }
 
 std::vector<PoseProposal> proposalsOf(const std::vector<FeatureHypothesis>& hypotheses)
@@ -200,7 +205,7 @@ std::vector<TPose2D> SignatureMatcher::propose(const ObservedScene& scene) const
   return poses;
 }
 
-/// Pairs of key points come first. What they propose is judged once any pose has three supporters,
+/// Pairs of key points come first. What they propose is judged once any pose has enough supporters,
 /// else together with what minimal sets propose.
 SignatureMatcher::VerifiedPoses SignatureMatcher::searchDensely(
     const ObservedScene& scene, const DenseScan& scan, const std::optional<PoseRegion>& region,
@@ -215,7 +220,7 @@ SignatureMatcher::VerifiedPoses SignatureMatcher::searchDensely(
     const std::vector<PoseProposal> proposals = search.next(wanted);
     counters.hypotheses += proposals.size();
     pending.insert(pending.end(), proposals.begin(), proposals.end());
-    if (!pending.empty() && search.anySupportedBy(kLeastSupporters))
+    if (!pending.empty() && search.anySupportedBy(supportersNeeded(search)))
     {
       verified = verify(scan, std::move(pending), region, counters, std::move(verified));
       pending.clear();
