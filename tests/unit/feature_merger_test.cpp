@@ -139,31 +139,5 @@ TEST(FeatureMerger, APartOfAWallIsNoPost)
   EXPECT_EQ(count(wall, {4.2, 0.1}), 2U);  // beyond its end
   EXPECT_EQ(count(wallPiece(1.8, 2.2, 0.2, true), {2, 0}), 2U);  // a face of a square post
 }
-
-TEST(FeatureMerger, AWallThatGoesOnHasNoEnd)
-{
-  Feature end;
-  end.type = FeatureType::wall_end;
-  // Seen from above, the tangent of a wall points to the right.
-  const auto count = [&](const Feature& wall, WallSide side, const TPoint2D& at)
-  {
-    end.side = side;
-    end.position = at;
-    end.direction = side == WallSide::end ? M_PI : 0;
-    return seenTwice({wall, end}).size();
-  };
-  const Feature wall = wallPiece(0, 4, 0, true);
-  for (const double across : {-0.05, 0.05})
-  {
-    EXPECT_EQ(count(wall, WallSide::end, {2, across}), 1U);
-    EXPECT_EQ(count(wall, WallSide::start, {2, across}), 1U);
-    EXPECT_EQ(count(wall, WallSide::end, {3.9, across}), 2U);
-    EXPECT_EQ(count(wall, WallSide::start, {0.1, across}), 2U);
-    EXPECT_EQ(count(wall, WallSide::start, {3.9, across}), 1U);
-    EXPECT_EQ(count(wall, WallSide::end, {0.1, across}), 1U);
-  }
-  EXPECT_EQ(count(wall, WallSide::end, {2, 0.2}), 2U);  // of a wall before it
-  EXPECT_EQ(count(wallPiece(0, 4, 0, false), WallSide::end, {2, 0}), 2U);  // of the other face
-}
 }  // namespace
 }  // namespace sigloc

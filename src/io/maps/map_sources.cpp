@@ -34,7 +34,7 @@ namespace sigloc
 namespace
 {
 /// Raised whenever the same source and options give another map than before.
-constexpr int kBuildVersion = 9;
+constexpr int kBuildVersion = 10;
 
 using detail::MapKind;
 

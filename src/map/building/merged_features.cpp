@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "geometry/CellHash.h"
 #include "map/building/walk_along.h"
@@ -70,71 +69,45 @@ Feature wallEndOfCorner(const Feature& corner, WallSide side)
   return end;
 }
 
-/// The walls of a map, by place.
-class WallsByPlace
+/// Leaves out the circles that are parts of a wall: they touch one that is longer than two of their
+/// diameters. Walls of rough cells have gaps, behind which a piece looks like a post. `reach` is
+/// the largest distance [m] of a circle that touches a wall.
+void removeCirclesInWalls(std::vector<Feature>& places, const std::vector<Feature>& walls,
+                          double reach)
 {
- public:
-  /// Walls are found within `reach` [m].
-  WallsByPlace(const std::vector<Feature>& walls, double reach)
-      : walls_(walls), near_(reach + kWallStep)
+  const auto may_be_part = [](const Feature& place)
+  { return place.type == FeatureType::circle && place.size <= kWidestPost; };
+  double widest = 0;
+  for (const Feature& place : places)
   {
-    for (std::uint32_t k = 0; k < walls.size(); ++k)
-    {
-      walkAlong(walls[k], kWallStep, 0, [&](const TPoint2D& p) { near_.add(p, k); });
-    }
+    if (may_be_part(place)) widest = std::max(widest, place.size);
   }
-
-  /// Returns whether a circle is a part of a wall: it touches one that is longer than two of its
-  /// diameters. Walls of rough cells have gaps, behind which a piece looks like a post.
-  bool swallow(const Feature& circle, double offset) const
+  CellHash near(widest + reach + kWallStep);
+  for (std::uint32_t k = 0; k < walls.size(); ++k)
   {
-    return any(circle.position,
-               [&](const Feature& wall, double along, double across)
-               {
-                 return circle.size <= kWidestPost && wall.size > kPostRadii * circle.size &&
-                        std::abs(along) < 0.5 * wall.size &&
-                        std::abs(across) < circle.size + offset;
-               });
+    walkAlong(walls[k], kWallStep, 0, [&](const TPoint2D& p) { near.add(p, k); });
   }
-
-  /// Returns whether a wall goes on beyond what looked like its end.
-  bool passBy(const Feature& end, const MapBuildingOptions& options) const
+  const auto touches = [&](const Feature& circle, const Feature& wall)
   {
-    const double outward = end.side == WallSide::end ? 1 : -1;  // along the tangent
-    const double normal = end.direction - outward * 0.5 * M_PI;
-    return any(end.position,
-               [&](const Feature& wall, double along, double across)
-               {
-                 if (std::abs(wrapToPi(wall.direction - normal)) > kMostPlaceTurn) return false;
-                 const double half = 0.5 * wall.size;
-                 return std::abs(across) < options.merge_offset && half + outward * along > 0 &&
-                        half - outward * along > options.merge_gap;
-               });
-  }
-
- private:
-  /// Whether `test(wall, along, across)` holds for a wall nearby, with where the place lies along
-  /// its tangent and its normal from its middle [m].
-  template <class Test>
-  bool any(const TPoint2D& place, Test&& test) const
+    const TPoint2D from = circle.position - wall.position;
+    const TPoint2D n = directionVector(wall);
+    const TPoint2D t = tangentVector(wall);
+    return std::abs(from.x * t.x + from.y * t.y) < 0.5 * wall.size &&
+           std::abs(from.x * n.x + from.y * n.y) < circle.size + reach;
+  };
+  const auto in_a_wall = [&](const Feature& place)
   {
     bool found = false;
-    near_.forEachNear(place,
-                      [&](std::uint32_t k)
-                      {
-                        const Feature& wall = walls_[k];
-                        const TPoint2D from = place - wall.position;
-                        const TPoint2D n = directionVector(wall);
-                        const TPoint2D t = tangentVector(wall);
-                        found = found || test(wall, from.x * t.x + from.y * t.y,
-                                              from.x * n.x + from.y * n.y);
-                      });
+    if (!may_be_part(place)) return found;
+    near.forEachNear(
+        place.position,
+        [&](std::uint32_t k) {
+          found = found || (walls[k].size > kPostRadii * place.size && touches(place, walls[k]));
+        });
     return found;
-  }
-
-  const std::vector<Feature>& walls_;
-  CellHash near_;
-};
+  };
+  places.erase(std::remove_if(places.begin(), places.end(), in_a_wall), places.end());
+}
 
 std::vector<Feature> segmentsOf(const std::vector<MergedWall>& walls)
 {
@@ -197,24 +170,11 @@ std::vector<Feature> mergedFeatures(const std::vector<MergedWall>& walls,
                                     const std::vector<MergedPlace>& places,
                                     const MapBuildingOptions& options)
 {
-  std::vector<Feature> segments = segmentsOf(walls);
+  std::vector<Feature> out = segmentsOf(walls);
   std::vector<Feature> others = oftenSeen(places, options.min_sightings);
   completeCorners(others);
-
-  double widest = 0;
-  for (const Feature& place : others)
-  {
-    if (place.type == FeatureType::circle && place.size <= kWidestPost)
-      widest = std::max(widest, place.size);
-  }
-  const WallsByPlace nearby(segments, widest + options.merge_offset);
-  const auto in_a_wall = [&](const Feature& place)
-  {
-    return (place.type == FeatureType::circle && nearby.swallow(place, options.merge_offset)) ||
-           (place.type == FeatureType::wall_end && nearby.passBy(place, options));
-  };
-  std::vector<Feature> out = segments;
-  std::remove_copy_if(others.begin(), others.end(), std::back_inserter(out), in_a_wall);
+  removeCirclesInWalls(others, out, options.merge_offset);
+  out.insert(out.end(), others.begin(), others.end());
   return out;
 }
 }  // namespace sigloc

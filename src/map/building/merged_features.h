@@ -23,8 +23,8 @@ struct MergedPlace
 };
 
 /// Returns the features of a map: the walls, and the places that were seen often enough. The ends
-/// of walls that meet in convex corners are added to the wall ends. Circles and wall ends in the
-/// middle of a wall are left out. \cite algorithm section 2, "From scans to a map"
+/// of walls that meet in convex corners are added to the wall ends. Circles that are parts of a
+/// wall are left out. \cite algorithm section 2, "From scans to a map"
 std::vector<Feature> mergedFeatures(const std::vector<MergedWall>& walls,
                                     const std::vector<MergedPlace>& places,
                                     const MapBuildingOptions& options);
