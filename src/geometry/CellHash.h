@@ -4,6 +4,7 @@
 
 #include <mrpt/math/TPoint2D.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <unordered_map>
@@ -26,6 +27,20 @@ class CellHash
     cells_[cellKey(cellOf(place.x), cellOf(place.y))].push_back(index);
   }
 
+  /// The same, unless the cell of the place holds the index already.
+  void addOnce(const mrpt::math::TPoint2D& place, std::uint32_t index)
+  {
+    std::vector<std::uint32_t>& cell = cells_[cellKey(cellOf(place.x), cellOf(place.y))];
+    if (std::find(cell.begin(), cell.end(), index) == cell.end()) cell.push_back(index);
+  }
+
+  /// Calls `visit(index)` for every place in the cell of `place`.
+  template <class Visit>
+  void forEachInCell(const mrpt::math::TPoint2D& place, Visit&& visit) const
+  {
+    visitCell(cellOf(place.x), cellOf(place.y), visit);
+  }
+
   /// Calls `visit(index)` for every place within a cell's size of `place`, and for others a little
   /// farther away; several times for an index that was added several times.
   template <class Visit>
@@ -37,14 +52,20 @@ class CellHash
     {
       for (std::int64_t dx = -1; dx <= 1; ++dx)
       {
-        const auto cell = cells_.find(cellKey(x + dx, y + dy));
-        if (cell == cells_.end()) continue;
-        for (const std::uint32_t index : cell->second) visit(index);
+        visitCell(x + dx, y + dy, visit);
       }
     }
   }
 
  private:
+  template <class Visit>
+  void visitCell(std::int64_t x, std::int64_t y, Visit& visit) const
+  {
+    const auto cell = cells_.find(cellKey(x, y));
+    if (cell == cells_.end()) return;
+    for (const std::uint32_t index : cell->second) visit(index);
+  }
+
   std::int64_t cellOf(double x) const { return static_cast<std::int64_t>(std::floor(x / cell_)); }
 
   double cell_;

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <utility>
 
-#include "geometry/cell_key.h"
 #include "map/building/merged_features.h"
 
 namespace sigloc
@@ -18,22 +17,13 @@ using mrpt::math::wrapToPi;
 
 namespace
 {
-constexpr double kPlaceCell = 0.5;  // [m] of the hash over point-like features
-
-std::uint64_t placeCellAt(double x, double y)
-{
-  return cellKey(static_cast<std::int32_t>(std::floor(x / kPlaceCell)),
-                 static_cast<std::int32_t>(std::floor(y / kPlaceCell)));
-}
-
 bool areAlike(const Feature& a, const Feature& b)
 {
   return a.type == b.type && a.side == b.side && a.label == b.label &&
          (!hasBearing(b.type) || std::abs(wrapToPi(a.direction - b.direction)) <= kMostPlaceTurn);
 }
 
-/// Takes a sighting into the running means. The hash keeps the first place, from which the mean
-/// hardly moves.
+/// Takes a sighting into the running means.
 void absorbSighting(MergedPlace& merged, const Feature& place)
 {
   Feature& feature = merged.feature;
@@ -57,12 +47,15 @@ void absorbSighting(MergedPlace& merged, const Feature& place)
 
 FeatureMerger::FeatureMerger(const MapBuildingOptions& options, std::vector<MergedWall> walls,
                              std::vector<MergedPlace> places)
-    : options_(options), walls_(options, std::move(walls)), places_(std::move(places))
+    : options_(options),
+      walls_(options, std::move(walls)),
+      places_(std::move(places)),
+      places_by_cell_(2 * options.merge_point_distance)  // the means move a little
 {
   for (std::uint32_t k = 0; k < places_.size(); ++k)
   {
     places_[k].last_scan = 0;
-    registerPlace(k);
+    places_by_cell_.add(places_[k].feature.position, k);
   }
 }
 
@@ -87,35 +80,20 @@ std::vector<Feature> FeatureMerger::features() const
   return mergedFeatures(walls_.mergedAgain(options_.min_sightings), places_, options_);
 }
 
-void FeatureMerger::registerPlace(std::uint32_t index)
-{
-  const TPoint2D& p = places_[index].feature.position;
-  place_cells_[placeCellAt(p.x, p.y)].push_back(index);
-}
-
 /// Returns the place that another one is a sighting of, if any.
 MergedPlace* FeatureMerger::placeFor(const Feature& place)
 {
-  const double reach = options_.merge_point_distance;
-  const int cells = static_cast<int>(std::ceil(reach / kPlaceCell));
   MergedPlace* nearest = nullptr;
-  double least = reach;
-  for (int dx = -cells; dx <= cells; ++dx)
-  {
-    for (int dy = -cells; dy <= cells; ++dy)
-    {
-      const auto cell = place_cells_.find(
-          placeCellAt(place.position.x + dx * kPlaceCell, place.position.y + dy * kPlaceCell));
-      if (cell == place_cells_.end()) continue;
-      for (const std::uint32_t k : cell->second)
+  double least = options_.merge_point_distance;
+  places_by_cell_.forEachNear(
+      place.position,
+      [&](std::uint32_t k)
       {
         const double distance = (places_[k].feature.position - place.position).norm();
-        if (distance >= least || !areAlike(places_[k].feature, place)) continue;
+        if (distance >= least || !areAlike(places_[k].feature, place)) return;
         nearest = &places_[k];
         least = distance;
-      }
-    }
-  }
+      });
   return nearest;
 }
 
@@ -137,6 +115,6 @@ void FeatureMerger::addPlace(const Feature& place)
   fresh.sine_sum = std::sin(place.direction);
   fresh.last_scan = scan_;
   places_.push_back(fresh);
-  registerPlace(static_cast<std::uint32_t>(places_.size() - 1));
+  places_by_cell_.add(place.position, static_cast<std::uint32_t>(places_.size() - 1));
 }
 }  // namespace sigloc

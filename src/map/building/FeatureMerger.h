@@ -3,9 +3,9 @@
 #pragma once
 
 #include <cstdint>
-#include <unordered_map>
 #include <vector>
 
+#include "geometry/CellHash.h"
 #include "map/building/merged_features.h"
 #include "map/building/WallMerger.h"
 #include "sigloc/features/Feature.h"
@@ -19,7 +19,7 @@ namespace sigloc
 class FeatureMerger
 {
  public:
-  explicit FeatureMerger(const MapBuildingOptions& options) : options_(options), walls_(options) {}
+  explicit FeatureMerger(const MapBuildingOptions& options) : FeatureMerger(options, {}, {}) {}
   /// Continues from the merged features of another merger.
   FeatureMerger(const MapBuildingOptions& options, std::vector<MergedWall> walls,
                 std::vector<MergedPlace> places);
@@ -36,12 +36,11 @@ class FeatureMerger
  private:
   void addPlace(const Feature& place);
   MergedPlace* placeFor(const Feature& place);
-  void registerPlace(std::uint32_t index);
 
   MapBuildingOptions options_;
   std::uint32_t scan_ = 0;
   WallMerger walls_;
   std::vector<MergedPlace> places_;
-  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> place_cells_;
+  CellHash places_by_cell_;  // where they were seen first
 };
 }  // namespace sigloc

@@ -9,7 +9,6 @@
 #include <iterator>
 #include <utility>
 
-#include "geometry/cell_key.h"
 #include "map/building/walk_along.h"
 
 namespace sigloc
@@ -19,14 +18,6 @@ using mrpt::math::wrapToPi;
 
 namespace
 {
-constexpr double kWallCell = 1.0;  // [m] of the hash over walls
-
-std::uint64_t wallCellAt(const TPoint2D& p)
-{
-  return cellKey(static_cast<std::int32_t>(std::floor(p.x / kWallCell)),
-                 static_cast<std::int32_t>(std::floor(p.y / kWallCell)));
-}
-
 /// A piece of wall counts like evenly spread points, eq. (2.6): by its length, middle and spread.
 MergedWall seenOnce(const Feature& segment, std::uint32_t scan)
 {
@@ -160,40 +151,27 @@ std::uint32_t WallMerger::bestFor(const Feature& segment) const
 {
   auto best = static_cast<std::uint32_t>(walls_.size());
   double best_offset = 1e9;
-  const auto look = [&](const TPoint2D& p)
+  const auto compare = [&](std::uint32_t k)
   {
-    const auto cell = cells_.find(wallCellAt(p));
-    if (cell == cells_.end()) return;
-    for (const std::uint32_t k : cell->second)
-    {
-      double offset = 0;
-      if (!fits(walls_[k].line, segment, offset)) continue;
-      if (offset < best_offset || (offset == best_offset && k < best))
-      {
-        best = k;
-        best_offset = offset;
-      }
-    }
+    double offset = 0;
+    if (!fits(walls_[k].line, segment, offset)) return;
+    if (offset > best_offset || (offset == best_offset && k >= best)) return;
+    best = k;
+    best_offset = offset;
   };
   // Segments that may merge are within these margins, perhaps across the border of a cell.
   const TPoint2D aside = directionVector(segment) * options_.merge_offset;
-  walkAlong(segment, 0.5 * kWallCell, options_.merge_gap,
+  walkAlong(segment, 0.5 * kCell, options_.merge_gap,
             [&](const TPoint2D& p)
             {
-              look(p);
-              look(p - aside);
-              look(p + aside);
+              for (const TPoint2D& at : {p, p - aside, p + aside}) cells_.forEachInCell(at, compare);
             });
   return best;
 }
 
 void WallMerger::enter(std::uint32_t index)
 {
-  walkAlong(walls_[index].line, 0.5 * kWallCell, 0.0,
-            [&](const TPoint2D& p)
-            {
-              auto& cell = cells_[wallCellAt(p)];
-              if (std::find(cell.begin(), cell.end(), index) == cell.end()) cell.push_back(index);
-            });
+  walkAlong(walls_[index].line, 0.5 * kCell, 0.0,
+            [&](const TPoint2D& p) { cells_.addOnce(p, index); });
 }
 }  // namespace sigloc

@@ -3,9 +3,9 @@
 #pragma once
 
 #include <cstdint>
-#include <unordered_map>
 #include <vector>
 
+#include "geometry/CellHash.h"
 #include "sigloc/features/Feature.h"
 #include "sigloc/map/map_building.h"
 
@@ -45,8 +45,10 @@ class WallMerger
   bool fits(const Feature& mapped, const Feature& segment, double& offset) const;
   void enter(std::uint32_t index);
 
+  static constexpr double kCell = 1.0;  // [m] of the hash over walls
+
   MapBuildingOptions options_;
   std::vector<MergedWall> walls_;
-  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
+  CellHash cells_{kCell};
 };
 }  // namespace sigloc
