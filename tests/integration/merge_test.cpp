@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <algorithm>
+#include <sstream>
 #include <stdexcept>
 
 #include "bridge/rawlog_files.h"
@@ -66,6 +68,44 @@ TEST(Merge, EveryQueryOfAllRunsWeighsTheSame)
   // Quantiles are of all queries, not means of the runs' own.
   EXPECT_DOUBLE_EQ(method.at("time_ms").at("median").get<double>(), 101);
   EXPECT_TRUE(merged.complete);
+}
+
+/// A CSV text, no cell of which is quoted, without its column `name`.
+std::string withoutColumn(const std::string& csv, const std::string& name)
+{
+  std::istringstream lines(csv);
+  std::string out;
+  std::ptrdiff_t column = -1;
+  for (std::string line; std::getline(lines, line);)
+  {
+    std::vector<std::string> cells{""};
+    for (const char c : line)
+    {
+      if (c == ',') cells.emplace_back();
+      if (c != ',') cells.back() += c;
+    }
+    if (column < 0) column = std::find(cells.begin(), cells.end(), name) - cells.begin();
+    cells.erase(cells.begin() + column);
+    for (std::size_t k = 0; k < cells.size(); ++k) out += (k > 0 ? "," : "") + cells[k];
+    out += "\n";
+  }
+  return out;
+}
+
+TEST(Merge, TakesRunsOfEarlierVersionsWithoutTheLatestColumns)
+{
+  const TemporaryFolder folder;
+  writeRelocations(folder / "old", 2, 11);
+  writeRelocations(folder / "new", 3, 12, "signature", 2);
+  const std::filesystem::path results = folder / "old" / "results.csv";
+  for (const std::string later : {"cut_short", "settled_by_pairs"})
+  {
+    writeText(results, withoutColumn(readBytes(results), later));
+  }
+  const MergedRuns merged = mergeRuns({folder / "old", folder / "new"}, "test");
+  EXPECT_EQ(merged.report.summary.at("methods").at("signature").at("queries"), 23);
+  writeText(results, withoutColumn(readBytes(results), "claim"));
+  EXPECT_THROW(mergeRuns({folder / "old", folder / "new"}, "test"), std::runtime_error);
 }
 
 TEST(Merge, FoldersMayHaveAnyName)
