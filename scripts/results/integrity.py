@@ -276,7 +276,7 @@ def reliability(bench):
         "Asked: of the steps whose first pose had such a weight, how many were right? Cells give share and steps.",
         "A perfect publisher is right as often as it says; in another place's map it never is.",
         "*Recorded* are steps on mapped area. *Whole map* is as mapped, with moved furniture and with clutter.",
-        "The plot has these two alone. In half-mapped worlds about half of the steps are off the mapped area.",
+        "The reliability diagram above has *recorded* and *whole map*. In half-mapped worlds about half of the steps are off the mapped area.",
         "Steps without truth, drives by landmarks and those that do not overlap are in no column.",
         "Of kidnapped robots only the steps after the kidnapping count.",
         "Steps of one drive hang together, so there are no intervals.",

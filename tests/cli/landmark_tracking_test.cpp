@@ -33,7 +33,7 @@ TEST(Localize, followsARobotThatSeesLandmarksOnly)
   EXPECT_LT(summary["final_error_m"], 0.5);
   EXPECT_LT(summary["final_error_deg"], 5);
   EXPECT_EQ(summary["confidently_wrong_steps"], 0);
-  EXPECT_LT(summary["meters_to_localized"], 5);
+  EXPECT_LT(summary["localized_after_m"], 5);
 
   const std::ptrdiff_t steps = summary["steps"];
   EXPECT_EQ(countLines(readBytes(folder / "out/steps.csv")), steps + 1);

@@ -259,7 +259,7 @@ TEST(Localize, knowsNoDistanceWithoutOdometry)
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_NE(result.output.find("3 steps, distance unknown"), std::string::npos) << result.output;
   EXPECT_TRUE(summaryOf(folder)["distance_m"].is_null());
-  EXPECT_TRUE(summaryOf(folder)["meters_to_localized"].is_null());
+  EXPECT_TRUE(summaryOf(folder)["localized_after_m"].is_null());
 }
 
 TEST(Localize, runsStockConfigurationsUnchanged)
