@@ -21,26 +21,19 @@ using mrpt::math::TPose2D;
 
 namespace
 {
-constexpr double kRightDistance = 0.5;  // [m]
-constexpr double kRightAngle = 10 * M_PI / 180;
 constexpr double kAlike = 0.3;  // a wrong candidate that scores no less than this below the first
 constexpr double kAlongError = 0.05;  // of odometry, share of a step
 constexpr double kTurnError = 0.02;  // [rad] in a step
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-bool isRight(const TPose2D& pose, const TPose2D& truth)
-{
-  const PoseError error = errorBetween(pose, truth);
-  return error.distance <= kRightDistance && error.angle <= kRightAngle;
-}
-
-/// Numbers between -1 and 1 with the standard deviation of a normal one; the same everywhere.
+/// Random numbers that are the same with every standard library.
 class Noise
 {
  public:
   explicit Noise(std::uint64_t seed) : engine_(seed) {}
+  /// In [0, 1).
   double uniform() { return static_cast<double>(engine_() >> 11U) * 0x1.0p-53; }
-  /// Uniform, with a standard deviation of 1.
+  /// Uniform, with mean 0 and standard deviation 1.
   double spread() { return std::sqrt(12.0) * (uniform() - 0.5); }
   std::uint64_t seed() { return engine_(); }
 
@@ -90,7 +83,7 @@ class Checker
       before = pose;
       const Belief& belief = tracker.step(motion, scene(pose));
       if (belief.verdict == Verdict::localized &&
-          isRight(belief.hypotheses.front().pose.mean, pose))
+          isRight(errorBetween(belief.hypotheses.front().pose.mean, pose)))
         return travelled;
     }
     return kInfinity;
@@ -113,7 +106,7 @@ class Checker
     times_ms.push_back(1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
     for (const Candidate& candidate : result.candidates)
     {
-      if (isRight(candidate.pose.mean, truth))
+      if (isRight(errorBetween(candidate.pose.mean, truth)))
       {
         place.probability += candidate.probability / place.scans;
       }
@@ -122,8 +115,8 @@ class Checker
         confusions.push_back({truth, candidate.pose.mean, candidate.probability});
       }
     }
-    const bool first_right =
-        !result.candidates.empty() && isRight(result.candidates.front().pose.mean, truth);
+    const bool first_right = !result.candidates.empty() &&
+                             isRight(errorBetween(result.candidates.front().pose.mean, truth));
     const bool localized = result.verdict == Verdict::localized;
     place.right += first_right ? 1 : 0;
     place.localized += localized ? 1 : 0;

@@ -17,9 +17,9 @@ struct ScanPoints
   std::vector<mrpt::math::TPoint2D> points;
   std::vector<double> ranges;
   std::vector<std::size_t> beams;  // beam index of each return
-  std::size_t beam_count = 0;  // including lost beams
+  std::size_t beam_count = 0;  // including lost beams; 0 where it is not known
   double beam_spacing = 0;  // [rad]
-  double max_range = 0;  // [m]
+  double max_range = 0;  // [m]; 0 where it is not known, and no sky is seen then
   bool closed = false;  // the scan covers the full circle: the last beam is beside the first
 };
 

@@ -71,7 +71,8 @@ void startBehindGap(std::vector<Bearing>& bearings)
               bearings.end());
 }
 
-/// Keeps the nearest point of each beam.
+/// Keeps the nearest point of each beam. How many beams were lost, and how far they reach, points
+/// do not tell.
 ScanPoints scanOf(const std::vector<Bearing>& bearings, double spacing)
 {
   ScanPoints scan;

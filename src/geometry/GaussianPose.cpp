@@ -30,6 +30,16 @@ PoseError errorBetween(const mrpt::math::TPose2D& pose, const mrpt::math::TPose2
           std::abs(mrpt::math::wrapToPi(pose.phi - truth.phi))};
 }
 
+bool isRight(const PoseError& error, const AccuracyGates& gates)
+{
+  return error.distance <= gates.right_distance && error.angle <= gates.right_angle;
+}
+
+bool isWrong(const PoseError& error, const AccuracyGates& gates)
+{
+  return !(error.distance <= gates.wrong_distance && error.angle <= gates.wrong_angle);
+}
+
 GaussianPose composeWithMotion(const GaussianPose& map_from_previous,
                                const MotionIncrement& increment)
 {

@@ -12,6 +12,7 @@
 #include "geometry/plane_products.h"
 #include "io/GroundTruth.h"
 #include "localize/particle_library.h"
+#include "localize/quantile.h"
 #include "sigloc/io/map_files.h"
 #include "sigloc/plugin/pose_pdf.h"
 #include "sigloc/plugin/SignatureMap.h"
@@ -24,12 +25,6 @@ namespace
 namespace fs = std::filesystem;
 using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
-
-// What counts as right and as wrong is fixed, so that runs compare.
-constexpr double kRightDistance = 0.5;  // [m]
-constexpr double kRightAngle = 10 * M_PI / 180;  // [rad]
-constexpr double kWrongDistance = 1.0;  // [m]
-constexpr double kWrongAngle = 20 * M_PI / 180;  // [rad]
 
 class Stopwatch
 {
@@ -48,10 +43,7 @@ StepTimes timesOf(std::vector<double> values)
 {
   if (values.empty()) return {};
   std::sort(values.begin(), values.end());
-  const auto last = static_cast<double>(values.size() - 1);
-  const auto at = [&](double share)
-  { return values[static_cast<std::size_t>(std::lround(share * last))]; };
-  return {values.size(), at(0.5), at(0.95)};
+  return {values.size(), detail::quantileOf(values, 0.5), detail::quantileOf(values, 0.95)};
 }
 
 /// Reads up to the first step that counts, so that a log without any fails before the map is built.
@@ -334,15 +326,11 @@ void LocalizationRun::score(StepRecord& step) const
 {
   if (!step.truth || step.belief.hypotheses.empty()) return;
   step.error = errorBetween(step.belief.hypotheses.front().pose.mean, *step.truth);
-  step.confidently_wrong = isLocalized(step) && (step.error->distance > kWrongDistance ||
-                                                 step.error->angle > kWrongAngle);
-  step.any_right =
-      std::any_of(step.belief.hypotheses.begin(), step.belief.hypotheses.end(),
-                  [&](const TrackedHypothesis& hypothesis)
-                  {
-                    const PoseError error = errorBetween(hypothesis.pose.mean, *step.truth);
-                    return error.distance <= kRightDistance && error.angle <= kRightAngle;
-                  });
+  step.confidently_wrong = isLocalized(step) && isWrong(*step.error);
+  step.any_right = std::any_of(step.belief.hypotheses.begin(), step.belief.hypotheses.end(),
+                               [&](const TrackedHypothesis& hypothesis) {
+                                 return isRight(errorBetween(hypothesis.pose.mean, *step.truth));
+                               });
 }
 
 double LocalizationRun::progress() const

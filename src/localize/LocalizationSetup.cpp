@@ -128,12 +128,11 @@ double readSide(const CConfigFileMemory& ini, const char* key)
   return side;
 }
 
-/// The box in which pf-localization draws its particles, in either init_PDF_mode. A box narrower
-/// than the distance at which poses count as different is widened to that.
+/// The box in which pf-localization draws its particles, in either init_PDF_mode. One that is
+/// narrower than the errors of a right pose is widened to these.
 std::optional<PoseRegion> readPrior(const CConfigFileMemory& ini)
 {
-  constexpr double kLeastHalfWidth = 0.5;  // [m]
-  constexpr double kLeastHalfTurn = 10 * M_PI / 180;
+  constexpr AccuracyGates kGates;
   PoseRegion region{readSide(ini, "init_PDF_min_x"), readSide(ini, "init_PDF_max_x"),
                     readSide(ini, "init_PDF_min_y"), readSide(ini, "init_PDF_max_y")};
   if (region.x_min > region.x_max || region.y_min > region.y_max)
@@ -145,7 +144,7 @@ std::optional<PoseRegion> readPrior(const CConfigFileMemory& ini)
   if (!has_box) return std::nullopt;
   const auto widen = [&](double& low, double& high)
   {
-    const double missing = std::max(0.0, kLeastHalfWidth - 0.5 * (high - low));
+    const double missing = std::max(0.0, kGates.right_distance - 0.5 * (high - low));
     low -= missing;
     high += missing;
   };
@@ -157,7 +156,7 @@ std::optional<PoseRegion> readPrior(const CConfigFileMemory& ini)
   if (max_yaw - min_yaw < 2 * M_PI - 1e-6)
   {
     region.heading = mrpt::math::wrapToPi(0.5 * (min_yaw + max_yaw));
-    region.heading_tolerance = std::max(kLeastHalfTurn, 0.5 * (max_yaw - min_yaw));
+    region.heading_tolerance = std::max(kGates.right_angle, 0.5 * (max_yaw - min_yaw));
   }
   return region;
 }

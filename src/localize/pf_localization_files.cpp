@@ -12,6 +12,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "localize/quantile.h"
 #include "sigloc/io/file_output.h"
 #include "sigloc/plugin/pose_pdf.h"
 
@@ -198,11 +199,7 @@ std::string experimentSummary(const std::vector<ExperimentOutcome>& repetitions,
   double mean = 0;
   for (const double error : errors) mean += error / static_cast<double>(errors.size());
   const auto quantile = [&](double share)
-  {
-    if (errors.empty()) return kUnknown;
-    const double last = static_cast<double>(errors.size() - 1);
-    return errors[static_cast<std::size_t>(std::lround(share * last))];
-  };
+  { return errors.empty() ? kUnknown : detail::quantileOf(errors, share); };
   const double low = std::min(confidence_share, 1 - confidence_share);
   return fmt::format(
       "% Ratio_covergence_success  #particles  average_time_per_execution  "

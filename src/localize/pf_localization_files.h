@@ -19,7 +19,7 @@ namespace sigloc
 /// * `odo_est.txt`: dead reckoning, `x y phi`
 /// * `GT_error.txt`: mean distance of the belief from the truth [m]
 /// * `ODO_error.txt`: distance of dead reckoning from the truth [m]
-/// * `exec_times.txt`: CPU time [s], of extraction and of tracking
+/// * `exec_times.txt`: time by the clock [s]: in all, of extraction, of tracking
 /// * `PF_stats.txt`: hypotheses, their effective number, the variance of their weights,
 ///   reliability, and what `cov_est.txt` holds
 /// * `particles/particles_00001.txt`: 500 samples of that belief, where a scene is written as well

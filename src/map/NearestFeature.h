@@ -3,6 +3,7 @@
 #pragma once
 
 #include <mrpt/math/TPoint2D.h>
+#include <mrpt/math/TPose2D.h>
 
 #include <cstdint>
 #include <optional>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "sigloc/features/Feature.h"
+#include "sigloc/map/sensor_model.h"
 
 namespace sigloc
 {
@@ -41,4 +43,9 @@ class NearestFeature
   std::vector<Feature> features_;
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
 };
+
+/// The log-likelihood of sensor_model.h, with the distance to the nearest feature.
+double logLikelihood(const NearestFeature& nearest, const std::vector<mrpt::math::TPoint2D>& points,
+                     const mrpt::math::TPose2D& map_from_robot,
+                     const PointLikelihoodOptions& options = {});
 }  // namespace sigloc

@@ -77,7 +77,6 @@ inline const MappedWorld& lawOffice()
 /// Right: within 0.5 m and 10 degrees of the truth.
 inline bool isRight(const mrpt::math::TPose2D& pose, const mrpt::math::TPose2D& truth)
 {
-  return std::hypot(pose.x - truth.x, pose.y - truth.y) < 0.5 &&
-         std::abs(std::remainder(pose.phi - truth.phi, 2 * M_PI)) < 10 * M_PI / 180;
+  return sigloc::isRight(errorBetween(pose, truth));
 }
 }  // namespace sigloc::test

@@ -5,6 +5,7 @@
 #include <mrpt/math/CMatrixFixed.h>
 #include <mrpt/math/TPose2D.h>
 
+#include <cmath>
 #include <limits>
 
 namespace sigloc
@@ -31,7 +32,23 @@ struct PoseError
   double distance = std::numeric_limits<double>::quiet_NaN();  ///< [m]
   double angle = std::numeric_limits<double>::quiet_NaN();  ///< [rad], in [0, pi]
 };
+/// Returns the distance of two places and the turn between two headings.
 PoseError errorBetween(const mrpt::math::TPose2D& pose, const mrpt::math::TPose2D& truth);
+
+/// How far off a pose may be to count as right, or before one that is claimed counts as wrong.
+/// Between the two it is inaccurate: the truth of public logs is itself off by up to 0.5 m.
+struct AccuracyGates
+{
+  double right_distance = 0.5;  ///< [m]
+  double right_angle = 10 * M_PI / 180;  ///< [rad]
+  double tight_angle = 3.6 * M_PI / 180;  ///< [rad], with right_distance
+  double wrong_distance = 1.0;  ///< [m]
+  double wrong_angle = 20 * M_PI / 180;  ///< [rad]
+};
+
+/// Returns whether a pose with such an error is right, or wrong. One with a NaN is wrong.
+bool isRight(const PoseError& error, const AccuracyGates& gates = {});
+bool isWrong(const PoseError& error, const AccuracyGates& gates = {});
 
 /// Returns `map_from_previous (+) increment` with first-order propagation of both covariances. The
 /// heading is wrapped. \cite algorithm eq. (8.1)

@@ -32,8 +32,8 @@ struct StepRecord
   std::optional<PoseError> error;  ///< of the first hypothesis
   bool any_right = false;  ///< some hypothesis lies within 0.5 m and 10 degrees of the truth
   bool confidently_wrong = false;  ///< localized, and more than 1 m or 20 degrees off
-  double extraction_ms = 0;  ///< features from scans
-  double tracking_ms = 0;  ///< the tracker's step, a relocation in it included
+  double extraction_ms = 0;  ///< by the clock: features from scans
+  double tracking_ms = 0;  ///< by the clock: the tracker's step with its relocation, if any
 };
 
 /// Times of some steps [ms], extraction included; 0 for none.

@@ -84,7 +84,9 @@ struct LocalizationSetup
 
   /// Every file that a run reads. Throws as filesOfMapSource() does.
   std::vector<std::filesystem::path> inputFiles() const;
+  /// The pose of the truth's frame in the map [m, rad]; nothing is turned or moved by default.
   mrpt::math::TPose2D mapFromTruth() const;
+  /// The true pose after the last step, in the map, where the ini tells it.
   std::optional<mrpt::math::TPose2D> finalTruth() const;
 };
 

@@ -54,8 +54,10 @@ class RunWriter
   /// Where files belong until finish(), pictures of an app included.
   const std::filesystem::path& workFolder() const { return work_; }
 
-  /// `anywhere`: LocalizationRun::anywhere().
+  /// Writes belief/<stepName>.CPosePDFSOG and .txt. `anywhere`: LocalizationRun::anywhere(). Throws
+  /// std::runtime_error for a file that cannot be written, as the next two do.
   void writeBelief(const StepRecord& step, const GaussianPose& anywhere) const;
+  /// Writes 3D/<stepName>.3Dscene.
   void writeScene(const FeatureMap& map, const StepRecord& step, const StepDrawing& drawing) const;
   /// Writes everything that covers the whole run and gives the folder its name.
   void finish(const LocalizationRun& run);
@@ -94,6 +96,7 @@ struct ExperimentOutcome
   double seconds = 0;  ///< spent on its steps
   std::vector<double> errors;  ///< [m], of the steps with truth
 };
+/// Returns what a finished run adds.
 ExperimentOutcome outcomeOf(const LocalizationRun& run);
 
 /// Returns pf-localization's summary of one experiment's repetitions: a comment with the columns

@@ -22,7 +22,8 @@ struct WallLine
 };
 
 /// Links collinear fragments that face the same way into walls. Openings up to 4 m do not separate
-/// them. \cite algorithm section 2, "From scans to a map"
+/// them. Lines are in the frame of the features, that of the longest fragment first.
+/// \cite algorithm section 2, "From scans to a map"
 std::vector<WallLine> linkWalls(const std::vector<Feature>& features);
 
 /// The source of a map, stored so that a `.sigmap` is rebuilt only when its source has changed.

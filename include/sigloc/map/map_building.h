@@ -67,23 +67,24 @@ using MapProgress = std::function<void(double share)>;
 
 /// Returns the map of posed scans: raster from hit counts, dense field, merged features. Each
 /// scan's memory is freed once it is counted, so whoever moves the scans in needs less of it.
-/// Throws std::invalid_argument when no scan has a valid return.
+/// Throws std::invalid_argument for options out of their ranges, and where no scan has a valid
+/// return. So it does for an inconsistent scan, and for poses not finite or too far apart.
 FeatureMap buildMapFromScans(std::vector<PosedScans> scans, const MapBuildingOptions& options = {},
                              const FeatureExtractorOptions& extraction = {},
                              const MapProvenance& provenance = {},
                              const MapProgress& progress = {});
 
 /// Returns the map of an occupancy raster. Scans are cast from its free cells, so that the features
-/// are those that a laser sees. Throws std::invalid_argument for an inconsistent raster or one
-/// without any wall.
+/// are those that a laser sees. Throws std::invalid_argument for options out of their ranges, and
+/// for a raster that is inconsistent or has no wall.
 FeatureMap buildMapFromRaster(const OccupancyRaster& raster, const MapBuildingOptions& options = {},
                               const FeatureExtractorOptions& extraction = {},
                               const MapProvenance& provenance = {},
                               const MapProgress& progress = {});
 
 /// Returns the raster of posed scans. A cell is wall when beams of at least min_hits scans end in
-/// it and its neighbours, and free when beams pass and it is not wall. \cite algorithm eq. (6.1),
-/// (6.2)
+/// it and its neighbours, and free when beams pass and it is not wall. Throws as
+/// buildMapFromScans() does. \cite algorithm eq. (6.1), (6.2)
 OccupancyRaster rasterFromScans(const std::vector<PosedScans>& scans,
                                 const MapBuildingOptions& options = {});
 }  // namespace sigloc

@@ -16,8 +16,6 @@
 
 namespace sigloc
 {
-class NearestFeature;
-
 /// How a particle filter weighs a pose by points. Units, ranges and meanings are in `visitFields`.
 struct PointLikelihoodOptions
 {
@@ -48,11 +46,6 @@ std::vector<mrpt::math::TPoint2D> thinned(const std::vector<mrpt::math::TPoint2D
 /// Returns the log-likelihood (<= 0) of points in the robot frame [m] at a pose. Each point is an
 /// independent mixture: a Gaussian of its distance to the nearest wall, and an outlier.
 double logLikelihood(const DenseField& field, const std::vector<mrpt::math::TPoint2D>& points,
-                     const mrpt::math::TPose2D& map_from_robot,
-                     const PointLikelihoodOptions& options = {});
-
-/// The same with the distance to the nearest feature.
-double logLikelihood(const NearestFeature& nearest, const std::vector<mrpt::math::TPoint2D>& points,
                      const mrpt::math::TPose2D& map_from_robot,
                      const PointLikelihoodOptions& options = {});
 

@@ -82,7 +82,9 @@ struct RelocationResult
 {
   std::vector<Candidate> candidates;
   Verdict verdict = Verdict::too_little_seen;
-  double probability = 0;  ///< of the verdict's claim; for `localized`, of the first candidate
+  /// Of the verdict: that of the first candidate where localized, that it is not the first where
+  /// ambiguous, and `elsewhere` for *not here* and *too little seen*.
+  double probability = 0;
   double elsewhere = 1;  ///< probability that the robot is at none of the candidates
   double view = 2 * M_PI;  ///< [rad] angular coverage of the returns, 0 without any
   /// False where the search by features ended at its budget: what it missed may be right. Poses
@@ -95,10 +97,11 @@ struct RelocationResult
 /// in the map frame.
 struct PoseRegion
 {
-  double x_min, x_max, y_min, y_max;
+  double x_min = 0, x_max = 0, y_min = 0, y_max = 0;
   double heading = 0;
-  double heading_tolerance = 3.15;
+  double heading_tolerance = 3.15;  ///< to either side; more than pi: any heading
 
+  /// True for a pose in the box and the range, borders included.
   bool contains(const mrpt::math::TPose2D& pose) const;
 };
 }  // namespace sigloc

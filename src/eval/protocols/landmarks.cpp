@@ -23,7 +23,7 @@ AccuracyGates gatesOf(const std::string& dataset)
   if (dataset == "victoria-park")
   {
     gates.right_distance = 1.0;
-    gates.right_angle_deg = 3.0;
+    gates.right_angle = 3.0 * M_PI / 180;
   }
   return gates;
 }

@@ -47,8 +47,8 @@ std::string judgement(const AccuracyGates& gates)
   whose best pose is right at that step, sure or not. A run that saw nothing has fewer than 10 beams
   in every step.
 )",
-                     gates.right_distance, gates.right_angle_deg, gates.wrong_distance,
-                     gates.wrong_angle_deg);
+                     gates.right_distance, mrpt::RAD2DEG(gates.right_angle), gates.wrong_distance,
+                     mrpt::RAD2DEG(gates.wrong_angle));
 }
 
 /// The runs of a method, or those of one group.
@@ -186,7 +186,7 @@ RelocationSummary endSummary(const WakeupMethodReport& method, const AccuracyGat
     outcome.inaccurate = last.judged == Claim::inaccurate;
     if (!judgedStep(run)) continue;
     outcome.right = isRight(last.error, gates);
-    outcome.tight = *outcome.right && mrpt::RAD2DEG(last.error.angle) <= gates.tight_angle_deg;
+    outcome.tight = *outcome.right && last.error.angle <= gates.tight_angle;
     if (*outcome.right) outcome.error = last.error;
   }
   return summary;

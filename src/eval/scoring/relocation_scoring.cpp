@@ -45,22 +45,15 @@ AccuracyGates simulationGates()
 {
   AccuracyGates gates;
   gates.wrong_distance = gates.right_distance;
-  gates.wrong_angle_deg = gates.right_angle_deg;
+  gates.wrong_angle = gates.right_angle;
   return gates;
-}
-
-bool isRight(const PoseError& error, const AccuracyGates& gates)
-{
-  return error.distance <= gates.right_distance && RAD2DEG(error.angle) <= gates.right_angle_deg;
 }
 
 Claim judgeClaim(const std::optional<PoseError>& error, const AccuracyGates& gates)
 {
   if (!error) return Claim::wrong;
   if (isRight(*error, gates)) return Claim::right;
-  const bool near =
-      error->distance <= gates.wrong_distance && RAD2DEG(error->angle) <= gates.wrong_angle_deg;
-  return near ? Claim::inaccurate : Claim::wrong;
+  return isWrong(*error, gates) ? Claim::wrong : Claim::inaccurate;
 }
 
 std::size_t countValidBeams(const std::vector<LaserScan>& scans)

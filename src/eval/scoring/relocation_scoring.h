@@ -15,19 +15,6 @@
 
 namespace sigloc
 {
-/// How far off an answer may be to count as right, or before a confident one counts as wrong.
-struct AccuracyGates
-{
-  double right_distance = 0.5;  ///< [m]
-  double right_angle_deg = 10;
-  double tight_angle_deg = 3.6;  ///< with right_distance
-  /// A confident answer farther off than these is confidently wrong; between right and these it is
-  /// inaccurate. The truth of public logs is itself off by up to 0.5 m; in simulation they equal
-  /// the gates of a right answer.
-  double wrong_distance = 1.0;  ///< [m]
-  double wrong_angle_deg = 20;
-};
-
 /// In simulation the truth is exact: a confident answer that is not right is wrong.
 AccuracyGates simulationGates();
 
@@ -44,7 +31,6 @@ const char* toString(Claim claim);
 /// Two cells of CSV: metres, and degrees with a digit less.
 Written written(const PoseError& error, int decimals);
 bool parse(const Cells& cells, PoseError& error);
-bool isRight(const PoseError& error, const AccuracyGates& gates);
 /// What a confident claim of a pose is worth; without truth (a foreign map) it is wrong.
 Claim judgeClaim(const std::optional<PoseError>& error, const AccuracyGates& gates);
 

@@ -68,8 +68,7 @@ void RelocationSummary::add(const RelocationRecord& record)
   outcome.times_ms.assign(1, record.time_ms);
   if (record.sawNothing() || !record.truth) return;
   outcome.right = record.rank_of_right == 1;
-  outcome.tight =
-      *outcome.right && mrpt::RAD2DEG(record.error.angle) <= AccuracyGates().tight_angle_deg;
+  outcome.tight = *outcome.right && record.error.angle <= AccuracyGates().tight_angle;
   outcome.among_ten = record.rank_of_right > 0;
   outcome.proposed = record.proposed;
   if (*outcome.right) outcome.error = record.error;

@@ -85,15 +85,16 @@ MergedPlace* FeatureMerger::placeFor(const Feature& place)
 {
   MergedPlace* nearest = nullptr;
   double least = options_.merge_point_distance;
-  places_by_cell_.forEachNear(
-      place.position,
-      [&](std::uint32_t k)
-      {
-        const double distance = (places_[k].feature.position - place.position).norm();
-        if (distance >= least || !areAlike(places_[k].feature, place)) return;
-        nearest = &places_[k];
-        least = distance;
-      });
+  places_by_cell_.forEachNear(place.position,
+                              [&](std::uint32_t k)
+                              {
+                                const double distance =
+                                    (places_[k].feature.position - place.position).norm();
+                                if (distance >= least || !areAlike(places_[k].feature, place))
+                                  return;
+                                nearest = &places_[k];
+                                least = distance;
+                              });
   return nearest;
 }
 

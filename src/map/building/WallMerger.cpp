@@ -164,7 +164,8 @@ std::uint32_t WallMerger::bestFor(const Feature& segment) const
   walkAlong(segment, 0.5 * kCell, options_.merge_gap,
             [&](const TPoint2D& p)
             {
-              for (const TPoint2D& at : {p, p - aside, p + aside}) cells_.forEachInCell(at, compare);
+              for (const TPoint2D& at : {p, p - aside, p + aside})
+                cells_.forEachInCell(at, compare);
             });
   return best;
 }

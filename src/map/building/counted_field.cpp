@@ -204,6 +204,7 @@ DenseField denseFieldOf(BeamCounts counts, std::uint32_t min_scans, std::int32_t
 OccupancyRaster rasterFromScans(const std::vector<PosedScans>& scans,
                                 const MapBuildingOptions& options)
 {
+  checkOptions(options);
   BeamCounts counts(options.raster_resolution);
   for (const PosedScans& posed : scans) counts.add(posed, options.raster_range);
   if (counts.empty())

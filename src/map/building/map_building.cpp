@@ -75,6 +75,7 @@ FeatureMap buildMapFromRaster(const OccupancyRaster& raster, const MapBuildingOp
                               const FeatureExtractorOptions& extraction,
                               const MapProvenance& provenance, const MapProgress& progress)
 {
+  checkOptions(options);
   DenseField field = buildDenseField(raster);
   if (field.wall_cells == 0)
   {

@@ -38,12 +38,10 @@ std::uint32_t fingerprint(const std::vector<LaserScan>& scans)
   return hash;
 }
 
+/// Particles that would all be right answers if one of them were the truth.
 bool belongTogether(const TPose2D& a, const TPose2D& b)
 {
-  constexpr double kDistance = 0.5;  // [m], as right answers
-  constexpr double kAngle = 10 * M_PI / 180;  // [rad]
-  return std::hypot(a.x - b.x, a.y - b.y) <= kDistance &&
-         std::abs(mrpt::math::angDistance(a.phi, b.phi)) <= kAngle;
+  return isRight(errorBetween(a, b));
 }
 
 /// Clusters of particles around the heaviest that no cluster before has, ranked by their weight.
