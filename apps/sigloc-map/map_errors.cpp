@@ -42,13 +42,7 @@ class ReturnCounts
     for (const LaserScan& scan : posed.scans)
     {
       const TPose2D origin = posed.map_from_robot + scan.robot_from_sensor;
-      for (std::size_t i = 0; i < scan.ranges.size(); ++i)
-      {
-        if (scan.valid[i] == 0) continue;
-        const double angle = scan.first_angle + static_cast<double>(i) * scan.angle_step;
-        add(origin.composePoint(TPoint2D(std::cos(angle), std::sin(angle)) *
-                                static_cast<double>(scan.ranges[i])));
-      }
+      forEachReturn(scan, [&](const TPoint2D& end) { add(origin.composePoint(end)); });
     }
   }
 
@@ -61,18 +55,15 @@ class ReturnCounts
  private:
   void add(const TPoint2D& point)
   {
-    const RasterFrame& frame = field_.frame;
-    const TPoint2D cell = (point - frame.origin) * (1 / frame.resolution);
-    if (!(cell.x >= 0 && cell.y >= 0 && cell.x < frame.width && cell.y < frame.height)) return;
-    const DenseCell& at =
-        field_.at(static_cast<std::size_t>(cell.x), static_cast<std::size_t>(cell.y));
-    const double distance = at.distance() * DenseField::kDistanceUnit;
+    const DenseCell* at = cellAt(field_, point);
+    if (at == nullptr) return;
+    const double distance = at->distance() * DenseField::kDistanceUnit;
     if (distance < kNear)
     {
       near_ += 1;
       squares_ += distance * distance;
     }
-    else if (at.state() == CellState::free)
+    else if (at->state() == CellState::free)
     {
       in_free_ += 1;
     }

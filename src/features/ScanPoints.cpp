@@ -99,7 +99,7 @@ ScanPoints validPoints(const LaserScan& scan, const FeatureExtractorOptions& opt
     {
       continue;
     }
-    const double angle = scan.first_angle + static_cast<double>(i) * scan.angle_step;
+    const double angle = angleOf(scan, i);
     out.points.emplace_back(range * std::cos(angle), range * std::sin(angle));
     out.ranges.push_back(range);
     out.beams.push_back(i);

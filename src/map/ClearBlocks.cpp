@@ -201,13 +201,13 @@ ClearBlocks::TileBox ClearBlocks::nameIsland(std::int32_t column, std::int32_t r
 /// those of other islands may lie in the box.
 void ClearBlocks::solve(const DenseField& field, const TileBox& box, std::uint32_t first)
 {
-  constexpr std::int32_t kTileCells = kSide * kTileSide;
-  const auto x0 = static_cast<std::uint32_t>(box.left * kTileCells);
-  const auto y0 = static_cast<std::uint32_t>(box.bottom * kTileCells);
+  constexpr std::int32_t kTileWidth = kSide * kTileSide;
+  const auto x0 = static_cast<std::uint32_t>(box.left * kTileWidth);
+  const auto y0 = static_cast<std::uint32_t>(box.bottom * kTileWidth);
   Walls walls(
       x0, y0,
-      std::min(static_cast<std::uint32_t>((box.right + 1) * kTileCells), field.frame.width) - x0,
-      std::min(static_cast<std::uint32_t>((box.top + 1) * kTileCells), field.frame.height) - y0,
+      std::min(static_cast<std::uint32_t>((box.right + 1) * kTileWidth), field.frame.width) - x0,
+      std::min(static_cast<std::uint32_t>((box.top + 1) * kTileWidth), field.frame.height) - y0,
       [&](std::uint32_t x, std::uint32_t y) -> const DenseCell& { return field.at(x, y); });
   walls.addDistances();
   for (std::uint32_t y = 0; y < walls.height; ++y)

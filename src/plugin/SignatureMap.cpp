@@ -39,14 +39,8 @@ constexpr double kFar = 10.0;  // [m], the largest distance looked up
 std::vector<TPoint2D> returnsOf(const LaserScan& scan)
 {
   std::vector<TPoint2D> points;
-  for (std::size_t i = 0; i < scan.ranges.size(); ++i)
-  {
-    if (scan.valid[i] == 0) continue;
-    const double angle = scan.first_angle + static_cast<double>(i) * scan.angle_step;
-    const auto range = static_cast<double>(scan.ranges[i]);
-    points.push_back(
-        scan.robot_from_sensor.composePoint({range * std::cos(angle), range * std::sin(angle)}));
-  }
+  forEachReturn(scan, [&](const TPoint2D& end)
+                { points.push_back(scan.robot_from_sensor.composePoint(end)); });
   return points;
 }
 }  // namespace

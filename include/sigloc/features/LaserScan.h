@@ -5,6 +5,8 @@
 #include <mrpt/math/TPoint2D.h>
 #include <mrpt/math/TPose2D.h>
 
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -27,6 +29,25 @@ struct LaserScan
   double range_sigma = 0.01;  ///< [m], standard deviation of one range
   mrpt::math::TPose2D robot_from_sensor;
 };
+
+/// Returns the direction of a beam in the sensor frame [rad].
+inline double angleOf(const LaserScan& scan, std::size_t beam)
+{
+  return scan.first_angle + static_cast<double>(beam) * scan.angle_step;
+}
+
+/// Calls `visit(end)` for every valid beam with its end in the sensor frame [m].
+template <class Visit>
+void forEachReturn(const LaserScan& scan, const Visit& visit)
+{
+  for (std::size_t i = 0; i < scan.ranges.size(); ++i)
+  {
+    if (scan.valid[i] == 0) continue;
+    const double angle = angleOf(scan, i);
+    const auto range = static_cast<double>(scan.ranges[i]);
+    visit(mrpt::math::TPoint2D(range * std::cos(angle), range * std::sin(angle)));
+  }
+}
 
 /// One laser return in the robot frame.
 struct BeamEnd

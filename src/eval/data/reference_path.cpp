@@ -26,14 +26,12 @@ constexpr const char* kHead = "# sigloc-eval reference: time x y phi";
 void addPoints(const LaserScan& scan, const TPose2D& frame, mrpt::maps::CSimplePointsMap& points)
 {
   const TPose2D frame_from_sensor = frame + scan.robot_from_sensor;
-  for (std::size_t i = 0; i < scan.ranges.size(); ++i)
-  {
-    if (scan.valid[i] == 0) continue;
-    const double angle = scan.first_angle + static_cast<double>(i) * scan.angle_step;
-    const auto end = frame_from_sensor.composePoint(
-        {scan.ranges[i] * std::cos(angle), scan.ranges[i] * std::sin(angle)});
-    points.insertPoint(static_cast<float>(end.x), static_cast<float>(end.y));
-  }
+  forEachReturn(scan,
+                [&](const mrpt::math::TPoint2D& end)
+                {
+                  const auto point = frame_from_sensor.composePoint(end);
+                  points.insertPoint(static_cast<float>(point.x), static_cast<float>(point.y));
+                });
 }
 
 mrpt::maps::CSimplePointsMap mapPoints(const std::filesystem::path& path,

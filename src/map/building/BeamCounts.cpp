@@ -21,7 +21,7 @@ namespace
 constexpr std::uint16_t kSolidScans = 2;  // least scans that hit a solid wall, eq. (6.2)
 constexpr double kBorder = 1.5;  // [m] around the outermost return
 constexpr double kMaxIndex = 1e9;  // bound of a cell's index, in either direction
-constexpr std::int32_t kTile = BeamCounts::kTileCells;
+constexpr std::int32_t kTile = BeamCounts::kTileSide;
 
 /// Calls `visit(sensor origin, end point)` in the map frame for every valid return within range.
 template <class Visit>

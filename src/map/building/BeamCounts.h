@@ -4,6 +4,7 @@
 
 #include <mrpt/math/TPoint2D.h>
 
+#include <algorithm>
 #include <array>
 #include <bitset>
 #include <cstddef>
@@ -33,13 +34,30 @@ struct CellBox
   std::int32_t height() const { return high.y - low.y; }
 };
 
+inline CellBox unionOf(const CellBox& a, const CellBox& b)
+{
+  return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y)},
+          {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y)}};
+}
+
+inline CellBox intersection(const CellBox& a, const CellBox& b)
+{
+  return {{std::max(a.low.x, b.low.x), std::max(a.low.y, b.low.y)},
+          {std::min(a.high.x, b.high.x), std::min(a.high.y, b.high.y)}};
+}
+
+inline CellBox widened(const CellBox& box, std::int32_t by)
+{
+  return {{box.low.x - by, box.low.y - by}, {box.high.x + by, box.high.y + by}};
+}
+
 /// Counts, for each cell, the scans that hit it and the beams that hit and passed it. All laser
 /// scans of one step count as one scan. Cells are kept in tiles that are made where beams go, so
 /// memory grows with the area seen. \cite algorithm eq. (6.1), (6.2)
 class BeamCounts
 {
  public:
-  static constexpr std::int32_t kTileCells = 32;
+  static constexpr std::int32_t kTileSide = 32;
 
   struct Count
   {
@@ -51,7 +69,7 @@ class BeamCounts
     std::int32_t sum_x = 0, sum_y = 0;
   };
   static constexpr double kPlaceUnit = 1.0 / 64;  ///< [cells]
-  static constexpr std::size_t kCellsOfTile = std::size_t{kTileCells} * kTileCells;
+  static constexpr std::size_t kCellsOfTile = std::size_t{kTileSide} * kTileSide;
 
   /// The counts of a square of cells, by their index, row by row. Beams pass nearly all cells and
   /// end in few, so that only cells with a hit have more than the count of passes.

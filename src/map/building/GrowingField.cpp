@@ -14,23 +14,6 @@ namespace
 constexpr std::int32_t kLeastMargin = 64;  // [cells] least margin of unknown cells to grow into
 constexpr std::int32_t kBlock = 32;  // [cells] side of the smallest box that is solved
 
-CellBox unionOf(const CellBox& a, const CellBox& b)
-{
-  return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y)},
-          {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y)}};
-}
-
-CellBox intersection(const CellBox& a, const CellBox& b)
-{
-  return {{std::max(a.low.x, b.low.x), std::max(a.low.y, b.low.y)},
-          {std::min(a.high.x, b.high.x), std::min(a.high.y, b.high.y)}};
-}
-
-CellBox widened(const CellBox& box, std::int32_t by)
-{
-  return {{box.low.x - by, box.low.y - by}, {box.high.x + by, box.high.y + by}};
-}
-
 std::int64_t freeCellsOf(const DenseField& field)
 {
   return std::count_if(field.cells.begin(), field.cells.end(),
@@ -180,9 +163,9 @@ bool GrowingField::takeCells(const CellIndex& first, const BeamCounts::TileCells
 {
   bool any = false;
   std::size_t i = 0;
-  for (std::int32_t y = first.y; y < first.y + BeamCounts::kTileCells; ++y)
+  for (std::int32_t y = first.y; y < first.y + BeamCounts::kTileSide; ++y)
   {
-    for (std::int32_t x = first.x; x < first.x + BeamCounts::kTileCells; ++x, ++i)
+    for (std::int32_t x = first.x; x < first.x + BeamCounts::kTileSide; ++x, ++i)
     {
       // The tiles at the border extend beyond the field.
       if (tile.states[i] == CellState::unknown || !isWithin(box_, x, y)) continue;

@@ -43,8 +43,8 @@ DenseField solvedInStrips(BeamCounts& counts, std::uint32_t min_scans, std::int3
   for (std::int32_t low = box.low.y; low < box.high.y; low += rows)
   {
     const std::int32_t high = std::min(low + rows, box.high.y);
-    const CellBox window{{box.low.x, std::max(low - reach, box.low.y)},
-                         {box.high.x, std::min(high + reach, box.high.y)}};
+    const CellBox strip{{box.low.x, low}, {box.high.x, high}};
+    const CellBox window = intersection(widened(strip, reach), box);
     const auto below = static_cast<std::size_t>(low - window.low.y);
     takeRows(buildDenseField(counts.raster(window, min_scans)), below,
              static_cast<std::size_t>(high - low), field, free_cells);
@@ -118,7 +118,7 @@ class TileSolver
     { return std::clamp(cell, 0, tiles * kSide - 1) / kSide; };
     const std::int32_t x = name.x - box_.low.x;
     const std::int32_t y = name.y - box_.low.y;
-    const std::int32_t last = BeamCounts::kTileCells - 1 + reach_;
+    const std::int32_t last = BeamCounts::kTileSide - 1 + reach_;
     for (std::int32_t row = tile_of(y - reach_, rows_); row <= tile_of(y + last, rows_); ++row)
     {
       for (std::int32_t column = tile_of(x - reach_, columns_);
@@ -140,12 +140,8 @@ class TileSolver
   void solveTiles(const CellBox& tiles)
   {
     const CellBox cells{{box_.low.x + tiles.low.x * kSide, box_.low.y + tiles.low.y * kSide},
-                        {std::min(box_.low.x + tiles.high.x * kSide, box_.high.x),
-                         std::min(box_.low.y + tiles.high.y * kSide, box_.high.y)}};
-    const CellBox window{
-        {std::max(cells.low.x - reach_, box_.low.x), std::max(cells.low.y - reach_, box_.low.y)},
-        {std::min(cells.high.x + reach_, box_.high.x),
-         std::min(cells.high.y + reach_, box_.high.y)}};
+                        {box_.low.x + tiles.high.x * kSide, box_.low.y + tiles.high.y * kSide}};
+    const CellBox window = intersection(widened(cells, reach_), box_);
     const DenseField solved = buildDenseField(counts_.raster(window, min_scans_));
     for (std::int32_t row = tiles.low.y; row < tiles.high.y; ++row)
     {

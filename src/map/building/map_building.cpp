@@ -62,7 +62,7 @@ LaserScan castScan(const RayCaster& caster, const TPoint2D& place, double range)
   scan.valid.resize(kCastBeams);
   for (std::size_t i = 0; i < kCastBeams; ++i)
   {
-    const double angle = scan.first_angle + static_cast<double>(i) * scan.angle_step;
+    const double angle = angleOf(scan, i);
     const std::optional<double> hit = caster.cast(place, angle, range);
     scan.ranges[i] = hit ? static_cast<float>(*hit) : 0.0F;
     scan.valid[i] = hit ? 1 : 0;

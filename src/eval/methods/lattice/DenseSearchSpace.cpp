@@ -51,14 +51,8 @@ std::vector<TPoint2D> endPoints(const std::vector<LaserScan>& scans)
   std::vector<TPoint2D> points;
   for (const LaserScan& scan : scans)
   {
-    for (std::size_t i = 0; i < scan.ranges.size(); ++i)
-    {
-      if (!scan.valid[i]) continue;
-      const double angle = scan.first_angle + static_cast<double>(i) * scan.angle_step;
-      const double range = static_cast<double>(scan.ranges[i]);
-      points.push_back(scan.robot_from_sensor.composePoint(
-          TPoint2D(range * std::cos(angle), range * std::sin(angle))));
-    }
+    forEachReturn(scan, [&](const TPoint2D& end)
+                  { points.push_back(scan.robot_from_sensor.composePoint(end)); });
   }
   return points;
 }
