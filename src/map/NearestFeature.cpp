@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "geometry/cell_key.h"
+#include "geometry/plane_products.h"
 
 namespace sigloc
 {
@@ -62,7 +63,7 @@ TPoint2D nearestPlaceOn(const Feature& feature, const TPoint2D& point)
   if (isSegment(feature.type))
   {
     const TPoint2D tangent = tangentVector(feature);
-    const double along = tangent.x * to_point.x + tangent.y * to_point.y;
+    const double along = dot(tangent, to_point);
     return feature.position + tangent * std::clamp(along, -0.5 * feature.size, 0.5 * feature.size);
   }
   if (isRound(feature.type))

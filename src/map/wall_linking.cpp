@@ -8,6 +8,7 @@
 #include <cmath>
 #include <utility>
 
+#include "geometry/plane_products.h"
 #include "sigloc/map/FeatureMap.h"
 
 namespace sigloc
@@ -29,8 +30,7 @@ bool onLine(const Feature& wall, const TPoint2D& normal, const Feature& fragment
   if (std::abs(wrapToPi(wall.direction - fragment.direction)) > kLinkAngle) return false;
   const TPoint2D a = segmentStart(fragment) - wall.position;
   const TPoint2D b = segmentEnd(fragment) - wall.position;
-  return std::abs(normal.x * a.x + normal.y * a.y) < kLinkOffset &&
-         std::abs(normal.x * b.x + normal.y * b.y) < kLinkOffset;
+  return std::abs(dot(normal, a)) < kLinkOffset && std::abs(dot(normal, b)) < kLinkOffset;
 }
 
 /// Gathers the fragments of one wall: from its longest fragment along its line, as far as openings
@@ -73,7 +73,7 @@ class WallGatherer
   double along(const TPoint2D& p) const
   {
     const TPoint2D d = p - wall_.position;
-    return tangent_.x * d.x + tangent_.y * d.y;
+    return dot(tangent_, d);
   }
 
   void take(std::uint32_t k)

@@ -9,6 +9,7 @@
 #include <iterator>
 #include <utility>
 
+#include "geometry/plane_products.h"
 #include "map/building/walk_along.h"
 
 namespace sigloc
@@ -92,12 +93,12 @@ bool WallMerger::fits(const Feature& mapped, const Feature& segment, double& off
   const TPoint2D tangent = tangentVector(mapped);
   const TPoint2D a = segmentStart(segment) - mapped.position;
   const TPoint2D b = segmentEnd(segment) - mapped.position;
-  const double offset_a = std::abs(normal.x * a.x + normal.y * a.y);
-  const double offset_b = std::abs(normal.x * b.x + normal.y * b.y);
+  const double offset_a = std::abs(dot(normal, a));
+  const double offset_b = std::abs(dot(normal, b));
   offset = std::max(offset_a, offset_b);
   if (offset > options_.merge_offset) return false;
-  const double along_a = tangent.x * a.x + tangent.y * a.y;
-  const double along_b = tangent.x * b.x + tangent.y * b.y;
+  const double along_a = dot(tangent, a);
+  const double along_b = dot(tangent, b);
   const double reach = 0.5 * mapped.size + options_.merge_gap;
   return std::min(along_a, along_b) < reach && std::max(along_a, along_b) > -reach;
 }

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "geometry/CellHash.h"
+#include "geometry/plane_products.h"
 #include "map/building/walk_along.h"
 
 namespace sigloc
@@ -92,8 +93,7 @@ void removeCirclesInWalls(std::vector<Feature>& places, const std::vector<Featur
     const TPoint2D from = circle.position - wall.position;
     const TPoint2D n = directionVector(wall);
     const TPoint2D t = tangentVector(wall);
-    return std::abs(from.x * t.x + from.y * t.y) < 0.5 * wall.size &&
-           std::abs(from.x * n.x + from.y * n.y) < circle.size + reach;
+    return std::abs(dot(from, t)) < 0.5 * wall.size && std::abs(dot(from, n)) < circle.size + reach;
   };
   const auto in_a_wall = [&](const Feature& place)
   {

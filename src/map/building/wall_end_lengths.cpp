@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/plane_products.h"
 #include "map/wall_linking.h"
 #include "sigloc/map/FeatureMap.h"
 
@@ -29,8 +30,8 @@ bool endsOn(const Feature& segment, const Feature& end)
   const TPoint2D n = directionVector(segment);
   const TPoint2D t = tangentVector(segment);
   const TPoint2D to_end = end.position - segment.position;
-  return std::abs(n.x * to_end.x + n.y * to_end.y) <= kEndOnLine &&
-         std::abs(t.x * to_end.x + t.y * to_end.y) <= 0.5 * segment.size + kEndBeyond;
+  return std::abs(dot(n, to_end)) <= kEndOnLine &&
+         std::abs(dot(t, to_end)) <= 0.5 * segment.size + kEndBeyond;
 }
 }  // namespace
 
@@ -57,7 +58,7 @@ void setWallEndLengths(std::vector<Feature>& features)
             for (const TPoint2D& tip : {segmentStart(features[k]), segmentEnd(features[k])})
             {
               const TPoint2D d = tip - end.position;
-              end.size = std::max(end.size, d.x * into_wall.x + d.y * into_wall.y);
+              end.size = std::max(end.size, dot(d, into_wall));
             }
           }
         });
