@@ -21,8 +21,6 @@ class PatternGenerator : public FeatureHypothesisGenerator
   std::vector<FeatureHypothesis> generate(const std::vector<Feature>& observed,
                                           MatchingCounters& counters) const override;
 
-  const PatternIndex& index() const { return index_; }
-
  private:
   struct Query;
   bool drawPattern(const PreparedScene& scene, const std::vector<bool>& among, std::uint32_t root,
