@@ -31,7 +31,6 @@ constexpr std::array<std::size_t, 3> kPairProposals = {1024, 4096, 16000};  // a
 constexpr std::size_t kLeastSupporters = 3;  // of a pose that ends the search
 constexpr std::size_t kLastSupporters = 5;  // the same where no pair is left
 constexpr std::size_t kMinLandmarks = 2;  // features needed without a laser
-constexpr std::size_t kMaxBeams = 400;  // of a scene that are used; more are thinned evenly
 // The probability that the right pose was not proposed where nothing significant was found.
 constexpr double kMissed = 0.2;
 
@@ -154,7 +153,7 @@ RelocationResult SignatureMatcher::localize(const ObservedScene& scene,
   // so far, pairs of key points and minimal sets propose, and are judged in turn.
   if (verifier_ && !scene.beams.empty())
   {
-    const DenseScan scan = makeDenseScan(scene, kMaxBeams);
+    const DenseScan scan = makeDenseScan(scene, kRelocationBeams);
     const VerifiedPoses verified =
         generator_ ? verify(scan, proposalsOf(hypotheses), region, result.counters, {})
                    : searchDensely(scene, scan, region, result.counters);
