@@ -161,22 +161,7 @@ RelocationResult SignatureMatcher::localize(const ObservedScene& scene,
     concludeDensely(scene, scan, verified, hypotheses, result);
     return result;
   }
-  // Log-odds do not tie as scores in a field do.
-  const std::size_t most =
-      std::min<std::size_t>(options_.max_candidates, DenseVerifier::kUsuallyRanked);
-  std::optional<double> place_background;
-  for (FeatureHypothesis& hypothesis : hypotheses)
-  {
-    if (result.candidates.size() == most) break;
-    if (region && !region->contains(hypothesis.pose.mean)) continue;
-    Candidate candidate;
-    candidate.pose = hypothesis.pose;
-    candidate.score = hypothesis.log_odds;
-    if (result.candidates.empty() && !seesWalls(scene)) place_background = hypothesis.chance;
-    candidate.pairings = std::move(hypothesis.pairings);
-    result.candidates.push_back(std::move(candidate));
-  }
-  weighByLogOdds(result, place_background, result.complete ? 0 : kMissed);
+  concludeByFeatures(scene, std::move(hypotheses), region, result);
   return result;
 }
 
@@ -289,5 +274,28 @@ void SignatureMatcher::concludeDensely(const ObservedScene& scene, const DenseSc
     missed.unproposed = unproposedProbability(hypotheses, result.candidates.front().pose.mean);
   missed.unrefined = result.complete && result.counters.cut_short > 0;
   weighCandidates(result, candidatesOf(verified.outside, *verifier_, scene), missed);
+}
+
+void SignatureMatcher::concludeByFeatures(const ObservedScene& scene,
+                                          std::vector<FeatureHypothesis> hypotheses,
+                                          const std::optional<PoseRegion>& region,
+                                          RelocationResult& result) const
+{
+  // Log-odds do not tie as scores in a field do.
+  const std::size_t most =
+      std::min<std::size_t>(options_.max_candidates, DenseVerifier::kUsuallyRanked);
+  std::optional<double> place_background;
+  for (FeatureHypothesis& hypothesis : hypotheses)
+  {
+    if (result.candidates.size() == most) break;
+    if (region && !region->contains(hypothesis.pose.mean)) continue;
+    Candidate candidate;
+    candidate.pose = hypothesis.pose;
+    candidate.score = hypothesis.log_odds;
+    if (result.candidates.empty() && !seesWalls(scene)) place_background = hypothesis.chance;
+    candidate.pairings = std::move(hypothesis.pairings);
+    result.candidates.push_back(std::move(candidate));
+  }
+  weighByLogOdds(result, place_background, result.complete ? 0 : kMissed);
 }
 }  // namespace sigloc
