@@ -27,8 +27,9 @@ PairIndexGenerator::PairIndexGenerator(std::shared_ptr<const FeatureVerifier> ve
 {
 }
 
-std::vector<PairIndexGenerator::Lookup> PairIndexGenerator::rankedLookups(
-    const PreparedScene& scene, const std::vector<std::uint32_t>& among, std::uint32_t count) const
+/// Looks up every pair of the given features within the cut-off.
+std::vector<PairIndexGenerator::Lookup> PairIndexGenerator::lookupsAmong(
+    const PreparedScene& scene, const std::vector<std::uint32_t>& among) const
 {
   const MapErrorModel& error = verifier_->map().map().error();
   const double gate = verifier_->gates().scalar;
@@ -51,13 +52,26 @@ std::vector<PairIndexGenerator::Lookup> PairIndexGenerator::rankedLookups(
           {among[a], among[b], length, index_.find(first.type(), second.type(), key, tolerance)});
     }
   }
-  // Only the longer half is used, because short bases give poor headings.
+  return lookups;
+}
+
+/// Short bases give poor headings. They are kept where fewer than `count` long ones are left.
+std::vector<PairIndexGenerator::Lookup> PairIndexGenerator::longerHalf(std::vector<Lookup> lookups,
+                                                                       std::size_t count)
+{
   const auto middle = lookups.begin() + static_cast<std::ptrdiff_t>(lookups.size() / 2);
   std::nth_element(lookups.begin(), middle, lookups.end(),
                    [](const Lookup& a, const Lookup& b) { return a.length > b.length; });
   if (lookups.size() / 2 >= count) lookups.erase(middle, lookups.end());
+  return lookups;
+}
 
-  // Rare pairs come first. No feature is in too many, because it may be spurious.
+/// Rare pairs come first. Of a feature in more than `fair` of them, which may be spurious, the
+/// others come last.
+std::vector<PairIndexGenerator::Lookup> PairIndexGenerator::fairChoice(std::vector<Lookup> lookups,
+                                                                       std::size_t features,
+                                                                       std::size_t fair)
+{
   std::sort(lookups.begin(), lookups.end(),
             [](const Lookup& a, const Lookup& b)
             {
@@ -66,8 +80,7 @@ std::vector<PairIndexGenerator::Lookup> PairIndexGenerator::rankedLookups(
               if (pairs_a != pairs_b) return pairs_a < pairs_b;
               return a.i != b.i ? a.i < b.i : a.j < b.j;
             });
-  const std::size_t fair = 1 + 2 * count / std::max<std::size_t>(1, among.size());
-  std::vector<std::size_t> used(scene.size(), 0);
+  std::vector<std::size_t> used(features, 0);
   std::vector<Lookup> chosen;
   std::vector<Lookup> rest;
   for (const Lookup& lookup : lookups)
@@ -79,6 +92,15 @@ std::vector<PairIndexGenerator::Lookup> PairIndexGenerator::rankedLookups(
     ++used[lookup.j];
   }
   chosen.insert(chosen.end(), rest.begin(), rest.end());
+  return chosen;
+}
+
+std::vector<PairIndexGenerator::Lookup> PairIndexGenerator::rankedLookups(
+    const PreparedScene& scene, const std::vector<std::uint32_t>& among, std::uint32_t count) const
+{
+  const std::size_t fair = 1 + 2 * count / std::max<std::size_t>(1, among.size());
+  std::vector<Lookup> chosen =
+      fairChoice(longerHalf(lookupsAmong(scene, among), count), scene.size(), fair);
   if (chosen.size() > count) chosen.resize(count);
   return chosen;
 }

@@ -40,6 +40,11 @@ class PairIndexGenerator : public FeatureHypothesisGenerator
   std::vector<Lookup> lookupsOfExplained(const PreparedScene& scene,
                                          const HypothesisSet& found) const;
   static std::uint64_t basesOf(const std::vector<Lookup>& lookups);
+  std::vector<Lookup> lookupsAmong(const PreparedScene& scene,
+                                   const std::vector<std::uint32_t>& among) const;
+  static std::vector<Lookup> longerHalf(std::vector<Lookup> lookups, std::size_t count);
+  static std::vector<Lookup> fairChoice(std::vector<Lookup> lookups, std::size_t features,
+                                        std::size_t fair);
   std::vector<Lookup> rankedLookups(const PreparedScene& scene,
                                     const std::vector<std::uint32_t>& among,
                                     std::uint32_t count) const;
