@@ -16,7 +16,7 @@
 #include "matching/dense/PoseProposer.h"
 #include "matching/features/FeatureVerifier.h"
 #include "matching/features/GeneratorOptions.h"
-#include "matching/features/HypothesisSet.h"
+#include "matching/features/PreparedScene.h"
 #include "matching/generators.h"
 #include "matching/keypoints/KeyPairSearch.h"
 
@@ -46,12 +46,6 @@ double unproposedProbability(const std::vector<FeatureHypothesis>& hypotheses, c
     if (samePlace(hypothesis.pose.mean, best)) chance = std::min(chance, hypothesis.chance);
   }
   return kMissed * chance;
-}
-
-bool seesWalls(const ObservedScene& scene)
-{
-  return std::any_of(scene.features.begin(), scene.features.end(),
-                     [](const Feature& feature) { return feature.type == FeatureType::segment; });
 }
 
 /// How many pairs must propose a pose that ends the search. One that few of all pairs support has
@@ -292,7 +286,8 @@ void SignatureMatcher::concludeByFeatures(const ObservedScene& scene,
     Candidate candidate;
     candidate.pose = hypothesis.pose;
     candidate.score = hypothesis.log_odds;
-    if (result.candidates.empty() && !seesWalls(scene)) place_background = hypothesis.chance;
+    if (result.candidates.empty() && !seesWalls(scene.features))
+      place_background = hypothesis.chance;
     candidate.pairings = std::move(hypothesis.pairings);
     result.candidates.push_back(std::move(candidate));
   }

@@ -28,12 +28,6 @@ constexpr std::uint64_t kFewPairBases = 2000;  // that may be tried where patter
 // answer. In a sparse map few of the patterns seen are indexed.
 constexpr double kDrawsAreCheap = 1e-6;
 
-bool seesWalls(const PreparedScene& scene)
-{
-  return std::any_of(scene.views.begin(), scene.views.end(),
-                     [](const DirectedFeature& view) { return isSegment(view.type()); });
-}
-
 /// True when the best answer is significant, or when it explains the share w of the features and
 /// has E < 1/2. Then more or smaller bases find no better answer, even where too few features were
 /// seen for significance.
@@ -225,7 +219,7 @@ bool PatternGenerator::smallerBasesMayHelp(const Query& query) const
   const GeneratorOptions& options = query.options;
   const auto n = static_cast<std::uint32_t>(scene.size());
   // Patterns do not use walls, pairs do.
-  if (seesWalls(scene)) return true;
+  if (seesWalls(query.observed)) return true;
   const std::uint64_t bases = pairs_.basesFor(scene);
   if (bases > options.fall_back_hypotheses) return false;
   const double indexed = query.found.best() ? kIndexedShare : kSparselyIndexedShare;
@@ -284,7 +278,7 @@ std::vector<FeatureHypothesis> PatternGenerator::generate(const std::vector<Feat
   const std::uint64_t budget = query.options.fall_back_hypotheses;
   pairs_.search(query, budget);
   const bool sure =
-      seesWalls(query.scene) ? query.isSignificant(2, query.bases()) : settles(query, 2);
+      seesWalls(query.observed) ? query.isSignificant(2, query.bases()) : settles(query, 2);
   if (!sure) anchors_.search(query, budget);
   return query.ranked(2, query.bases());
 }
