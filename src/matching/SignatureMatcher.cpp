@@ -16,7 +16,7 @@
 #include "matching/dense/PoseProposer.h"
 #include "matching/features/FeatureVerifier.h"
 #include "matching/features/GeneratorOptions.h"
-#include "matching/features/HypothesisSet.h"
+#include "matching/features/PreparedScene.h"
 #include "matching/generators.h"
 #include "matching/keypoints/KeyPairSearch.h"
 
@@ -31,7 +31,6 @@ constexpr std::array<std::size_t, 3> kPairProposals = {1024, 4096, 16000};  // a
 constexpr std::size_t kLeastSupporters = 3;  // of a pose that ends the search
 constexpr std::size_t kLastSupporters = 5;  // the same where no pair is left
 constexpr std::size_t kMinLandmarks = 2;  // features needed without a laser
-constexpr std::size_t kMaxBeams = 400;  // of a scene that are used; more are thinned evenly
 // The probability that the right pose was not proposed where nothing significant was found.
 constexpr double kMissed = 0.2;
 
@@ -47,12 +46,6 @@ double unproposedProbability(const std::vector<FeatureHypothesis>& hypotheses, c
     if (samePlace(hypothesis.pose.mean, best)) chance = std::min(chance, hypothesis.chance);
   }
   return kMissed * chance;
-}
-
-bool seesWalls(const ObservedScene& scene)
-{
-  return std::any_of(scene.features.begin(), scene.features.end(),
-                     [](const Feature& feature) { return feature.type == FeatureType::segment; });
 }
 
 /// How many pairs must propose a pose that ends the search. One that few of all pairs support has
@@ -154,7 +147,7 @@ RelocationResult SignatureMatcher::localize(const ObservedScene& scene,
   // so far, pairs of key points and minimal sets propose, and are judged in turn.
   if (verifier_ && !scene.beams.empty())
   {
-    const DenseScan scan = makeDenseScan(scene, kMaxBeams);
+    const DenseScan scan = makeDenseScan(scene, kRelocationBeams);
     const VerifiedPoses verified =
         generator_ ? verify(scan, proposalsOf(hypotheses), region, result.counters, {})
                    : searchDensely(scene, scan, region, result.counters);
@@ -162,22 +155,7 @@ RelocationResult SignatureMatcher::localize(const ObservedScene& scene,
     concludeDensely(scene, scan, verified, hypotheses, result);
     return result;
   }
-  // Log-odds do not tie as scores in a field do.
-  const std::size_t most =
-      std::min<std::size_t>(options_.max_candidates, DenseVerifier::kUsuallyRanked);
-  std::optional<double> place_background;
-  for (FeatureHypothesis& hypothesis : hypotheses)
-  {
-    if (result.candidates.size() == most) break;
-    if (region && !region->contains(hypothesis.pose.mean)) continue;
-    Candidate candidate;
-    candidate.pose = hypothesis.pose;
-    candidate.score = hypothesis.log_odds;
-    if (result.candidates.empty() && !seesWalls(scene)) place_background = hypothesis.chance;
-    candidate.pairings = std::move(hypothesis.pairings);
-    result.candidates.push_back(std::move(candidate));
-  }
-  weighByLogOdds(result, place_background, result.complete ? 0 : kMissed);
+  concludeByFeatures(scene, std::move(hypotheses), region, result);
   return result;
 }
 
@@ -290,5 +268,29 @@ void SignatureMatcher::concludeDensely(const ObservedScene& scene, const DenseSc
     missed.unproposed = unproposedProbability(hypotheses, result.candidates.front().pose.mean);
   missed.unrefined = result.complete && result.counters.cut_short > 0;
   weighCandidates(result, candidatesOf(verified.outside, *verifier_, scene), missed);
+}
+
+void SignatureMatcher::concludeByFeatures(const ObservedScene& scene,
+                                          std::vector<FeatureHypothesis> hypotheses,
+                                          const std::optional<PoseRegion>& region,
+                                          RelocationResult& result) const
+{
+  // Log-odds do not tie as scores in a field do.
+  const std::size_t most =
+      std::min<std::size_t>(options_.max_candidates, DenseVerifier::kUsuallyRanked);
+  std::optional<double> place_background;
+  for (FeatureHypothesis& hypothesis : hypotheses)
+  {
+    if (result.candidates.size() == most) break;
+    if (region && !region->contains(hypothesis.pose.mean)) continue;
+    Candidate candidate;
+    candidate.pose = hypothesis.pose;
+    candidate.score = hypothesis.log_odds;
+    if (result.candidates.empty() && !seesWalls(scene.features))
+      place_background = hypothesis.chance;
+    candidate.pairings = std::move(hypothesis.pairings);
+    result.candidates.push_back(std::move(candidate));
+  }
+  weighByLogOdds(result, place_background, result.complete ? 0 : kMissed);
 }
 }  // namespace sigloc

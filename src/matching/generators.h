@@ -15,8 +15,8 @@ class FeatureMap;
 
 /// Returns the generator of a mode for a map, which must outlive it. `automatic` stands for
 /// patterns with their fall-backs. Throws std::invalid_argument for mode `minimal_sets`, which
-/// needs a dense field, for mode `plain` in a map of more than 10 000 features, and for options
-/// outside their ranges.
+/// needs a dense field, and for mode `plain` in a map of more than 10 000 features. The options are
+/// not checked.
 std::unique_ptr<FeatureHypothesisGenerator> makeGenerator(GenerationMode mode,
                                                           const FeatureMap& map,
                                                           const GeneratorOptions& options = {});

@@ -7,7 +7,7 @@
 
 #include "eval/worlds/FeatureWorld.h"
 #include "matching/features/FeatureGrid.h"
-#include "matching/features/FeatureVerifier.h"
+#include "matching/features/FeatureQuery.h"
 #include "matching/features/PairLists.h"
 #include "matching/generation/pattern_order.h"
 #include "matching/generation/PatternIndex.h"
@@ -104,9 +104,10 @@ TEST(PairLists, BinarySearchEqualsBruteForce)
   const FeatureVerifier verifier(map, {});
   const PairLists lists(*map, PairLists::kUncut);
   const auto observed = observeFeatures(world, randomPose(world, options, random), options, random);
-  const PreparedScene scene(observed, *map, {}, {});
-  std::vector<std::uint32_t> candidates;
   MatchingCounters counters;
+  FeatureQuery query(observed, verifier, counters);
+  const PreparedScene& scene = query.scene;
+  std::vector<std::uint32_t> candidates;
   std::size_t total = 0;
   for (std::uint32_t i = 0; i < scene.size(); ++i)
   {
@@ -116,7 +117,7 @@ TEST(PairLists, BinarySearchEqualsBruteForce)
       for (std::uint32_t j = 0; j < scene.size(); ++j)
       {
         if (j == i) continue;
-        gatherCandidates(scene, *map, verifier.gates(), lists, {i, k}, j, candidates, counters);
+        gatherCandidates(query, lists, {i, k}, j, candidates);
         std::vector<std::uint32_t> expected;
         for (std::uint32_t l = 0; l < map->size(); ++l)
         {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "matching/features/sampling.h"
+#include "matching/generation/sampling.h"
 
 #include <gtest/gtest.h>
 

@@ -126,6 +126,9 @@ class SignatureMatcher
                        const VerifiedPoses& verified,
                        const std::vector<FeatureHypothesis>& hypotheses,
                        RelocationResult& result) const;
+  /// The same from hypotheses that only features have judged.
+  void concludeByFeatures(const ObservedScene& scene, std::vector<FeatureHypothesis> hypotheses,
+                          const std::optional<PoseRegion>& region, RelocationResult& result) const;
 
   std::shared_ptr<const FeatureMap> map_;
   MatcherOptions options_;

@@ -127,7 +127,7 @@ class LatticeRelocation : public RelocationMethod
     const ObservedScene scene = observeScene(scans);
     RelocationResult result;
     if (scene.beams.empty()) return result;
-    const DenseScan scan = makeDenseScan(scene, kMaxBeams);
+    const DenseScan scan = makeDenseScan(scene, kRelocationBeams);
     result.candidates = candidatesOf(verifier_.rank(scan, proposals_, kMaxRanked, result.counters),
                                      verifier_, scene);
     result.view = angularCoverage(scene);
@@ -138,7 +138,6 @@ class LatticeRelocation : public RelocationMethod
   bool claimsVerdict() const override { return true; }
 
  private:
-  static constexpr std::size_t kMaxBeams = 400;  // as in SignatureMatcher
   static constexpr std::size_t kMaxRanked = 10;
 
   static const DenseField& fieldOf(const FeatureMap& map)

@@ -24,7 +24,8 @@ namespace
 constexpr double kMaxShift = 0.5;  // [m] by which a refinement may move a pose
 constexpr double kMaxTurn = 10.0 * M_PI / 180.0;  // [rad] by which a refinement may turn a pose
 constexpr float kFirstRobustSigma = 0.25F;  // [m] scale of the Cauchy weight of step 1, eq. (6.6)
-constexpr float kRobustSigma = 0.12F;  // [m] scale of the Cauchy weight of later steps, eq. (6.6)
+// [m] scale of the Cauchy weight of later steps, eq. (6.6)
+constexpr auto kRobustSigma = static_cast<float>(kFineSigma);
 constexpr double kHold = 0.05;  // keeps the directions that the returns leave open, eq. (6.7)
 constexpr double kConverged = 1e-3;  // [m], [rad] size of a step that is the last
 
@@ -285,7 +286,7 @@ mrpt::math::CMatrixDouble33 DenseVerifier::covarianceAt(const DenseScan& scan,
 mrpt::math::CMatrixDouble33 DenseVerifier::testedCovarianceAt(const DenseScan& scan,
                                                               const TPose2D& pose) const
 {
-  constexpr double kMove = 0.12;  // [m] of the test, the fine sigma
+  constexpr double kMove = kFineSigma;  // [m] of the test
   constexpr double kUntestedSigma = 0.1;  // [m] where the fit gets no worse at all
   const double loss_of_return = 1.0 - std::exp(-0.5);  // of a return that the move takes off a wall
   mrpt::math::CMatrixDouble33 covariance = covarianceAt(scan, pose);

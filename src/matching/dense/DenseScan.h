@@ -31,6 +31,9 @@ struct DenseScan
   std::size_t size() const { return x.size(); }
 };
 
+/// How many returns of a scene relocation uses at most.
+constexpr std::size_t kRelocationBeams = 400;
+
 /// Returns the scene's returns; of more than `max_beams` an even choice. The spaced ones are one
 /// for each 0.1 m of surface. \cite algorithm section 6, "The cascade"
 DenseScan makeDenseScan(const ObservedScene& scene, std::size_t max_beams);

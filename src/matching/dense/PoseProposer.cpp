@@ -78,18 +78,19 @@ std::vector<const Feature*> longestWalls(const std::vector<Feature>& observed, s
 
 PoseProposer::PoseProposer(const FeatureMap& map)
 {
-  const std::vector<Feature>& features = map.features();
-  std::vector<std::uint32_t> circles;
-  for (std::uint32_t k = 0; k < features.size(); ++k)
+  indexWallEnds(map.features());
+  indexWalls(map);
+  indexCirclePairs(map.features());
+}
+
+void PoseProposer::indexWallEnds(const std::vector<Feature>& features)
+{
+  for (const Feature& feature : features)
   {
-    const Feature& feature = features[k];
-    if (feature.type == FeatureType::wall_end)
-    {
-      wall_ends_[static_cast<std::size_t>(feature.side)].push_back(
-          {feature.position, feature.size, feature.direction, std::cos(feature.direction),
-           std::sin(feature.direction)});
-    }
-    if (feature.type == FeatureType::circle) circles.push_back(k);
+    if (feature.type != FeatureType::wall_end) continue;
+    wall_ends_[static_cast<std::size_t>(feature.side)].push_back(
+        {feature.position, feature.size, feature.direction, std::cos(feature.direction),
+         std::sin(feature.direction)});
   }
   for (auto& ends : wall_ends_)
   {
@@ -97,6 +98,11 @@ PoseProposer::PoseProposer(const FeatureMap& map)
                      [](const MappedEnd& a, const MappedEnd& b)
                      { return isBefore(a.position, b.position); });
   }
+}
+
+void PoseProposer::indexWalls(const FeatureMap& map)
+{
+  const std::vector<Feature>& features = map.features();
   for (const WallLine& line : map.lines())
   {
     const Feature& first = features[line.members.front()];
@@ -115,6 +121,15 @@ PoseProposer::PoseProposer(const FeatureMap& map)
   std::stable_sort(walls_.begin(), walls_.end(),
                    [](const MappedWall& a, const MappedWall& b)
                    { return isBefore(a.start, b.start); });
+}
+
+void PoseProposer::indexCirclePairs(const std::vector<Feature>& features)
+{
+  std::vector<std::uint32_t> circles;
+  for (std::uint32_t k = 0; k < features.size(); ++k)
+  {
+    if (features[k].type == FeatureType::circle) circles.push_back(k);
+  }
   // From west to east, so that partners are looked for among few. Rounding takes none away.
   constexpr double kReach = kPairRange + 1e-9;
   std::sort(circles.begin(), circles.end(),
@@ -256,18 +271,20 @@ void PoseProposer::slide(const Feature& wall, std::vector<PoseProposal>& out) co
   append();
 }
 
-/// Proposes by pairs of observed circles, from the `first` rarest up to before the `last`.
-void PoseProposer::proposeCirclePairs(const std::vector<Feature>& observed, std::size_t first,
-                                      std::size_t last, std::vector<PoseProposal>& out) const
+/// Two observed circles, and the mapped pairs of about their distance.
+struct PoseProposer::ObservedPair
 {
-  struct Choice
-  {
-    std::size_t count;
-    const Feature* a;
-    const Feature* b;
-    std::vector<CirclePair>::const_iterator begin, end;
-  };
-  std::vector<Choice> choices;
+  std::size_t count;
+  const Feature* a;
+  const Feature* b;
+  std::vector<CirclePair>::const_iterator begin, end;
+};
+
+/// Returns the pairs of observed circles, those of the rarest distance first.
+std::vector<PoseProposer::ObservedPair> PoseProposer::rankedCirclePairs(
+    const std::vector<Feature>& observed) const
+{
+  std::vector<ObservedPair> ranked;
   for (std::size_t i = 0; i < observed.size(); ++i)
   {
     if (observed[i].type != FeatureType::circle) continue;
@@ -280,24 +297,32 @@ void PoseProposer::proposeCirclePairs(const std::vector<Feature>& observed, std:
       const auto begin =
           std::lower_bound(pairs_.begin(), pairs_.end(), distance - kPairTolerance, less);
       const auto end = std::lower_bound(begin, pairs_.end(), distance + kPairTolerance, less);
-      choices.push_back(
+      ranked.push_back(
           {static_cast<std::size_t>(end - begin), &observed[i], &observed[j], begin, end});
     }
   }
-  std::stable_sort(choices.begin(), choices.end(),
-                   [](const Choice& a, const Choice& b) { return a.count < b.count; });
-  for (std::size_t k = first; k < std::min(last, choices.size()); ++k)
+  std::stable_sort(ranked.begin(), ranked.end(),
+                   [](const ObservedPair& a, const ObservedPair& b) { return a.count < b.count; });
+  return ranked;
+}
+
+/// Proposes by pairs of observed circles, from the `first` rarest up to before the `last`.
+void PoseProposer::proposeCirclePairs(const std::vector<Feature>& observed, std::size_t first,
+                                      std::size_t last, std::vector<PoseProposal>& out) const
+{
+  const std::vector<ObservedPair> ranked = rankedCirclePairs(observed);
+  for (std::size_t k = first; k < std::min(last, ranked.size()); ++k)
   {
-    const Choice& choice = choices[k];
-    const TPoint2D seen = choice.b->position - choice.a->position;
+    const ObservedPair& circles = ranked[k];
+    const TPoint2D seen = circles.b->position - circles.a->position;
     const double bearing = std::atan2(seen.y, seen.x);
     const double c = std::cos(bearing);
     const double s = std::sin(bearing);
-    const TPoint2D middle_seen = (choice.a->position + choice.b->position) * 0.5;
-    for (auto pair = choice.begin; pair != choice.end; ++pair)
+    const TPoint2D middle_seen = (circles.a->position + circles.b->position) * 0.5;
+    for (auto pair = circles.begin; pair != circles.end; ++pair)
     {
-      if (std::abs(pair->from_radius - choice.a->size) > kRadiusTolerance ||
-          std::abs(pair->to_radius - choice.b->size) > kRadiusTolerance)
+      if (std::abs(pair->from_radius - circles.a->size) > kRadiusTolerance ||
+          std::abs(pair->to_radius - circles.b->size) > kRadiusTolerance)
       {
         continue;
       }

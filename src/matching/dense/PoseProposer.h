@@ -53,9 +53,15 @@ class PoseProposer
     double c, s;  // cosine and sine of the bearing
   };
 
+  struct ObservedPair;
+
+  void indexWallEnds(const std::vector<Feature>& features);
+  void indexWalls(const FeatureMap& map);
+  void indexCirclePairs(const std::vector<Feature>& features);
   std::size_t mostByWallEnds(const std::vector<Feature>& observed) const;
   void proposeWallEnds(const std::vector<Feature>& observed, std::vector<PoseProposal>& out) const;
   void slide(const Feature& wall, std::vector<PoseProposal>& out) const;
+  std::vector<ObservedPair> rankedCirclePairs(const std::vector<Feature>& observed) const;
   void proposeCirclePairs(const std::vector<Feature>& observed, std::size_t first, std::size_t last,
                           std::vector<PoseProposal>& out) const;
 

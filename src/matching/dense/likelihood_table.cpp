@@ -9,7 +9,6 @@ namespace sigloc
 namespace
 {
 constexpr double kSharpSigma = 0.055;  // [m] without the blur of the map, eq. (6.14)
-constexpr double kFineSigma = 0.12;  // [m]
 constexpr double kCoarseSigma = 0.25;  // [m]
 
 LikelihoodTable makeTable(double sigma)

@@ -14,7 +14,10 @@ namespace sigloc
 /// \cite algorithm eq. (6.3)
 using LikelihoodTable = std::array<float, DenseCell::kFar + 1>;
 
-/// Returns the table for a sigma of 0.12 m (fine) or 0.25 m (coarse).
+/// [m], of the fine likelihood. Refinements and the test of their covariance share its scale.
+constexpr double kFineSigma = 0.12;
+
+/// Returns the table for kFineSigma (fine) or a sigma of 0.25 m (coarse).
 const LikelihoodTable& fineTable();
 const LikelihoodTable& coarseTable();
 

@@ -8,6 +8,17 @@ using mrpt::math::TPoint2D;
 
 FeatureGrid::FeatureGrid(const std::vector<Feature>& features)
 {
+  chooseCell(features);
+  std::size_t side = 1;
+  while (side * side < 2 * features.size()) side *= 2;
+  column_mask_ = row_mask_ = side - 1;
+  sortIntoSlots(sampled(features), side * side);
+}
+
+/// Chooses cells of about one feature each. Their size is bounded, because outliers may enlarge the
+/// bounding box.
+void FeatureGrid::chooseCell(const std::vector<Feature>& features)
+{
   TPoint2D low{0, 0};
   TPoint2D high{0, 0};
   if (!features.empty()) low = high = features.front().position;
@@ -17,23 +28,17 @@ FeatureGrid::FeatureGrid(const std::vector<Feature>& features)
     high = {std::max(high.x, feature.position.x), std::max(high.y, feature.position.y)};
   }
   origin_ = (low + high) * 0.5;
-  // About one feature a cell. The size is bounded, because outliers may enlarge the bounding box.
   const double area = (high.x - low.x) * (high.y - low.y);
   constexpr double kSmallestCell = 0.5;  // [m]
   constexpr double kLargestCell = 4.0;  // [m]
   cell_ =
       std::clamp(std::sqrt(area / static_cast<double>(std::max<std::size_t>(1, features.size()))),
                  kSmallestCell, kLargestCell);
+}
 
-  struct Sample
-  {
-    std::size_t slot;
-    Entry entry;
-  };
-  std::size_t side = 1;
-  while (side * side < 2 * features.size()) side *= 2;
-  column_mask_ = row_mask_ = side - 1;
-
+/// Returns the place of every feature, and places along a segment no farther apart than a cell.
+std::vector<FeatureGrid::Sample> FeatureGrid::sampled(const std::vector<Feature>& features) const
+{
   std::vector<Sample> samples;
   samples.reserve(features.size());
   for (std::size_t k = 0; k < features.size(); ++k)
@@ -57,8 +62,12 @@ FeatureGrid::FeatureGrid(const std::vector<Feature>& features)
                           static_cast<std::uint32_t>(k), feature.type}});
     }
   }
+  return samples;
+}
 
-  starts_.assign(side * side + 1, 0);
+void FeatureGrid::sortIntoSlots(const std::vector<Sample>& samples, std::size_t slots)
+{
+  starts_.assign(slots + 1, 0);
   for (const Sample& sample : samples) ++starts_[sample.slot + 1];
   for (std::size_t slot = 1; slot < starts_.size(); ++slot) starts_[slot] += starts_[slot - 1];
   std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);

@@ -41,6 +41,14 @@ class FeatureGrid
     std::uint32_t feature;
     FeatureType type;
   };
+  struct Sample
+  {
+    std::size_t slot;
+    Entry entry;
+  };
+  void chooseCell(const std::vector<Feature>& features);
+  std::vector<Sample> sampled(const std::vector<Feature>& features) const;
+  void sortIntoSlots(const std::vector<Sample>& samples, std::size_t slots);
   std::int64_t cellOf(double coordinate) const
   {
     return static_cast<std::int64_t>(std::floor(coordinate / cell_));

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "matching/features/FeatureVerifier.h"
 
+#include "matching/features/FeatureQuery.h"
 #include "matching/features/negative_information.h"
 #include "signature/location_constraint.h"
 #include "signature/unary_constraint.h"
 
 #include <algorithm>
-#include <boost/math/special_functions/beta.hpp>
 #include <cmath>
 #include <limits>
 
@@ -74,17 +74,17 @@ FeatureVerifier::FeatureVerifier(std::shared_ptr<const PreparedMap> map,
 {
 }
 
-bool FeatureVerifier::makeBase(const PreparedScene& scene, const FeaturePairing& first,
-                               const FeaturePairing& second, HypothesisBase& base,
-                               MatchingCounters& counters) const
+bool FeatureVerifier::makeBase(FeatureQuery& query, const FeaturePairing& first,
+                               const FeaturePairing& second) const
 {
-  ++counters.hypotheses;
+  const PreparedScene& scene = query.scene;
+  ++query.counters.hypotheses;
   const auto pose =
       poseFromBase({scene.views[first.observed], map_->view(first.mapped)},
                    {scene.views[second.observed], map_->view(second.mapped)}, scene.relative_sigma);
   if (!pose) return false;
-  base.pairings.assign({first, second});
-  base.pose = *pose;
+  query.workspace.base.pairings.assign({first, second});
+  query.workspace.base.pose = *pose;
   return true;
 }
 
@@ -180,12 +180,11 @@ std::vector<FeatureVerifier::Workspace::Match> FeatureVerifier::compatibleAt(
   return compatible;
 }
 
-std::uint32_t FeatureVerifier::bestCandidate(const PreparedScene& scene,
-                                             const CandidateLists* lists, std::uint32_t q,
-                                             const Workspace& workspace, const Filter& filter,
-                                             double& squared_distance,
-                                             MatchingCounters& counters) const
+std::uint32_t FeatureVerifier::bestCandidate(FeatureQuery& query, const CandidateLists* lists,
+                                             std::uint32_t q, const Filter& filter,
+                                             double& squared_distance) const
 {
+  const PreparedScene& scene = query.scene;
   const TPoint2D from_base = scene.views[q].position() - filter.base_place;
   const double relative = map_->map().error().relativeSigma(std::sqrt(dot(from_base, from_base)));
   std::uint32_t best = kNone;
@@ -196,28 +195,29 @@ std::uint32_t FeatureVerifier::bestCandidate(const PreparedScene& scene,
     double distance = 0;
     if (!gatePairing(scene, q, p, filter.pose, relative, distance)) return;
     if (best != kNone && distance >= squared_distance) return;
-    if (!isSegment(scene.views[q].type()) && contains(workspace.pairings, p)) return;
+    if (!isSegment(scene.views[q].type()) && contains(query.workspace.pairings, p)) return;
     best = p;
     squared_distance = distance;
   };
   if (lists)
   {
     for (const std::uint32_t p : (*lists)[q]) consider(p);
-    counters.visits += (*lists)[q].size();
+    query.counters.visits += (*lists)[q].size();
   }
   else
   {
-    counters.visits += visitCandidates(scene, q, filter.pose, relative, consider);
+    query.counters.visits += visitCandidates(scene, q, filter.pose, relative, consider);
     checks = std::max<std::uint64_t>(checks, 1);  // a search without candidates is work as well
   }
-  counters.checks += checks;
+  query.counters.checks += checks;
   return best;
 }
 
-bool FeatureVerifier::associate(const PreparedScene& scene, const CandidateLists* lists,
-                                std::uint32_t needed, Workspace& workspace, Filter& filter,
-                                MatchingCounters& counters) const
+bool FeatureVerifier::associate(FeatureQuery& query, const CandidateLists* lists,
+                                std::uint32_t needed, Filter& filter) const
 {
+  const PreparedScene& scene = query.scene;
+  Workspace& workspace = query.workspace;
   const HypothesisBase& base = workspace.base;
   workspace.pairings = base.pairings;
   const std::uint32_t* order = scene.orderFrom(base.pairings.front().observed);
@@ -234,7 +234,7 @@ bool FeatureVerifier::associate(const PreparedScene& scene, const CandidateLists
     --remaining;
 
     double distance = 0;
-    const std::uint32_t p = bestCandidate(scene, lists, q, workspace, filter, distance, counters);
+    const std::uint32_t p = bestCandidate(query, lists, q, filter, distance);
     const int degrees = hasBearing(scene.views[q].type()) ? 3 : 2;
     const bool jointly_compatible = p != kNone && filter.joint_distance + distance <=
                                                       chi_square_(filter.joint_degrees + degrees);
@@ -259,10 +259,11 @@ bool FeatureVerifier::associate(const PreparedScene& scene, const CandidateLists
   return supportOf(scene, workspace.pairings) >= needed;
 }
 
-std::optional<PoseEstimate> FeatureVerifier::fit(const PreparedScene& scene,
-                                                 const PoseEstimate& start,
-                                                 Workspace& workspace) const
+std::optional<PoseEstimate> FeatureVerifier::fit(FeatureQuery& query,
+                                                 const PoseEstimate& start) const
 {
+  const PreparedScene& scene = query.scene;
+  Workspace& workspace = query.workspace;
   workspace.fitted.clear();
   for (const FeaturePairing& pairing : workspace.pairings)
   {
@@ -272,20 +273,21 @@ std::optional<PoseEstimate> FeatureVerifier::fit(const PreparedScene& scene,
   return refinePose(start, workspace.fitted, scene.relative_sigma);
 }
 
-void FeatureVerifier::recount(const PreparedScene& scene, const PoseEstimate& pose,
-                              Workspace& workspace, MatchingCounters& counters) const
+void FeatureVerifier::recount(FeatureQuery& query, const PoseEstimate& pose) const
 {
+  const PreparedScene& scene = query.scene;
+  Workspace& workspace = query.workspace;
   workspace.matches.clear();
   for (std::uint32_t q = 0; q < scene.size(); ++q)
   {
     const auto consider = [&](std::uint32_t p)
     {
-      ++counters.checks;
+      ++query.counters.checks;
       double distance = 0;
       if (!gatePairing(scene, q, p, pose, scene.relative_sigma, distance)) return;
       workspace.matches.push_back({distance, {q, p}});
     };
-    counters.visits += visitCandidates(scene, q, pose, scene.relative_sigma, consider);
+    query.counters.visits += visitCandidates(scene, q, pose, scene.relative_sigma, consider);
   }
   std::sort(workspace.matches.begin(), workspace.matches.end(),
             [](const Workspace::Match& a, const Workspace::Match& b)
@@ -311,9 +313,10 @@ void FeatureVerifier::recount(const PreparedScene& scene, const PoseEstimate& po
   }
 }
 
-double FeatureVerifier::logOdds(const PreparedScene& scene, const PoseEstimate& pose,
-                                const Workspace& workspace, MatchingCounters& counters) const
+double FeatureVerifier::logOdds(FeatureQuery& query, const PoseEstimate& pose) const
 {
+  const PreparedScene& scene = query.scene;
+  const std::vector<FeaturePairing>& pairings = query.workspace.pairings;
   const double log_two_pi = std::log(2 * M_PI);
   // The prior of the pose over the mapped area, times the Laplace volume of its posterior.
   double sum = -std::log(2 * M_PI * map_->area()) +
@@ -323,24 +326,25 @@ double FeatureVerifier::logOdds(const PreparedScene& scene, const PoseEstimate& 
     const double noise = m.degrees == 2 ? determinant(m.noise) : m.noise.xx;
     return -0.5 * (squaredInnovation(m, m.noise) + m.degrees * log_two_pi + std::log(noise));
   };
-  for (const FeaturePairing& pairing : workspace.pairings)
+  for (const FeaturePairing& pairing : pairings)
   {
-    if (!counts(scene, pairing, workspace.pairings)) continue;
+    if (!counts(scene, pairing, pairings)) continue;
     const DirectedFeature& observed = scene.views[pairing.observed];
     const DirectedFeature& mapped = map_->view(pairing.mapped);
     sum += std::log(options_.detection_probability / map_->clutterDensity(observed.type())) +
            density(placeMeasurement(pose, observed, mapped, scene.relative_sigma));
     if (hasBearing(observed.type())) sum += density(directionMeasurement(pose, observed, mapped));
   }
-  sum += static_cast<double>(countMissed(scene, *map_, pose, workspace.pairings, counters)) *
+  sum += static_cast<double>(countMissed(scene, *map_, pose, pairings, query.counters)) *
          std::log1p(-options_.detection_probability);
   return sum;
 }
 
-void FeatureVerifier::verify(const PreparedScene& scene, const CandidateLists* lists,
-                             HypothesisSet& found, Workspace& workspace,
-                             MatchingCounters& counters) const
+void FeatureVerifier::verify(FeatureQuery& query, const CandidateLists* lists) const
 {
+  const PreparedScene& scene = query.scene;
+  HypothesisSet& found = query.found;
+  Workspace& workspace = query.workspace;
   const HypothesisBase& base = workspace.base;
   if (found.explains(base.pairings[0], base.pairings[1])) return;
   const auto wanted = std::min(options_.min_support, static_cast<std::uint32_t>(scene.size()));
@@ -351,7 +355,7 @@ void FeatureVerifier::verify(const PreparedScene& scene, const CandidateLists* l
   Filter filter;
   filter.pose = base.pose;
   filter.base_place = scene.views[base.pairings.front().observed].position();
-  if (!associate(scene, lists, needed, workspace, filter, counters)) return;
+  if (!associate(query, lists, needed, filter)) return;
 
   // 2. Refit on all pairings and recount with the tight gates of the refitted pose, twice. This
   // adds what the base's error excluded, and removes what it let in: eq. (5.8).
@@ -359,12 +363,12 @@ void FeatureVerifier::verify(const PreparedScene& scene, const CandidateLists* l
   constexpr int kRecounts = 2;
   for (int fits = 0; fits <= kRecounts; ++fits)
   {
-    const auto refitted = fit(scene, pose, workspace);
+    const auto refitted = fit(query, pose);
     if (!refitted) return;
     pose = *refitted;
     if (fits == kRecounts) break;
     workspace.before = workspace.pairings;
-    recount(scene, pose, workspace, counters);
+    recount(query, pose);
     if (supportOf(scene, workspace.pairings) < wanted) return;
     if (samePairings(workspace.before, workspace.pairings)) break;  // nothing left to refit
   }
@@ -374,21 +378,7 @@ void FeatureVerifier::verify(const PreparedScene& scene, const CandidateLists* l
   hypothesis.pose = toGaussian(pose);
   hypothesis.pairings = workspace.pairings;
   hypothesis.support = supportOf(scene, workspace.pairings);
-  hypothesis.log_odds = logOdds(scene, pose, workspace, counters);
+  hypothesis.log_odds = logOdds(query, pose);
   found.add(std::move(hypothesis));
-}
-
-double FeatureVerifier::expectedByChance(const PreparedScene& scene, std::uint32_t support,
-                                         std::uint32_t base_size, std::uint64_t bases)
-{
-  const auto n = static_cast<double>(scene.size());
-  const double trials = n - base_size;
-  const double needed = static_cast<double>(support) - base_size;
-  const double retrieved = static_cast<double>(std::max<std::uint64_t>(1, bases));
-  if (needed <= 0 || trials <= 0) return retrieved;
-  if (needed > trials) return 0;
-  // The upper tail of the binomial distribution is an incomplete beta function.
-  return retrieved *
-         boost::math::ibeta(needed, trials - needed + 1, std::min(1.0, scene.mean_chance));
 }
 }  // namespace sigloc

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "geometry/chi_square.h"
-#include "matching/features/HypothesisSet.h"
 #include "matching/features/PreparedScene.h"
 #include "signature/binary_constraint.h"
 #include "signature/pose_fit.h"
@@ -13,6 +12,8 @@
 
 namespace sigloc
 {
+struct FeatureQuery;
+
 /// The pairings that a hypothesis starts from, and the pose that they fix.
 struct HypothesisBase
 {
@@ -29,7 +30,7 @@ using CandidateLists = std::vector<std::vector<std::uint32_t>>;
 /// compatibility, and are one to one. Least squares, a recount with tight gates and log-odds
 /// follow. \cite algorithm section 5
 ///
-/// Const and thread-safe. Each query has its own Workspace for what changes.
+/// Const and thread-safe. Each FeatureQuery has what changes.
 class FeatureVerifier
 {
  public:
@@ -50,23 +51,16 @@ class FeatureVerifier
     std::vector<Match> matches;
   };
 
-  /// Turns two pairings into a base with its pose. Returns false when they fix no pose.
-  /// \cite algorithm eq. (5.1) to (5.4)
-  bool makeBase(const PreparedScene& scene, const FeaturePairing& first,
-                const FeaturePairing& second, HypothesisBase& base,
-                MatchingCounters& counters) const;
+  /// Turns two pairings into the workspace's base with its pose. Returns false when they fix no
+  /// pose. \cite algorithm eq. (5.1) to (5.4)
+  bool makeBase(FeatureQuery& query, const FeaturePairing& first,
+                const FeaturePairing& second) const;
 
-  /// Verifies workspace.base and adds the hypothesis that grows from it to `found`. With `lists`
-  /// (the plain mode) partners come from there, and no base is given up early. Otherwise they come
-  /// from the spatial hash near the predicted place, and a sequential test may give the base up.
-  /// \cite algorithm eq. (5.5) to (5.11)
-  void verify(const PreparedScene& scene, const CandidateLists* lists, HypothesisSet& found,
-              Workspace& workspace, MatchingCounters& counters) const;
-
-  /// Returns the expected number of hypotheses with this support by chance among `bases` retrieved,
-  /// each of `base_size` features. \cite algorithm eq. (5.12)
-  static double expectedByChance(const PreparedScene& scene, std::uint32_t support,
-                                 std::uint32_t base_size, std::uint64_t bases);
+  /// Verifies the workspace's base and adds the hypothesis that grows from it to what was found.
+  /// With `lists` (the plain mode) partners come from there, and no base is given up early.
+  /// Otherwise they come from the spatial hash near the predicted place, and a sequential test may
+  /// give the base up. \cite algorithm eq. (5.5) to (5.11)
+  void verify(FeatureQuery& query, const CandidateLists* lists = nullptr) const;
 
   /// Returns the map features that observed feature q may be at an estimated pose with covariance:
   /// all that pass the unary and the location-dependent gates. `relative_sigma` [m] is the map's
@@ -86,21 +80,17 @@ class FeatureVerifier
   struct Filter;
   bool gatePairing(const PreparedScene& scene, std::uint32_t q, std::uint32_t p,
                    const PoseEstimate& pose, double relative_sigma, double& squared_distance) const;
-  bool associate(const PreparedScene& scene, const CandidateLists* lists, std::uint32_t needed,
-                 Workspace& workspace, Filter& filter, MatchingCounters& counters) const;
-  std::uint32_t bestCandidate(const PreparedScene& scene, const CandidateLists* lists,
-                              std::uint32_t q, const Workspace& workspace, const Filter& filter,
-                              double& squared_distance, MatchingCounters& counters) const;
+  bool associate(FeatureQuery& query, const CandidateLists* lists, std::uint32_t needed,
+                 Filter& filter) const;
+  std::uint32_t bestCandidate(FeatureQuery& query, const CandidateLists* lists, std::uint32_t q,
+                              const Filter& filter, double& squared_distance) const;
   template <class Visit>
   std::uint64_t visitCandidates(const PreparedScene& scene, std::uint32_t q,
                                 const PoseEstimate& pose, double relative_sigma,
                                 Visit&& visit) const;
-  void recount(const PreparedScene& scene, const PoseEstimate& pose, Workspace& workspace,
-               MatchingCounters& counters) const;
-  std::optional<PoseEstimate> fit(const PreparedScene& scene, const PoseEstimate& start,
-                                  Workspace& workspace) const;
-  double logOdds(const PreparedScene& scene, const PoseEstimate& pose, const Workspace& workspace,
-                 MatchingCounters& counters) const;
+  void recount(FeatureQuery& query, const PoseEstimate& pose) const;
+  std::optional<PoseEstimate> fit(FeatureQuery& query, const PoseEstimate& start) const;
+  double logOdds(FeatureQuery& query, const PoseEstimate& pose) const;
 
   std::shared_ptr<const PreparedMap> map_;
   GeneratorOptions options_;

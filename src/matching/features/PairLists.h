@@ -24,8 +24,8 @@ class PairLists
 
   PairLists(const PreparedMap& map, double cut_off);
 
-  /// Returns the cut-off [m] that leaves `max_neighbours` on average, or twice the effective range
-  /// if that is less. \cite algorithm section 4 (b)
+  /// Returns the distance [m] within which a feature has `max_neighbours` on average, over a sample
+  /// of 64 features at most; kUncut where the map has no more. \cite algorithm section 4 (b)
   static double cutOffFor(const PreparedMap& map, const GeneratorOptions& options);
 
   double cutOff() const { return cut_off_; }

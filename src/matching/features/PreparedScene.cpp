@@ -79,6 +79,12 @@ PreparedScene::PreparedScene(const std::vector<Feature>& observed, const Prepare
   }
 }
 
+bool seesWalls(const std::vector<Feature>& observed)
+{
+  return std::any_of(observed.begin(), observed.end(),
+                     [](const Feature& feature) { return isSegment(feature.type); });
+}
+
 bool counts(const PreparedScene& scene, const FeaturePairing& pairing,
             const std::vector<FeaturePairing>& pairings)
 {

@@ -34,6 +34,9 @@ struct PreparedScene
   double relative_sigma = 0;  ///< [m], the map's relative error over the scene's mean range
 };
 
+/// True where a wall is among the observed features.
+bool seesWalls(const std::vector<Feature>& observed);
+
 /// Returns false for a corner or wall end if the wall that it was derived from is paired, because
 /// both come from the same beams. Only the observed feature of `pairing` is used.
 bool counts(const PreparedScene& scene, const FeaturePairing& pairing,

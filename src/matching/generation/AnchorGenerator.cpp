@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "matching/generation/AnchorGenerator.h"
 
-#include "matching/features/sampling.h"
 #include "matching/features/SplitMix.h"
 #include "matching/generation/PlainGenerator.h"
+#include "matching/generation/sampling.h"
 #include "signature/unary_constraint.h"
 
 #include <algorithm>
@@ -42,14 +42,12 @@ std::vector<std::uint32_t> drawPartners(const PreparedScene& scene, std::uint32_
 }
 }  // namespace
 
-void AnchorGenerator::search(const PreparedScene& scene, HypothesisSet& found,
-                             FeatureVerifier::Workspace& workspace, MatchingCounters& counters,
-                             std::uint64_t budget) const
+void AnchorGenerator::search(FeatureQuery& query, std::uint64_t budget) const
 {
-  const PreparedMap& map = verifier_->map();
-  const GeneratorOptions& options = verifier_->options();
+  const PreparedScene& scene = query.scene;
+  const GeneratorOptions& options = query.options;
   const auto n = static_cast<std::uint32_t>(scene.size());
-  const std::uint64_t before = counters.hypotheses;
+  const std::uint64_t before = query.bases();
   std::vector<std::uint32_t> candidates;
   SplitMix random(options.seed);
 
@@ -67,20 +65,19 @@ void AnchorGenerator::search(const PreparedScene& scene, HypothesisSet& found,
   {
     // 2. A few distant partners for each.
     const auto partners = drawPartners(scene, i, lists_->cutOff(), options.partners, random);
-    for (std::uint32_t k = 0; k < map.size(); ++k)
+    for (std::uint32_t k = 0; k < query.map.size(); ++k)
     {
-      ++counters.visits;
-      if (!unaryCompatible(scene.views[i], map.view(k), verifier_->gates().scalar)) continue;
-      ++counters.signature_pairs;
-      if (counters.hypotheses - before >= budget) return;
+      ++query.counters.visits;
+      if (!unaryCompatible(scene.views[i], query.map.view(k), query.gates.scalar)) continue;
+      ++query.counters.signature_pairs;
+      if (query.bases() - before >= budget) return;
       for (const std::uint32_t j : partners)
       {
         // 3. Every l in L_j(i, k) makes a base, verified over all observed features.
-        gatherCandidates(scene, map, verifier_->gates(), *lists_, {i, k}, j, candidates, counters);
+        gatherCandidates(query, *lists_, {i, k}, j, candidates);
         for (const std::uint32_t l : candidates)
         {
-          if (!verifier_->makeBase(scene, {i, k}, {j, l}, workspace.base, counters)) continue;
-          verifier_->verify(scene, nullptr, found, workspace, counters);
+          if (verifier_->makeBase(query, {i, k}, {j, l})) verifier_->verify(query);
         }
       }
     }
@@ -90,11 +87,8 @@ void AnchorGenerator::search(const PreparedScene& scene, HypothesisSet& found,
 std::vector<FeatureHypothesis> AnchorGenerator::generate(const std::vector<Feature>& observed,
                                                          MatchingCounters& counters) const
 {
-  const PreparedScene scene(observed, verifier_->map(), verifier_->options(), verifier_->gates());
-  HypothesisSet found(scene.size());
-  FeatureVerifier::Workspace workspace;
-  const std::uint64_t before = counters.hypotheses;
-  search(scene, found, workspace, counters, std::numeric_limits<std::uint64_t>::max());
-  return rankedHypotheses(scene, *verifier_, found, 2, counters.hypotheses - before);
+  FeatureQuery query(observed, *verifier_, counters);
+  search(query, std::numeric_limits<std::uint64_t>::max());
+  return query.ranked(2, query.bases());
 }
 }  // namespace sigloc

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "matching/features/FeatureVerifier.h"
+#include "matching/features/FeatureQuery.h"
 #include "matching/features/PairLists.h"
 
 namespace sigloc
@@ -22,10 +22,8 @@ class AnchorGenerator : public FeatureHypothesisGenerator
   std::vector<FeatureHypothesis> generate(const std::vector<Feature>& observed,
                                           MatchingCounters& counters) const override;
 
-  /// Runs the search, which adds to `found`, within a budget of hypotheses.
-  void search(const PreparedScene& scene, HypothesisSet& found,
-              FeatureVerifier::Workspace& workspace, MatchingCounters& counters,
-              std::uint64_t budget) const;
+  /// Adds what it finds to the query, within a budget of hypotheses.
+  void search(FeatureQuery& query, std::uint64_t budget) const;
 
  private:
   std::shared_ptr<const FeatureVerifier> verifier_;

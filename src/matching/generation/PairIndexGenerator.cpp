@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "matching/generation/PairIndexGenerator.h"
 
-#include "matching/features/sampling.h"
+#include "matching/generation/sampling.h"
 #include "signature/unary_constraint.h"
 
 #include <algorithm>
@@ -27,8 +27,9 @@ PairIndexGenerator::PairIndexGenerator(std::shared_ptr<const FeatureVerifier> ve
 {
 }
 
-std::vector<PairIndexGenerator::Lookup> PairIndexGenerator::rankedLookups(
-    const PreparedScene& scene, const std::vector<std::uint32_t>& among, std::uint32_t count) const
+/// Looks up every pair of the given features within the cut-off.
+std::vector<PairIndexGenerator::Lookup> PairIndexGenerator::lookupsAmong(
+    const PreparedScene& scene, const std::vector<std::uint32_t>& among) const
 {
   const MapErrorModel& error = verifier_->map().map().error();
   const double gate = verifier_->gates().scalar;
@@ -51,13 +52,26 @@ std::vector<PairIndexGenerator::Lookup> PairIndexGenerator::rankedLookups(
           {among[a], among[b], length, index_.find(first.type(), second.type(), key, tolerance)});
     }
   }
-  // Only the longer half is used, because short bases give poor headings.
+  return lookups;
+}
+
+/// Short bases give poor headings. They are kept where fewer than `count` long ones are left.
+std::vector<PairIndexGenerator::Lookup> PairIndexGenerator::longerHalf(std::vector<Lookup> lookups,
+                                                                       std::size_t count)
+{
   const auto middle = lookups.begin() + static_cast<std::ptrdiff_t>(lookups.size() / 2);
   std::nth_element(lookups.begin(), middle, lookups.end(),
                    [](const Lookup& a, const Lookup& b) { return a.length > b.length; });
   if (lookups.size() / 2 >= count) lookups.erase(middle, lookups.end());
+  return lookups;
+}
 
-  // Rare pairs come first. No feature is in too many, because it may be spurious.
+/// Rare pairs come first. Of a feature in more than `fair` of them, which may be spurious, the
+/// others come last.
+std::vector<PairIndexGenerator::Lookup> PairIndexGenerator::fairChoice(std::vector<Lookup> lookups,
+                                                                       std::size_t features,
+                                                                       std::size_t fair)
+{
   std::sort(lookups.begin(), lookups.end(),
             [](const Lookup& a, const Lookup& b)
             {
@@ -66,8 +80,7 @@ std::vector<PairIndexGenerator::Lookup> PairIndexGenerator::rankedLookups(
               if (pairs_a != pairs_b) return pairs_a < pairs_b;
               return a.i != b.i ? a.i < b.i : a.j < b.j;
             });
-  const std::size_t fair = 1 + 2 * count / std::max<std::size_t>(1, among.size());
-  std::vector<std::size_t> used(scene.size(), 0);
+  std::vector<std::size_t> used(features, 0);
   std::vector<Lookup> chosen;
   std::vector<Lookup> rest;
   for (const Lookup& lookup : lookups)
@@ -79,34 +92,38 @@ std::vector<PairIndexGenerator::Lookup> PairIndexGenerator::rankedLookups(
     ++used[lookup.j];
   }
   chosen.insert(chosen.end(), rest.begin(), rest.end());
+  return chosen;
+}
+
+std::vector<PairIndexGenerator::Lookup> PairIndexGenerator::rankedLookups(
+    const PreparedScene& scene, const std::vector<std::uint32_t>& among, std::uint32_t count) const
+{
+  const std::size_t fair = 1 + 2 * count / std::max<std::size_t>(1, among.size());
+  std::vector<Lookup> chosen =
+      fairChoice(longerHalf(lookupsAmong(scene, among), count), scene.size(), fair);
   if (chosen.size() > count) chosen.resize(count);
   return chosen;
 }
 
-void PairIndexGenerator::tryLookup(const PreparedScene& scene, const Lookup& lookup,
-                                   HypothesisSet& found, FeatureVerifier::Workspace& workspace,
-                                   MatchingCounters& counters, std::uint64_t budget) const
+void PairIndexGenerator::tryLookup(FeatureQuery& query, const Lookup& lookup,
+                                   std::uint64_t limit) const
 {
-  const PreparedMap& map = verifier_->map();
-  const BinaryGates& gates = verifier_->gates();
+  const PreparedMap& map = query.map;
+  const BinaryGates& gates = query.gates;
   const MapErrorModel& error = map.map().error();
-  const DirectedFeature& first = scene.views[lookup.i];
-  const DirectedFeature& second = scene.views[lookup.j];
+  const DirectedFeature& first = query.scene.views[lookup.i];
+  const DirectedFeature& second = query.scene.views[lookup.j];
   index_.visit(lookup.runs,
                [&](std::uint32_t k, std::uint32_t l)
                {
-                 ++counters.signature_pairs;
-                 if (counters.hypotheses >= budget) return;
+                 ++query.counters.signature_pairs;
+                 if (query.counters.hypotheses >= limit) return;
                  const bool fits =
                      unaryCompatible(first, map.view(k), gates.scalar) &&
                      unaryCompatible(second, map.view(l), gates.scalar) &&
                      binaryCompatible(first, second, map.view(k), map.view(l), error, gates);
-                 if (!fits || !verifier_->makeBase(scene, {lookup.i, k}, {lookup.j, l},
-                                                   workspace.base, counters))
-                 {
-                   return;
-                 }
-                 verifier_->verify(scene, nullptr, found, workspace, counters);
+                 if (!fits || !verifier_->makeBase(query, {lookup.i, k}, {lookup.j, l})) return;
+                 verifier_->verify(query);
                });
 }
 
@@ -133,67 +150,49 @@ std::uint64_t PairIndexGenerator::basesOf(const std::vector<Lookup>& lookups)
   return bases;
 }
 
-void PairIndexGenerator::search(const PreparedScene& scene, HypothesisSet& found,
-                                FeatureVerifier::Workspace& workspace, MatchingCounters& counters,
-                                std::uint64_t budget) const
+void PairIndexGenerator::search(FeatureQuery& query, std::uint64_t budget) const
 {
-  const GeneratorOptions& options = verifier_->options();
-  const std::uint64_t before = counters.hypotheses;
+  const std::uint64_t before = query.bases();
+  const std::uint64_t counted = query.counters.hypotheses;
   const std::uint64_t limit =
-      budget > std::numeric_limits<std::uint64_t>::max() - before ? budget : before + budget;
-  const auto significant = [&]
-  {
-    const FeatureHypothesis* best = found.best();
-    return best &&
-           FeatureVerifier::expectedByChance(scene, best->support, 2,
-                                             counters.hypotheses - before) < options.significance;
-  };
+      budget > std::numeric_limits<std::uint64_t>::max() - counted ? budget : counted + budget;
+  const auto significant = [&] { return query.isSignificant(2, query.bases() - before); };
 
   // 1. Rare, long pairs of all features, until an answer is significant.
-  for (const Lookup& lookup : lookupsOfAll(scene))
+  for (const Lookup& lookup : lookupsOfAll(query.scene))
   {
-    if (counters.hypotheses >= limit) return;
-    tryLookup(scene, lookup, found, workspace, counters, limit);
+    if (query.counters.hypotheses >= limit) return;
+    tryLookup(query, lookup, limit);
     if (significant()) break;
   }
   if (!significant()) return;
 
   // 2. Pairs of what the answer explains, because look-alike poses share most of it.
-  for (const Lookup& lookup : lookupsOfExplained(scene, found))
-  {
-    tryLookup(scene, lookup, found, workspace, counters, limit);
-  }
+  for (const Lookup& lookup : lookupsOfExplained(query)) tryLookup(query, lookup, limit);
 }
 
 std::vector<PairIndexGenerator::Lookup> PairIndexGenerator::lookupsOfExplained(
-    const PreparedScene& scene, const HypothesisSet& found) const
+    const FeatureQuery& query) const
 {
-  const std::vector<std::uint32_t> explained = observedOf(*found.best());
-  const double failure = verifier_->options().failure_probability;
-  return rankedLookups(scene, explained, drawsNeeded(failure, rivalShare(explained.size(), 2)));
+  const std::vector<std::uint32_t> explained = observedOf(*query.found.best());
+  const double failure = query.options.failure_probability;
+  return rankedLookups(query.scene, explained,
+                       drawsNeeded(failure, rivalShare(explained.size(), 2)));
 }
 
-void PairIndexGenerator::searchAgain(const PreparedScene& scene, HypothesisSet& found,
-                                     FeatureVerifier::Workspace& workspace,
-                                     MatchingCounters& counters, std::uint64_t budget) const
+void PairIndexGenerator::searchAgain(FeatureQuery& query, std::uint64_t budget) const
 {
-  const std::vector<Lookup> lookups = lookupsOfExplained(scene, found);
+  const std::vector<Lookup> lookups = lookupsOfExplained(query);
   if (basesOf(lookups) > budget) return;
-  const std::uint64_t limit = counters.hypotheses + budget;
-  for (const Lookup& lookup : lookups)
-  {
-    tryLookup(scene, lookup, found, workspace, counters, limit);
-  }
+  const std::uint64_t limit = query.counters.hypotheses + budget;
+  for (const Lookup& lookup : lookups) tryLookup(query, lookup, limit);
 }
 
 std::vector<FeatureHypothesis> PairIndexGenerator::generate(const std::vector<Feature>& observed,
                                                             MatchingCounters& counters) const
 {
-  const PreparedScene scene(observed, verifier_->map(), verifier_->options(), verifier_->gates());
-  HypothesisSet found(scene.size());
-  FeatureVerifier::Workspace workspace;
-  const std::uint64_t before = counters.hypotheses;
-  search(scene, found, workspace, counters, std::numeric_limits<std::uint64_t>::max());
-  return rankedHypotheses(scene, *verifier_, found, 2, counters.hypotheses - before);
+  FeatureQuery query(observed, *verifier_, counters);
+  search(query, std::numeric_limits<std::uint64_t>::max());
+  return query.ranked(2, query.bases());
 }
 }  // namespace sigloc

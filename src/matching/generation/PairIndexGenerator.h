@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "matching/features/FeatureVerifier.h"
+#include "matching/features/FeatureQuery.h"
 #include "matching/generation/PairIndex.h"
 
 namespace sigloc
@@ -19,17 +19,13 @@ class PairIndexGenerator : public FeatureHypothesisGenerator
   std::vector<FeatureHypothesis> generate(const std::vector<Feature>& observed,
                                           MatchingCounters& counters) const override;
 
-  /// Runs the search, which adds to `found`, within a budget of hypotheses.
-  void search(const PreparedScene& scene, HypothesisSet& found,
-              FeatureVerifier::Workspace& workspace, MatchingCounters& counters,
-              std::uint64_t budget) const;
+  /// Adds what it finds to the query, within a budget of hypotheses.
+  void search(FeatureQuery& query, std::uint64_t budget) const;
 
   /// Searches for poses that explain nearly as much as the best hypothesis, with pairs of the
   /// features that it explains, eq. (4.4). Does nothing where that could take more than `budget`
   /// bases.
-  void searchAgain(const PreparedScene& scene, HypothesisSet& found,
-                   FeatureVerifier::Workspace& workspace, MatchingCounters& counters,
-                   std::uint64_t budget) const;
+  void searchAgain(FeatureQuery& query, std::uint64_t budget) const;
 
   /// Returns how many bases a search would retrieve at most, without retrieving them.
   std::uint64_t basesFor(const PreparedScene& scene) const;
@@ -37,15 +33,17 @@ class PairIndexGenerator : public FeatureHypothesisGenerator
  private:
   struct Lookup;
   std::vector<Lookup> lookupsOfAll(const PreparedScene& scene) const;
-  std::vector<Lookup> lookupsOfExplained(const PreparedScene& scene,
-                                         const HypothesisSet& found) const;
+  std::vector<Lookup> lookupsOfExplained(const FeatureQuery& query) const;
   static std::uint64_t basesOf(const std::vector<Lookup>& lookups);
+  std::vector<Lookup> lookupsAmong(const PreparedScene& scene,
+                                   const std::vector<std::uint32_t>& among) const;
+  static std::vector<Lookup> longerHalf(std::vector<Lookup> lookups, std::size_t count);
+  static std::vector<Lookup> fairChoice(std::vector<Lookup> lookups, std::size_t features,
+                                        std::size_t fair);
   std::vector<Lookup> rankedLookups(const PreparedScene& scene,
                                     const std::vector<std::uint32_t>& among,
                                     std::uint32_t count) const;
-  void tryLookup(const PreparedScene& scene, const Lookup& lookup, HypothesisSet& found,
-                 FeatureVerifier::Workspace& workspace, MatchingCounters& counters,
-                 std::uint64_t budget) const;
+  void tryLookup(FeatureQuery& query, const Lookup& lookup, std::uint64_t limit) const;
 
   std::shared_ptr<const FeatureVerifier> verifier_;
   std::shared_ptr<const PairLists> lists_;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "matching/generation/PatternQuery.h"
 
-#include "matching/features/sampling.h"
+#include "matching/generation/sampling.h"
 #include "signature/unary_constraint.h"
 
 #include <algorithm>
@@ -28,10 +28,17 @@ constexpr std::uint64_t kFewPairBases = 2000;  // that may be tried where patter
 // answer. In a sparse map few of the patterns seen are indexed.
 constexpr double kDrawsAreCheap = 1e-6;
 
-bool seesWalls(const PreparedScene& scene)
+/// True when the best answer is significant, or when it explains the share w of the features and
+/// has E < 1/2. Then more or smaller bases find no better answer, even where too few features were
+/// seen for significance.
+bool settles(const FeatureQuery& query, std::uint32_t base_size)
 {
-  return std::any_of(scene.views.begin(), scene.views.end(),
-                     [](const DirectedFeature& view) { return isSegment(view.type()); });
+  const FeatureHypothesis* best = query.found.best();
+  if (!best) return false;
+  const double chance = query.expectedByChance(best->support, base_size, query.bases());
+  const bool explains_enough =
+      best->support >= query.options.good_share * static_cast<double>(query.scene.size());
+  return chance < query.options.significance || (explains_enough && chance < kFewExpected);
 }
 }  // namespace
 
@@ -46,18 +53,17 @@ PatternGenerator::PatternGenerator(std::shared_ptr<const FeatureVerifier> verifi
 {
 }
 
-bool PatternGenerator::fitPattern(const PreparedScene& scene, const Query& query,
-                                  const PatternMembers& observed, const std::uint32_t* mapped,
-                                  PoseEstimate& pose) const
+bool PatternGenerator::fitPattern(const Query& query, const PatternMembers& observed,
+                                  const std::uint32_t* mapped, PoseEstimate& pose) const
 {
+  const PreparedScene& scene = query.scene;
   const std::size_t size = index_.patternSize();
-  const BinaryGates& gates = verifier_->gates();
   std::array<TPoint2D, kLargestPattern> seen;
   std::array<TPoint2D, kLargestPattern> known;
   for (std::size_t k = 0; k < size; ++k)
   {
-    const DirectedFeature& view = verifier_->map().view(mapped[k]);
-    if (!unaryCompatible(scene.views[observed[k]], view, gates.scalar)) return false;
+    const DirectedFeature& view = query.map.view(mapped[k]);
+    if (!unaryCompatible(scene.views[observed[k]], view, query.gates.scalar)) return false;
     seen[k] = scene.views[observed[k]].position();
     known[k] = view.position();
   }
@@ -67,12 +73,13 @@ bool PatternGenerator::fitPattern(const PreparedScene& scene, const Query& query
   return true;
 }
 
-void PatternGenerator::tryPattern(const PreparedScene& scene, Query& query, HypothesisSet& found,
-                                  FeatureVerifier::Workspace& workspace,
-                                  MatchingCounters& counters) const
+void PatternGenerator::tryPattern(Query& query) const
 {
+  const PreparedScene& scene = query.scene;
+  const PreparedMap& map = query.map;
+  MatchingCounters& counters = query.counters;
+  HypothesisBase& base = query.workspace.base;
   const std::size_t size = index_.patternSize();
-  const PreparedMap& map = verifier_->map();
   for (const PatternOrder& order : query.orders)
   {
     std::array<TPoint2D, kLargestPattern> ordered;
@@ -99,45 +106,22 @@ void PatternGenerator::tryPattern(const PreparedScene& scene, Query& query, Hypo
     {
       PoseEstimate pose;
       if (leadsToPartners(query, observed, mapped)) continue;
-      if (!fitPattern(scene, query, observed, mapped, pose)) continue;
+      if (!fitPattern(query, observed, mapped, pose)) continue;
       map.grid().prefetch(pose.place(next));
       query.poses.push_back(pose);
       query.hits[kept++] = mapped;
     }
     for (std::size_t h = 0; h < kept; ++h)
     {
-      workspace.base.pose = query.poses[h];
-      workspace.base.pairings.clear();
+      base.pose = query.poses[h];
+      base.pairings.clear();
       for (std::size_t k = 0; k < size; ++k)
       {
-        workspace.base.pairings.push_back({observed[k], query.hits[h][k]});
+        base.pairings.push_back({observed[k], query.hits[h][k]});
       }
-      verifier_->verify(scene, nullptr, found, workspace, counters);
+      verifier_->verify(query);
     }
   }
-}
-
-bool PatternGenerator::isSignificant(const PreparedScene& scene, const HypothesisSet& found,
-                                     std::uint32_t base_size, std::uint64_t bases) const
-{
-  const FeatureHypothesis* best = found.best();
-  return best && FeatureVerifier::expectedByChance(scene, best->support, base_size, bases) <
-                     verifier_->options().significance;
-}
-
-/// True when the best answer is significant, or when it explains the share w of the features and
-/// has E < 1/2. Then more or smaller bases find no better answer, even where too few features were
-/// seen for significance.
-bool PatternGenerator::settles(const PreparedScene& scene, const HypothesisSet& found,
-                               std::uint32_t base_size, std::uint64_t bases) const
-{
-  const GeneratorOptions& options = verifier_->options();
-  const FeatureHypothesis* best = found.best();
-  if (!best) return false;
-  const double chance = FeatureVerifier::expectedByChance(scene, best->support, base_size, bases);
-  const bool explains_enough =
-      best->support >= options.good_share * static_cast<double>(scene.size());
-  return chance < options.significance || (explains_enough && chance < kFewExpected);
 }
 
 /// Draws patterns of `roots` until `wanted` new ones are tried or `done` returns true. Every draw
@@ -145,36 +129,32 @@ bool PatternGenerator::settles(const PreparedScene& scene, const HypothesisSet& 
 /// are used up. A draw without a new pattern is repeated, but not for ever: few features have few
 /// patterns.
 template <class Done>
-std::uint32_t PatternGenerator::draw(const PreparedScene& scene,
-                                     const std::vector<std::uint32_t>& roots, std::uint32_t wanted,
-                                     Query& query, HypothesisSet& found,
-                                     FeatureVerifier::Workspace& workspace,
-                                     MatchingCounters& counters, const Done& done) const
+std::uint32_t PatternGenerator::draw(const std::vector<std::uint32_t>& roots, std::uint32_t wanted,
+                                     Query& query, const Done& done) const
 {
   constexpr std::uint32_t kPatience = 3;
   constexpr std::size_t kFewOrders = 2;
-  std::vector<bool> among(scene.size(), false);
+  std::vector<bool> among(query.scene.size(), false);
   for (const std::uint32_t root : roots) among[root] = true;
   std::uint32_t fresh = 0;
   for (const std::size_t most_orders : {kFewOrders, std::numeric_limits<std::size_t>::max()})
   {
     for (std::uint32_t d = 0; d < kPatience * wanted && fresh < wanted; ++d)
     {
-      if (!drawPattern(scene, among, roots[d % roots.size()], most_orders, query)) continue;
+      if (!drawPattern(among, roots[d % roots.size()], most_orders, query)) continue;
       ++fresh;
-      const std::uint64_t hypotheses = counters.hypotheses;
-      tryPattern(scene, query, found, workspace, counters);
-      if (counters.hypotheses > hypotheses && done()) return fresh;
+      const std::uint64_t bases = query.bases();
+      tryPattern(query);
+      if (query.bases() > bases && done()) return fresh;
     }
   }
   return fresh;
 }
 
-bool PatternGenerator::search(const PreparedScene& scene, Query& query, HypothesisSet& found,
-                              FeatureVerifier::Workspace& workspace,
-                              MatchingCounters& counters) const
+/// Returns whether the best answer needs no smaller bases.
+bool PatternGenerator::search(Query& query) const
 {
-  const GeneratorOptions& options = verifier_->options();
+  const PreparedScene& scene = query.scene;
   const auto size = static_cast<std::uint32_t>(index_.patternSize());
   std::vector<std::uint32_t> places;
   for (std::uint32_t i = 0; i < scene.size(); ++i)
@@ -185,77 +165,71 @@ bool PatternGenerator::search(const PreparedScene& scene, Query& query, Hypothes
   query.random.shuffle(places);
 
   // 1. Patterns of all features, until an answer is significant.
-  const std::uint64_t before = counters.hypotheses;
-  const auto significant = [&]
-  { return isSignificant(scene, found, size, counters.hypotheses - before); };
-  const auto settled = [&] { return settles(scene, found, size, counters.hypotheses - before); };
-  const double good = kIndexedShare * std::pow(options.good_share, size);
-  for (const double failure : {options.failure_probability, kDrawsAreCheap})
+  const auto significant = [&] { return query.isSignificant(size, query.bases()); };
+  const double good = kIndexedShare * std::pow(query.options.good_share, size);
+  for (const double failure : {query.options.failure_probability, kDrawsAreCheap})
   {
-    draw(scene, places, drawsNeeded(failure, good), query, found, workspace, counters, significant);
-    if (settled()) break;
+    draw(places, drawsNeeded(failure, good), query, significant);
+    if (settles(query, size)) break;
   }
-  if (!settled()) return false;
+  if (!settles(query, size)) return false;
 
   // 2. Patterns of what the answer explains.
-  searchAgain(scene, query, found, workspace, counters);
+  searchAgain(query);
   return true;
 }
 
 /// Look-alike poses share most of what the best one explains. Only patterns that the index has at
 /// the best pose are drawn, because most likely it has them at look-alike poses too. Where there
 /// are too few of them, pairs are looked up.
-void PatternGenerator::searchAgain(const PreparedScene& scene, Query& query, HypothesisSet& found,
-                                   FeatureVerifier::Workspace& workspace,
-                                   MatchingCounters& counters) const
+void PatternGenerator::searchAgain(Query& query) const
 {
-  query.partners.assign(scene.size(), 0);
-  for (const FeaturePairing& pairing : found.best()->pairings)
+  query.partners.assign(query.scene.size(), 0);
+  for (const FeaturePairing& pairing : query.found.best()->pairings)
   {
     query.partners[pairing.observed] = pairing.mapped;
   }
   std::vector<std::uint32_t> explained;
-  for (const std::uint32_t i : observedOf(*found.best()))
+  for (const std::uint32_t i : observedOf(*query.found.best()))
   {
-    if (isPointLike(scene.views[i].type())) explained.push_back(i);
+    if (isPointLike(query.scene.views[i].type())) explained.push_back(i);
   }
-  const double failure = verifier_->options().failure_probability;
   const double shared = rivalShare(explained.size(), index_.patternSize());
-  const std::uint32_t wanted = drawsNeeded(failure, shared);
+  const std::uint32_t wanted = drawsNeeded(query.options.failure_probability, shared);
   std::uint32_t drawn = 0;
   if (!explained.empty())
   {
     // The smaller of the two is an integer that fits; the number of patterns alone may not.
     const double patterns = combinations(explained.size(), index_.patternSize());
     const auto draws = static_cast<std::uint32_t>(std::min<double>(patterns, wanted));
-    drawn = draw(scene, explained, draws, query, found, workspace, counters, [] { return false; });
+    drawn = draw(explained, draws, query, [] { return false; });
   }
   if (drawn >= wanted) return;
-  const std::uint64_t before = counters.hypotheses;
-  pairs_.searchAgain(scene, found, workspace, counters, kFewPairBases);
-  query.pair_bases = counters.hypotheses - before;
+  const std::uint64_t before = query.bases();
+  pairs_.searchAgain(query, kFewPairBases);
+  query.pair_bases = query.bases() - before;
 }
 
 /// Smaller bases find poses that share too few features with the map for patterns. They are worth
 /// their cost on two conditions. The budget must be enough for all of them. And some support that
 /// the draws may have missed must beat both the best answer and the background. Eq. (4.10)
-bool PatternGenerator::smallerBasesMayHelp(const PreparedScene& scene, const Query& query,
-                                           const HypothesisSet& found) const
+bool PatternGenerator::smallerBasesMayHelp(const Query& query) const
 {
-  const GeneratorOptions& options = verifier_->options();
+  const PreparedScene& scene = query.scene;
+  const GeneratorOptions& options = query.options;
   const auto n = static_cast<std::uint32_t>(scene.size());
   // Patterns do not use walls, pairs do.
-  if (seesWalls(scene)) return true;
+  if (seesWalls(query.observed)) return true;
   const std::uint64_t bases = pairs_.basesFor(scene);
   if (bases > options.fall_back_hypotheses) return false;
-  const double indexed = found.best() ? kIndexedShare : kSparselyIndexedShare;
-  for (std::uint32_t support = std::max(found.bestSupport() + 1, options.min_support); support <= n;
-       ++support)
+  const double indexed = query.found.best() ? kIndexedShare : kSparselyIndexedShare;
+  for (std::uint32_t support = std::max(query.found.bestSupport() + 1, options.min_support);
+       support <= n; ++support)
   {
     const double good = indexed * shareOfPatterns(scene, support);
     const double missed = std::pow(1 - good, static_cast<double>(query.tried.size()));
     if (missed > options.failure_probability &&
-        FeatureVerifier::expectedByChance(scene, support, 2, bases) < kBetterThanBackground)
+        query.expectedByChance(support, 2, bases) < kBetterThanBackground)
     {
       return true;
     }
@@ -285,37 +259,27 @@ double PatternGenerator::shareOfPatterns(const PreparedScene& scene, std::uint32
 std::vector<FeatureHypothesis> PatternGenerator::generate(const std::vector<Feature>& observed,
                                                           MatchingCounters& counters) const
 {
-  const GeneratorOptions& options = verifier_->options();
-  const PreparedScene scene(observed, verifier_->map(), options, verifier_->gates());
-  HypothesisSet found(scene.size());
-  FeatureVerifier::Workspace workspace;
-  Query query(options.seed);
-  const std::uint64_t before = counters.hypotheses;
-
+  Query query(observed, *verifier_, counters);
   double mapped = 0;
   for (std::size_t t = 0; t < kFeatureTypes; ++t)
   {
     const auto type = static_cast<FeatureType>(t);
-    if (isPointLike(type))
-      mapped = std::max(mapped, verifier_->map().typicalPositionVariance(type));
+    if (isPointLike(type)) mapped = std::max(mapped, query.map.typicalPositionVariance(type));
   }
-  query.map_variance = mapped + scene.relative_sigma * scene.relative_sigma + 1e-12;
+  const double relative_sigma = query.scene.relative_sigma;
+  query.map_variance = mapped + relative_sigma * relative_sigma + 1e-12;
 
-  const bool settled = search(scene, query, found, workspace, counters);
-  const auto base_size = static_cast<std::uint32_t>(index_.patternSize());
-  if (settled || !smallerBasesMayHelp(scene, query, found))
+  if (search(query) || !smallerBasesMayHelp(query))
   {
-    return rankedHypotheses(scene, *verifier_, found, base_size,
-                            counters.hypotheses - before - query.pair_bases);
+    const auto base_size = static_cast<std::uint32_t>(index_.patternSize());
+    return query.ranked(base_size, query.bases() - query.pair_bases);
   }
   // Without a sure answer, smaller bases find poses that share few features with the map.
-  pairs_.search(scene, found, workspace, counters, options.fall_back_hypotheses);
-  const bool sure = seesWalls(scene) ? isSignificant(scene, found, 2, counters.hypotheses - before)
-                                     : settles(scene, found, 2, counters.hypotheses - before);
-  if (!sure)
-  {
-    anchors_.search(scene, found, workspace, counters, options.fall_back_hypotheses);
-  }
-  return rankedHypotheses(scene, *verifier_, found, 2, counters.hypotheses - before);
+  const std::uint64_t budget = query.options.fall_back_hypotheses;
+  pairs_.search(query, budget);
+  const bool sure =
+      seesWalls(query.observed) ? query.isSignificant(2, query.bases()) : settles(query, 2);
+  if (!sure) anchors_.search(query, budget);
+  return query.ranked(2, query.bases());
 }
 }  // namespace sigloc

@@ -21,35 +21,23 @@ class PatternGenerator : public FeatureHypothesisGenerator
   std::vector<FeatureHypothesis> generate(const std::vector<Feature>& observed,
                                           MatchingCounters& counters) const override;
 
-  const PatternIndex& index() const { return index_; }
-
  private:
   struct Query;
-  bool drawPattern(const PreparedScene& scene, const std::vector<bool>& among, std::uint32_t root,
-                   std::size_t most_orders, Query& query) const;
-  void gatePattern(const PreparedScene& scene, Query& query) const;
-  void tryPattern(const PreparedScene& scene, Query& query, HypothesisSet& found,
-                  FeatureVerifier::Workspace& workspace, MatchingCounters& counters) const;
-  bool fitPattern(const PreparedScene& scene, const Query& query, const PatternMembers& observed,
-                  const std::uint32_t* mapped, PoseEstimate& pose) const;
+  bool drawPattern(const std::vector<bool>& among, std::uint32_t root, std::size_t most_orders,
+                   Query& query) const;
+  void gatePattern(Query& query) const;
+  void tryPattern(Query& query) const;
+  bool fitPattern(const Query& query, const PatternMembers& observed, const std::uint32_t* mapped,
+                  PoseEstimate& pose) const;
   bool mayJoin(const Query& query, std::uint32_t root, std::uint32_t member) const;
   bool leadsToPartners(const Query& query, const PatternMembers& observed,
                        const std::uint32_t* mapped) const;
   template <class Done>
-  std::uint32_t draw(const PreparedScene& scene, const std::vector<std::uint32_t>& roots,
-                     std::uint32_t wanted, Query& query, HypothesisSet& found,
-                     FeatureVerifier::Workspace& workspace, MatchingCounters& counters,
+  std::uint32_t draw(const std::vector<std::uint32_t>& roots, std::uint32_t wanted, Query& query,
                      const Done& done) const;
-  void searchAgain(const PreparedScene& scene, Query& query, HypothesisSet& found,
-                   FeatureVerifier::Workspace& workspace, MatchingCounters& counters) const;
-  bool search(const PreparedScene& scene, Query& query, HypothesisSet& found,
-              FeatureVerifier::Workspace& workspace, MatchingCounters& counters) const;
-  bool isSignificant(const PreparedScene& scene, const HypothesisSet& found,
-                     std::uint32_t base_size, std::uint64_t bases) const;
-  bool settles(const PreparedScene& scene, const HypothesisSet& found, std::uint32_t base_size,
-               std::uint64_t bases) const;
-  bool smallerBasesMayHelp(const PreparedScene& scene, const Query& query,
-                           const HypothesisSet& found) const;
+  bool search(Query& query) const;
+  void searchAgain(Query& query) const;
+  bool smallerBasesMayHelp(const Query& query) const;
   double shareOfPatterns(const PreparedScene& scene, std::uint32_t support) const;
 
   std::shared_ptr<const FeatureVerifier> verifier_;

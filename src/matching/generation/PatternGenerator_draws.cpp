@@ -30,23 +30,24 @@ std::uint64_t keyOf(const PatternMembers& members)
 
 /// Every pattern is gated by the variance of its own members. So a feature with a large variance
 /// does not make the patterns of others match anything. Eq. (4.7)
-void PatternGenerator::gatePattern(const PreparedScene& scene, Query& query) const
+void PatternGenerator::gatePattern(Query& query) const
 {
   const std::size_t size = index_.patternSize();
   double trace = 0;
   for (std::size_t k = 0; k < size; ++k)
   {
-    const auto& p = scene.views[query.members[k]].feature->position_covariance;
+    const auto& p = query.scene.views[query.members[k]].feature->position_covariance;
     trace = std::max(trace, p(0, 0) + p(1, 1));
   }
   query.variance = 0.5 * trace + query.map_variance;
   query.gate.residual = query.variance * residual_gate_;
-  query.gate.tolerance = std::sqrt(2 * verifier_->gates().scalar * query.variance);
+  query.gate.tolerance = std::sqrt(2 * query.gates.scalar * query.variance);
 }
 
-bool PatternGenerator::drawPattern(const PreparedScene& scene, const std::vector<bool>& among,
-                                   std::uint32_t root, std::size_t most_orders, Query& query) const
+bool PatternGenerator::drawPattern(const std::vector<bool>& among, std::uint32_t root,
+                                   std::size_t most_orders, Query& query) const
 {
+  const PreparedScene& scene = query.scene;
   const std::size_t size = index_.patternSize();
   // As many neighbours as in the map's patterns, and a few more, because spurious ones displace
   // real ones.
@@ -73,7 +74,7 @@ bool PatternGenerator::drawPattern(const PreparedScene& scene, const std::vector
   std::sort(query.members.begin(), query.members.begin() + static_cast<std::ptrdiff_t>(size));
   const std::uint64_t key = keyOf(query.members);
   if (std::find(query.tried.begin(), query.tried.end(), key) != query.tried.end()) return false;
-  gatePattern(scene, query);
+  gatePattern(query);
   std::array<TPoint2D, kLargestPattern> places;
   for (std::size_t k = 0; k < size; ++k) places[k] = scene.views[query.members[k]].position();
   query.orders.clear();
@@ -97,6 +98,6 @@ bool PatternGenerator::leadsToPartners(const Query& query, const PatternMembers&
 bool PatternGenerator::mayJoin(const Query& query, std::uint32_t root, std::uint32_t member) const
 {
   return query.partners.empty() ||
-         index_.isNeighbour(verifier_->map(), query.partners[root], query.partners[member]);
+         index_.isNeighbour(query.map, query.partners[root], query.partners[member]);
 }
 }  // namespace sigloc

@@ -7,8 +7,8 @@
 #include <numeric>
 
 #include "geometry/chi_square.h"
-#include "matching/features/sampling.h"
 #include "matching/generation/pattern_order.h"
+#include "matching/generation/sampling.h"
 
 namespace sigloc
 {

@@ -39,8 +39,6 @@ class PatternIndex
   std::size_t patternSize() const { return size_; }
   /// Number of nearest neighbours that form patterns with a feature.
   std::size_t neighbours() const { return neighbours_; }
-  std::size_t count() const { return size_ > 0 ? members_.size() / size_ : 0; }
-  std::size_t bytes() const;
 
   /// True when `other` is one of the `neighbours()` that form patterns with `root`.
   bool isNeighbour(const PreparedMap& map, std::uint32_t root, std::uint32_t other) const
@@ -60,6 +58,9 @@ class PatternIndex
   template <class Visit>
   std::uint64_t visit(const PatternShape& shape, const Gate& gate, Visit&& visit) const;
 
+  // For tests.
+  std::size_t count() const { return size_ > 0 ? members_.size() / size_ : 0; }
+  std::size_t bytes() const;
   /// Calls visit(const std::uint32_t* members) for every mapped pattern.
   template <class Visit>
   void visitAll(Visit&& visit) const

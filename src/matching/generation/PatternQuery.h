@@ -10,10 +10,14 @@
 
 namespace sigloc
 {
-/// The state of one query: random numbers, the pattern drawn last, and buffers.
-struct PatternGenerator::Query
+/// A query with its random numbers, the pattern drawn last, and buffers.
+struct PatternGenerator::Query : FeatureQuery
 {
-  explicit Query(std::uint64_t seed) : random(seed) {}
+  Query(const std::vector<Feature>& features, const FeatureVerifier& verifier,
+        MatchingCounters& counted_in)
+      : FeatureQuery(features, verifier, counted_in), random(options.seed)
+  {
+  }
 
   SplitMix random;
   PatternMembers members{};

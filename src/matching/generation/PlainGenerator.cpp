@@ -2,25 +2,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "matching/generation/PlainGenerator.h"
 
-#include "matching/features/sampling.h"
+#include "matching/generation/sampling.h"
 #include "signature/unary_constraint.h"
 
 #include <algorithm>
 
 namespace sigloc
 {
-void gatherCandidates(const PreparedScene& scene, const PreparedMap& map, const BinaryGates& gates,
-                      const PairLists& lists, const FeaturePairing& anchor, std::uint32_t j,
-                      std::vector<std::uint32_t>& candidates, MatchingCounters& counters)
+void gatherCandidates(FeatureQuery& query, const PairLists& lists, const FeaturePairing& anchor,
+                      std::uint32_t j, std::vector<std::uint32_t>& candidates)
 {
+  const PreparedMap& map = query.map;
+  const BinaryGates& gates = query.gates;
   const MapErrorModel& error = map.map().error();
-  const DirectedFeature& first = scene.views[anchor.observed];
-  const DirectedFeature& second = scene.views[j];
+  const DirectedFeature& first = query.scene.views[anchor.observed];
+  const DirectedFeature& second = query.scene.views[j];
   const BinaryKey key = binaryKey(first, second);
   const double tolerance =
       keyTolerance(key, lists.largestKeyVariance(first.type(), second.type()), error, gates.scalar);
   candidates.clear();
-  counters.visits += lists.visit(
+  query.counters.visits += lists.visit(
       anchor.mapped, key, second.type(), tolerance,
       [&](std::uint32_t l)
       {
@@ -35,12 +36,9 @@ void gatherCandidates(const PreparedScene& scene, const PreparedMap& map, const 
 std::vector<FeatureHypothesis> PlainGenerator::generate(const std::vector<Feature>& observed,
                                                         MatchingCounters& counters) const
 {
-  const PreparedScene scene(observed, verifier_->map(), verifier_->options(), verifier_->gates());
-  HypothesisSet found(scene.size());
-  const std::uint64_t before = counters.hypotheses;
-  const bool complete = search(scene, found, counters);
-  std::vector<FeatureHypothesis> ranked =
-      rankedHypotheses(scene, *verifier_, found, 2, counters.hypotheses - before);
+  FeatureQuery query(observed, *verifier_, counters);
+  const bool complete = search(query);
+  std::vector<FeatureHypothesis> ranked = query.ranked(2, query.bases());
   if (complete) return ranked;
   ++counters.cut_short;
   // An equal of the best may be where nothing was compared.
@@ -49,24 +47,23 @@ std::vector<FeatureHypothesis> PlainGenerator::generate(const std::vector<Featur
 }
 
 /// Returns whether it ended within the budget.
-bool PlainGenerator::search(const PreparedScene& scene, HypothesisSet& found,
-                            MatchingCounters& counters) const
+bool PlainGenerator::search(FeatureQuery& query) const
 {
-  const PreparedMap& map = verifier_->map();
+  const PreparedScene& scene = query.scene;
+  const PreparedMap& map = query.map;
+  MatchingCounters& counters = query.counters;
   const auto n = static_cast<std::uint32_t>(scene.size());
   const auto m = static_cast<std::uint32_t>(map.size());
-  const std::uint32_t needed = std::min(verifier_->options().min_support, n);
-  FeatureVerifier::Workspace workspace;
+  const std::uint32_t needed = std::min(query.options.min_support, n);
   CandidateLists candidates(n);
-  const std::uint64_t end =
-      counters.checks + counters.visits + verifier_->options().plain_operations;
+  const std::uint64_t end = counters.checks + counters.visits + query.options.plain_operations;
 
   for (std::uint32_t i = 0; i < n; ++i)
   {
     for (std::uint32_t k = 0; k < m; ++k)
     {
       ++counters.visits;
-      if (!unaryCompatible(scene.views[i], map.view(k), verifier_->gates().scalar)) continue;
+      if (!unaryCompatible(scene.views[i], map.view(k), query.gates.scalar)) continue;
       ++counters.signature_pairs;
 
       // L_j(i, k) for every other observed feature, and the largest support that they allow.
@@ -75,8 +72,7 @@ bool PlainGenerator::search(const PreparedScene& scene, HypothesisSet& found,
       {
         candidates[j].clear();
         if (j == i) continue;
-        gatherCandidates(scene, map, verifier_->gates(), *lists_, {i, k}, j, candidates[j],
-                         counters);
+        gatherCandidates(query, *lists_, {i, k}, j, candidates[j]);
         if (!candidates[j].empty()) ++possible;
       }
       if (counters.checks + counters.visits > end) return false;
@@ -87,8 +83,8 @@ bool PlainGenerator::search(const PreparedScene& scene, HypothesisSet& found,
       {
         for (const std::uint32_t l : candidates[j])
         {
-          if (!verifier_->makeBase(scene, {i, k}, {j, l}, workspace.base, counters)) continue;
-          verifier_->verify(scene, &candidates, found, workspace, counters);
+          if (!verifier_->makeBase(query, {i, k}, {j, l})) continue;
+          verifier_->verify(query, &candidates);
           if (counters.checks + counters.visits > end) return false;
         }
       }

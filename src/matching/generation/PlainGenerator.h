@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "matching/features/FeatureVerifier.h"
+#include "matching/features/FeatureQuery.h"
 #include "matching/features/PairLists.h"
 
 namespace sigloc
@@ -27,7 +27,7 @@ class PlainGenerator : public FeatureHypothesisGenerator
                                           MatchingCounters& counters) const override;
 
  private:
-  bool search(const PreparedScene& scene, HypothesisSet& found, MatchingCounters& counters) const;
+  bool search(FeatureQuery& query) const;
 
   std::shared_ptr<const FeatureVerifier> verifier_;
   std::shared_ptr<const PairLists> lists_;
@@ -36,7 +36,6 @@ class PlainGenerator : public FeatureHypothesisGenerator
 /// Returns the map features that observed feature j may be if observed i is mapped k: L_j(i, k),
 /// by its unary and binary constraints. The entries read count as visits.
 /// \cite algorithm eq. (4.1)
-void gatherCandidates(const PreparedScene& scene, const PreparedMap& map, const BinaryGates& gates,
-                      const PairLists& lists, const FeaturePairing& anchor, std::uint32_t j,
-                      std::vector<std::uint32_t>& candidates, MatchingCounters& counters);
+void gatherCandidates(FeatureQuery& query, const PairLists& lists, const FeaturePairing& anchor,
+                      std::uint32_t j, std::vector<std::uint32_t>& candidates);
 }  // namespace sigloc

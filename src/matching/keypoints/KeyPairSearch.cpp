@@ -40,6 +40,17 @@ HeadingShares headingShares(const KeyPair& observed, const KeyPoint& a, const Ke
   const double sum = by_line + by_first + by_second;
   return {by_first / sum, by_second / sum};
 }
+
+/// Returns whether a pair that proposed `p` supports a pose. The type of its angle is that in which
+/// angles are compared.
+template <class Angle>
+bool supports(const PoseProposal& p, float x, float y, Angle phi)
+{
+  constexpr auto kSquaredDistance = static_cast<float>(kSupportDistance * kSupportDistance);
+  const float dx = p.x - x;
+  const float dy = p.y - y;
+  return dx * dx + dy * dy <= kSquaredDistance && std::abs(wrapToPi(p.phi - phi)) <= kSupportAngle;
+}
 }  // namespace
 
 KeyPairSearch::KeyPairSearch(const KeyPairIndex& index, const std::vector<Feature>& observed)
@@ -123,18 +134,13 @@ void KeyPairSearch::propose(std::uint32_t index)
 
 std::size_t KeyPairSearch::supportersOf(const TPose2D& pose) const
 {
-  constexpr auto kDistance = static_cast<float>(kSupportDistance * kSupportDistance);
   const auto x = static_cast<float>(pose.x);
   const auto y = static_cast<float>(pose.y);
   std::size_t supporters = 0;
   std::int64_t last = -1;  // proposals come pair by pair
   for (std::size_t k = 0; k < proposals_.size(); ++k)
   {
-    const PoseProposal& p = proposals_[k];
-    const float dx = p.x - x;
-    const float dy = p.y - y;
-    if (dx * dx + dy * dy > kDistance || owners_[k] == last) continue;
-    if (std::abs(wrapToPi(p.phi - pose.phi)) > kSupportAngle) continue;
+    if (owners_[k] == last || !supports(proposals_[k], x, y, pose.phi)) continue;
     last = owners_[k];
     ++supporters;
   }
@@ -154,7 +160,6 @@ bool KeyPairSearch::anySupportedBy(std::size_t pairs)
 /// pair by pair, so a pair that supports one of these was counted if it was the last one.
 void KeyPairSearch::countSupporters(std::uint32_t proposal)
 {
-  constexpr double kSquaredDistance = kSupportDistance * kSupportDistance;
   const PoseProposal& p = proposals_[proposal];
   const std::uint32_t owner = owners_[proposal];
   Support own{1, owner};
@@ -163,11 +168,7 @@ void KeyPairSearch::countSupporters(std::uint32_t proposal)
                    [&](std::uint32_t k)
                    {
                      const PoseProposal& other = proposals_[k];
-                     const float dx = p.x - other.x;
-                     const float dy = p.y - other.y;
-                     if (dx * dx + dy * dy > kSquaredDistance ||
-                         std::abs(wrapToPi(p.phi - other.phi)) > kSupportAngle)
-                       return false;
+                     if (!supports(p, other.x, other.y, other.phi)) return false;
                      Support& support = supports_[k];
                      if (support.last != owner) support = {support.pairs + 1, owner};
                      most_supporters_ = std::max(most_supporters_, support.pairs);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "matching/features/FeatureVerifier.h"
 #include "matching/generation/PlainGenerator.h"
 #include "signature/location_constraint.h"
 #include "signature/unary_constraint.h"
@@ -38,20 +37,11 @@ FeatureOpponent::FeatureOpponent(const FeatureMap& map, const GeneratorOptions& 
 std::vector<FeatureHypothesis> FeatureOpponent::generate(const std::vector<Feature>& observed,
                                                          MatchingCounters& counters) const
 {
-  const PreparedScene scene(observed, map_, options_, gates_);
-  if (scene.size() < 2 || map_.size() == 0) return {};
-  const std::uint64_t before = counters.hypotheses;
-  Query query{scene, counters, HypothesisSet(scene.size()),
-              counters.signature_pairs + counters.checks + budget_};
+  Query query(observed, *this, counters);
+  if (query.scene.size() < 2 || map_.size() == 0) return {};
   search(query);
   counters.cut_short += query.exhausted();
-  std::vector<FeatureHypothesis> ranked = query.found.ranked(options_.max_hypotheses);
-  for (FeatureHypothesis& hypothesis : ranked)
-  {
-    hypothesis.chance = FeatureVerifier::expectedByChance(scene, hypothesis.support, baseSize(),
-                                                          counters.hypotheses - before);
-  }
-  return ranked;
+  return query.ranked(baseSize(), query.bases());
 }
 
 bool FeatureOpponent::unary(const Query& query, std::uint32_t observed, std::uint32_t mapped) const
@@ -73,7 +63,7 @@ void FeatureOpponent::gather(Query& query, const FeaturePairing& anchor, std::ui
                              std::vector<std::uint32_t>& candidates) const
 {
   ++query.counters.checks;
-  gatherCandidates(query.scene, map_, gates_, lists_, anchor, j, candidates, query.counters);
+  gatherCandidates(query, lists_, anchor, j, candidates);
 }
 
 std::optional<FeatureOpponent::Fit> FeatureOpponent::fit(

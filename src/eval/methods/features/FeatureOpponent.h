@@ -5,9 +5,8 @@
 #include <optional>
 
 #include "geometry/chi_square.h"
-#include "matching/features/HypothesisSet.h"
+#include "matching/features/FeatureQuery.h"
 #include "matching/features/PairLists.h"
-#include "matching/features/PreparedScene.h"
 #include "signature/pose_fit.h"
 
 namespace sigloc
@@ -42,14 +41,17 @@ class FeatureOpponent : public FeatureHypothesisGenerator
   };
 
   /// State of one query that all searches need.
-  struct Query
+  struct Query : FeatureQuery
   {
-    const PreparedScene& scene;
-    MatchingCounters& counters;
-    HypothesisSet found;
-    std::uint64_t limit;  ///< of operations counted
-
+    Query(const std::vector<Feature>& features, const FeatureOpponent& by,
+          MatchingCounters& counted_in)
+        : FeatureQuery(features, by.map_, by.options_, by.gates_, counted_in),
+          limit(counters.signature_pairs + counters.checks + by.budget_)
+    {
+    }
     bool exhausted() const { return counters.signature_pairs + counters.checks >= limit; }
+
+    std::uint64_t limit;  ///< of operations counted
   };
 
   virtual void search(Query& query) const = 0;

@@ -8,8 +8,8 @@
 #include <limits>
 #include <numeric>
 
-#include "matching/features/sampling.h"
 #include "matching/features/SplitMix.h"
+#include "matching/generation/sampling.h"
 #include "signature/location_constraint.h"
 
 namespace sigloc

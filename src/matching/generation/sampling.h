@@ -3,7 +3,6 @@
 #pragma once
 
 #include "matching/features/FeatureHypothesis.h"
-#include "matching/features/FeatureVerifier.h"
 
 #include <cstdint>
 #include <vector>
@@ -26,11 +25,4 @@ std::uint32_t drawsNeeded(double failure, double success);
 
 /// Returns the observed features of a hypothesis' pairings, ascending.
 std::vector<std::uint32_t> observedOf(const FeatureHypothesis& hypothesis);
-
-/// Returns the best hypotheses found, with the expected number of equally good ones by chance.
-/// \cite algorithm eq. (5.12)
-std::vector<FeatureHypothesis> rankedHypotheses(const PreparedScene& scene,
-                                                const FeatureVerifier& verifier,
-                                                const HypothesisSet& found, std::uint32_t base_size,
-                                                std::uint64_t bases);
 }  // namespace sigloc

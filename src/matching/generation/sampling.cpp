@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "matching/features/sampling.h"
+#include "matching/generation/sampling.h"
 
 #include <algorithm>
 #include <cmath>
@@ -48,19 +48,4 @@ std::vector<std::uint32_t> observedOf(const FeatureHypothesis& hypothesis)
   std::sort(observed.begin(), observed.end());
   return observed;
 }
-
-std::vector<FeatureHypothesis> rankedHypotheses(const PreparedScene& scene,
-                                                const FeatureVerifier& verifier,
-                                                const HypothesisSet& found, std::uint32_t base_size,
-                                                std::uint64_t bases)
-{
-  std::vector<FeatureHypothesis> ranked = found.ranked(verifier.options().max_hypotheses);
-  for (FeatureHypothesis& hypothesis : ranked)
-  {
-    hypothesis.chance =
-        FeatureVerifier::expectedByChance(scene, hypothesis.support, base_size, bases);
-  }
-  return ranked;
-}
-
 }  // namespace sigloc
