@@ -98,7 +98,7 @@ bool ModeTracker::judge(const ObservedScene& scene, const SignatureMatcher& matc
   if (verifier != nullptr)
   {
     scan = makeDenseScan(scene, kUpdateBeams);
-    set_.score(scan, *verifier);
+    set_.scoreInPlace(scan, *verifier);
   }
   if (!motion_) travel = schedule_.travelSeen(set_, set_.isSuspicious(), travel);
   const double driven = motion_ ? motion_->mean.norm() : travel;
@@ -107,9 +107,9 @@ bool ModeTracker::judge(const ObservedScene& scene, const SignatureMatcher& matc
   if (verifier != nullptr)
   {
     relocation_.remember(scan, schedule_.travelled());
-    set_.follow(scan, schedule_.travelled(), driven);
-    set_.noteChange(travel);
-    set_.showToAll(scan, *verifier, schedule_.travelled());
+    set_.addWayEvidence(scan, schedule_.travelled(), driven);
+    set_.updateUnexplainedShare(travel);
+    set_.addToCellEvidence(scan, *verifier, schedule_.travelled());
   }
   bool relocated = schedule_.isDue(set_.isSuspicious());
   if (relocated)
@@ -119,7 +119,7 @@ bool ModeTracker::judge(const ObservedScene& scene, const SignatureMatcher& matc
                     : relocateByFeatures(scene, matcher, region);
   }
   set_.mergeAndPrune();
-  set_.rememberScores(travel);
+  set_.updateMeanScores(travel);
   return relocated;
 }
 
@@ -138,26 +138,26 @@ bool ModeTracker::relocateByFeatures(const ObservedScene& scene, const Signature
     double& best = set_.trackAt(candidate.pose.mean) != nullptr ? covered : rival;
     best = std::max(best, candidate.probability);
   }
-  set_.noteFound(result);
+  set_.markBestOfMap(result);
   confirmByProbability(set_, result, fresh_share);
   if (result.complete)
   {
     const double lead = std::log(rival / covered);
     const bool beaten = lead > sureLogOdds(options_);
-    const double counted = set_.holdsAgainst(beaten) ? std::min(0.0, lead) : lead;
-    set_.weighElsewhere(fresh_share * counted);
-    set_.overrule(result, beaten);
+    const double counted = !beaten && set_.retainsAny() ? std::min(0.0, lead) : lead;
+    set_.scaleOddsOfElsewhere(fresh_share * counted);
+    set_.raiseElsewhereIfOverruled(result, beaten);
   }
-  set_.dealOut(result,
-               [&](std::size_t k)
-               {
-                 const Candidate& candidate = result.candidates[k];
-                 Track fresh;
-                 fresh.hypothesis.pose = candidate.pose;
-                 fresh.hypothesis.id = next_id_++;
-                 fresh.confirmed = std::max(kMinInMap, gainOf(candidate.probability));
-                 return fresh;
-               });
+  const auto new_track = [&](std::size_t k)
+  {
+    const Candidate& candidate = result.candidates[k];
+    Track fresh;
+    fresh.hypothesis.pose = candidate.pose;
+    fresh.hypothesis.id = next_id_++;
+    fresh.confirmed = std::max(kMinInMap, gainOf(candidate.probability));
+    return fresh;
+  };
+  set_.shareOutElsewhere(result, new_track);
   return true;
 }
 

@@ -124,20 +124,20 @@ void HypothesisTracker::State::trackDensely(const std::optional<MotionIncrement>
                                             const ObservedScene& scene, double travel)
 {
   const DenseScan scan = makeDenseScan(scene, kUpdateBeams);
-  set.update(scan, *matcher->verifier());
+  set.refineAndScore(scan, *matcher->verifier());
   if (!motion) travel = schedule.travelSeen(set, suspicious(), travel);
   schedule.countTravel(travel);
   const double driven = motion ? motion->mean.norm() : travel;
   schedule.countSearched(driven);
   relocation.remember(scan, schedule.travelled());
-  set.follow(scan, schedule.travelled(), driven);
-  set.weigh(scan, *matcher->verifier(), schedule.travelled(), travel);
+  set.addWayEvidence(scan, schedule.travelled(), driven);
+  set.weighRivals(scan, *matcher->verifier(), schedule.travelled(), travel);
   if (schedule.isDue(suspicious()))
   {
     relocated = relocation.run(set, schedule, *matcher, scene, scan, regionToSearch(), next_id);
   }
   set.mergeAndPrune();
-  set.rememberScores(travel);
+  set.updateMeanScores(travel);
   rateFirst(scan);
 }
 
@@ -155,7 +155,7 @@ void HypothesisTracker::State::trackByFeatures(const std::optional<MotionIncreme
   }
   landmark_tracker->remember();
   set.mergeAndPrune();
-  set.rememberScores(travel);
+  set.updateMeanScores(travel);
   reliability = set.tracks.empty() ? 0 : landmark_tracker->reliabilityOf(set.tracks.front());
 }
 

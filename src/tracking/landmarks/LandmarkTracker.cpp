@@ -131,7 +131,7 @@ void LandmarkTracker::weigh(TrackSet& set, double travel) const
     track.confirmed = std::clamp(track.confirmed + gain, kMinInMap, kMaxConfirmed);
   }
   const double lost = std::min(1.0, travel / options_.lost_distance);
-  set.weighElsewhere(-lost * kFeatureTempering * best);
+  set.scaleOddsOfElsewhere(-lost * kFeatureTempering * best);
 }
 
 std::vector<Feature> LandmarkTracker::gathered() const
@@ -168,7 +168,8 @@ bool LandmarkTracker::relocate(TrackSet& set, RelocationSchedule& schedule,
     slipped->hypothesis.pose = there.hypothesis.pose;
     slipped->features = there.features;
   }
-  set.dealOut(result, [&](std::size_t k) { return startAt(result.candidates[k], next_id++); });
+  const auto new_track = [&](std::size_t k) { return startAt(result.candidates[k], next_id++); };
+  set.shareOutElsewhere(result, new_track);
   weighNewcomers(set);
   return true;
 }
@@ -214,9 +215,9 @@ void LandmarkTracker::weighElsewhere(TrackSet& set, const RelocationResult& resu
   }
   const double lead = kFeatureTempering * (best_tracked - best_untracked);
   const bool beaten = lead < -sureLogOdds(options_);
-  const double counted = set.holdsAgainst(beaten) ? std::max(0.0, lead) : lead;
-  set.weighElsewhere(-fresh_share * counted);
-  set.overrule(result, beaten);
+  const double counted = !beaten && set.retainsAny() ? std::max(0.0, lead) : lead;
+  set.scaleOddsOfElsewhere(-fresh_share * counted);
+  set.raiseElsewhereIfOverruled(result, beaten);
 }
 
 /// Returns a new track at a candidate. The features share the errors of the odometry that gathered

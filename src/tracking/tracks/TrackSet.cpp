@@ -88,13 +88,13 @@ double TrackSet::predict(const std::optional<MotionIncrement>& motion)
   return travel;
 }
 
-void TrackSet::update(const DenseScan& scan, const DenseVerifier& verifier)
+void TrackSet::refineAndScore(const DenseScan& scan, const DenseVerifier& verifier)
 {
   for (Track& track : tracks) updatePose(track, scan, verifier, has_odometry_, options_);
-  look(scan);
+  noteObservedCells(scan);
 }
 
-void TrackSet::score(const DenseScan& scan, const DenseVerifier& verifier)
+void TrackSet::scoreInPlace(const DenseScan& scan, const DenseVerifier& verifier)
 {
   for (Track& track : tracks)
   {
@@ -104,19 +104,19 @@ void TrackSet::score(const DenseScan& scan, const DenseVerifier& verifier)
     track.through = track.evidence.through;
     track.score = track.evidence.score;
   }
-  look(scan);
+  noteObservedCells(scan);
 }
 
 /// Notes which cells the scan shows, and how far each track has moved. Without odometry the
 /// heaviest track tells how the robot moved.
-void TrackSet::look(const DenseScan& scan)
+void TrackSet::noteObservedCells(const DenseScan& scan)
 {
   for (Track& track : tracks) track.moved = track.hypothesis.pose.mean - track.left;
   if (!has_odometry_ && !tracks.empty()) ground_ = ground_ + heaviest().moved;
   view_ = observedCells(scan, ground_);
 }
 
-void TrackSet::follow(const DenseScan& scan, double travelled, double driven)
+void TrackSet::addWayEvidence(const DenseScan& scan, double travelled, double driven)
 {
   for (Track& track : tracks)
   {
@@ -127,16 +127,7 @@ void TrackSet::follow(const DenseScan& scan, double travelled, double driven)
   }
 }
 
-void TrackSet::weigh(const DenseScan& scan, const DenseVerifier& verifier, double travelled,
-                     double travel)
-{
-  if (tracks.empty() || travel <= 0) return;
-  noteChange(travel);
-  weighRivals(scan, verifier, travelled, travel);
-  normalise();
-}
-
-void TrackSet::noteChange(double travel)
+void TrackSet::updateUnexplainedShare(double travel)
 {
   if (tracks.empty()) return;
   unexplained_ += freshShare(travel) * (std::max(0.0, 1.0 - bestScore()) - unexplained_);
@@ -154,7 +145,9 @@ double TrackSet::bestScore() const
 void TrackSet::weighRivals(const DenseScan& scan, const DenseVerifier& verifier, double travelled,
                            double travel)
 {
-  const std::vector<double> unexplained = showToAll(scan, verifier, travelled);
+  if (tracks.empty() || travel <= 0) return;
+  updateUnexplainedShare(travel);
+  const std::vector<double> unexplained = addToCellEvidence(scan, verifier, travelled);
   const double least = *std::min_element(unexplained.begin(), unexplained.end());
   const double best = logLikelihoodOfScore(bestScore());
   const double share = shareBetweenRivals(travel, options_);
@@ -167,10 +160,11 @@ void TrackSet::weighRivals(const DenseScan& scan, const DenseVerifier& verifier,
     deficit.by_cells -= costOfUnexplained() * (unexplained[k] - least);
     tracks[k].hypothesis.weight *= std::exp(deficit.smaller() - before);
   }
+  normalise();
 }
 
-std::vector<double> TrackSet::showToAll(const DenseScan& scan, const DenseVerifier& verifier,
-                                        double travelled)
+std::vector<double> TrackSet::addToCellEvidence(const DenseScan& scan,
+                                                const DenseVerifier& verifier, double travelled)
 {
   std::vector<double> unexplained;
   for (Track& track : tracks)
@@ -181,8 +175,8 @@ std::vector<double> TrackSet::showToAll(const DenseScan& scan, const DenseVerifi
   return unexplained;
 }
 
-void TrackSet::showTo(Track& track, const DenseScan& scan, const DenseVerifier& verifier,
-                      double travelled) const
+void TrackSet::addToCellEvidence(Track& track, const DenseScan& scan, const DenseVerifier& verifier,
+                                 double travelled) const
 {
   const TPose2D& pose = track.hypothesis.pose.mean;
   const auto explained =
@@ -190,7 +184,7 @@ void TrackSet::showTo(Track& track, const DenseScan& scan, const DenseVerifier& 
   track.explained.addScan(view_, explained, travelled);
 }
 
-void TrackSet::weighFirstScan()
+void TrackSet::weighNewTracks()
 {
   double dealt = 0;
   double most = 0;
@@ -239,7 +233,7 @@ void TrackSet::normalise()
   elsewhere /= sum;
 }
 
-void TrackSet::weighElsewhere(double log_odds)
+void TrackSet::scaleOddsOfElsewhere(double log_odds)
 {
   // Only the loser's weight changes: a gain of e^log_odds may be more than a double holds.
   elsewhere *= std::exp(std::min(0.0, log_odds));
@@ -263,23 +257,22 @@ Track* TrackSet::trackAt(const TPose2D& pose)
   return nullptr;
 }
 
-void TrackSet::noteFound(const RelocationResult& result)
+void TrackSet::markBestOfMap(const RelocationResult& result)
 {
   const Track* best =
       result.candidates.empty() ? nullptr : trackAt(result.candidates.front().pose.mean);
   for (Track& track : tracks) track.found = &track == best;
 }
 
-bool TrackSet::holdsAgainst(bool beaten) const
+bool TrackSet::retainsAny() const
 {
-  return !beaten &&
-         std::any_of(tracks.begin(), tracks.end(),
+  return std::any_of(tracks.begin(), tracks.end(),
                      [&](const Track& track) { return track.retained(sureLogOdds(options_)); });
 }
 
-void TrackSet::overrule(const RelocationResult& result, bool beaten)
+void TrackSet::raiseElsewhereIfOverruled(const RelocationResult& result, bool beaten)
 {
-  if (tracks.empty() || result.candidates.empty() || holdsAgainst(beaten)) return;
+  if (tracks.empty() || result.candidates.empty() || (!beaten && retainsAny())) return;
   const Candidate& first = result.candidates.front();
   if (first.probability < kSure || trackAt(first.pose.mean) != nullptr) return;
   elsewhere = std::max(elsewhere, options_.suspicion);
@@ -288,8 +281,8 @@ void TrackSet::overrule(const RelocationResult& result, bool beaten)
 
 /// The floor of "somewhere else" starts new tracks but adds nothing to existing ones. Otherwise
 /// look-alikes would gain from it at every relocation. Eq. (8.9)
-void TrackSet::dealOut(const RelocationResult& result,
-                       const std::function<Track(std::size_t k)>& start)
+void TrackSet::shareOutElsewhere(const RelocationResult& result,
+                                 const std::function<Track(std::size_t k)>& start)
 {
   const double lost = elsewhere;
   const double above_floor = std::max(0.0, lost - options_.min_elsewhere);
@@ -315,7 +308,7 @@ void TrackSet::sort()
 
 /// A robot that was carried away may stand for long, with jitter in its odometry that adds up. Its
 /// scans there do not tell how well the old place is usually explained. So none counts in doubt.
-void TrackSet::rememberScores(double travel)
+void TrackSet::updateMeanScores(double travel)
 {
   const Track* const doubted = isDoubtful() ? &heaviest() : nullptr;
   for (Track& track : tracks)
