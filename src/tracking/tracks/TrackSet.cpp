@@ -248,13 +248,18 @@ void TrackSet::normaliseTracks()
   for (Track& track : tracks) track.hypothesis.weight *= (1.0 - elsewhere) / sum;
 }
 
-Track* TrackSet::trackAt(const TPose2D& pose)
+const Track* TrackSet::trackAt(const TPose2D& pose) const
 {
-  for (Track& track : tracks)
+  for (const Track& track : tracks)
   {
     if (samePlace(track.hypothesis.pose.mean, pose)) return &track;
   }
   return nullptr;
+}
+
+Track* TrackSet::trackAt(const TPose2D& pose)
+{
+  return const_cast<Track*>(std::as_const(*this).trackAt(pose));
 }
 
 void TrackSet::markBestOfMap(const RelocationResult& result)

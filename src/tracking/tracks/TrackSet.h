@@ -113,6 +113,7 @@ class TrackSet
   void updateMeanScores(double travel);
 
   /// Returns the track at a pose (within 0.5 m and 17 degrees), or null.
+  const Track* trackAt(const mrpt::math::TPose2D& pose) const;
   Track* trackAt(const mrpt::math::TPose2D& pose);
 
   /// Probability that the robot is in the map, by the first track. The tracks must be sorted, and

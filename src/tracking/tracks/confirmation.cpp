@@ -15,7 +15,7 @@ constexpr double kMissWeight = 0.5;  // factor of the evidence against a track, 
 /// What a relocation says of a track: the log-odds of the candidate that it found there. A track
 /// that it did not find has the fit of the best candidate and its own score; a search that was not
 /// complete says nothing of it.
-double evidenceFor(const Track& track, TrackSet& set, const RelocationResult& result)
+double evidenceFor(const Track& track, const TrackSet& set, const RelocationResult& result)
 {
   if (result.candidates.empty()) return 0;
   for (std::size_t k = 0; k < result.candidates.size(); ++k)
@@ -67,7 +67,7 @@ void confirmTracks(TrackSet& set, const RelocationResult& result, const DenseSca
   }
 }
 
-double leadOfUntracked(TrackSet& set, const RelocationResult& result)
+double leadOfUntracked(const TrackSet& set, const RelocationResult& result)
 {
   double tracked = -1;
   for (const Track& track : set.tracks) tracked = std::max(tracked, track.score);
