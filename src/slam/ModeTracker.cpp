@@ -131,23 +131,10 @@ bool ModeTracker::relocateByFeatures(const ObservedScene& scene, const Signature
   const RelocationResult result = matcher.localize(scene, region);
   const double fresh_share = schedule_.freshShare();
   if (!schedule_.noteResult(result)) return false;
-  double covered = kLeastProbability;
-  double rival = kLeastProbability;
-  for (const Candidate& candidate : result.candidates)
-  {
-    double& best = set_.trackAt(candidate.pose.mean) != nullptr ? covered : rival;
-    best = std::max(best, candidate.probability);
-  }
+  const auto best = set_.bestCandidates(result, &Candidate::probability, kLeastProbability);
   set_.markBestOfMap(result);
   confirmByProbability(set_, result, fresh_share);
-  if (result.complete)
-  {
-    const double lead = std::log(rival / covered);
-    const bool beaten = lead > sureLogOdds(options_);
-    const double counted = !beaten && set_.retainsAny() ? std::min(0.0, lead) : lead;
-    set_.scaleOddsOfElsewhere(fresh_share * counted);
-    set_.raiseElsewhereIfOverruled(result, beaten);
-  }
+  set_.weighUntracked(result, std::log(best.untracked / best.tracked), fresh_share);
   const auto new_track = [&](std::size_t k)
   {
     const Candidate& candidate = result.candidates[k];

@@ -19,7 +19,7 @@ bool DenseRelocation::run(TrackSet& set, RelocationSchedule& schedule,
 
   set.markBestOfMap(result);
   confirmTracks(set, result, scan, travelled, fresh_share);
-  set.raiseElsewhereIfOverruled(result, leadOfUntracked(set, result) > sureLogOdds(options_));
+  set.raiseElsewhereIfOverruled(result, leadOfUntracked(set, result));
   const auto new_track = [&](std::size_t k)
   {
     Track fresh = trackAtCandidate(result, k, scan, verifier, travelled);

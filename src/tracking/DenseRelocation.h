@@ -18,7 +18,7 @@ namespace sigloc
 class DenseRelocation
 {
  public:
-  explicit DenseRelocation(const TrackerOptions& options) : options_(options), past_(options) {}
+  explicit DenseRelocation(const TrackerOptions& options) : past_(options) {}
 
   /// Goes on by one step.
   void move(const std::optional<MotionIncrement>& motion) { past_.move(motion); }
@@ -33,7 +33,6 @@ class DenseRelocation
            const std::optional<PoseRegion>& region, std::uint64_t& next_id) const;
 
  private:
-  TrackerOptions options_;
   ScanHistory past_;
 };
 }  // namespace sigloc

@@ -179,6 +179,40 @@ TEST(TrackSetStanding, TheFirstTellsWhetherTheRobotIsInTheMap)
   EXPECT_GT(set.probabilityHere(), 0.99);
 }
 
+/// The odds of "somewhere else" after a relocation that has found a pose without a track, over
+/// those before. The only track has the log-odds `confirmed`.
+double oddsOfElsewhereGrow(double lead, double confirmed, double probability = 0.5,
+                           bool complete = true)
+{
+  TrackSet set = setOf({newcomer(0.9, 1, 0)});
+  set.elsewhere = 0.1;
+  set.tracks[0].confirmed = confirmed;
+  RelocationResult result;
+  result.complete = complete;
+  result.candidates.resize(1);
+  result.candidates[0].pose.mean = {20, 0, 0};
+  result.candidates[0].probability = probability;
+  set.weighUntracked(result, lead, 0.5);
+  EXPECT_NEAR(set.elsewhere + set.tracks[0].hypothesis.weight, 1, 1e-12);
+  return set.elsewhere / set.tracks[0].hypothesis.weight * 9;
+}
+
+TEST(WeighUntracked, ALeadCountsByHowFreshItIs)
+{
+  EXPECT_NEAR(oddsOfElsewhereGrow(1, 0), std::exp(0.5), 1e-9);
+  EXPECT_NEAR(oddsOfElsewhereGrow(-1, 0), std::exp(-0.5), 1e-9);
+  EXPECT_NEAR(oddsOfElsewhereGrow(1, 0, 0.95, false), 1, 1e-9) << "its pose may have been missed";
+}
+
+TEST(WeighUntracked, OnlyAFarBetterPoseSpeaksAgainstATrackThatIsRetained)
+{
+  EXPECT_NEAR(oddsOfElsewhereGrow(1, 12), 1, 1e-9);
+  EXPECT_NEAR(oddsOfElsewhereGrow(-1, 12), std::exp(-0.5), 1e-9);
+  EXPECT_NEAR(oddsOfElsewhereGrow(5, 12), std::exp(2.5), 1e-9);
+  EXPECT_NEAR(oddsOfElsewhereGrow(0, 12, 0.95), 1, 1e-9);
+  EXPECT_NEAR(oddsOfElsewhereGrow(0, 0, 0.95), 3, 1e-9) << "overruled: 0.3 to 0.9";
+}
+
 TEST(WeighNewTracks, TheMilderOfScoreAndGroundCounts)
 {
   // Worse by score 9 : 1, by observed cells hardly. Then worse by both, by the cells less. Then

@@ -89,13 +89,24 @@ class TrackSet
   /// Marks the track that the relocation has found best of the whole map, and no other.
   void markBestOfMap(const RelocationResult& result);
 
-  /// True where a track has the log-odds that keep it from being given up because of look-alikes.
-  bool retainsAny() const;
+  /// The best of a relocation's candidates that belong to a track, and of the others.
+  struct BestCandidates
+  {
+    double tracked, untracked;
+  };
+  /// Returns the largest `measure` of both kinds of candidates, `least` where there is none above.
+  BestCandidates bestCandidates(const RelocationResult& result, double Candidate::*measure,
+                                double least) const;
 
   /// Raises the weight of "somewhere else" where a relocation is sure of a pose without a track.
-  /// Not where a track is retained, unless that pose leads by enough: `beaten`. Section 8,
-  /// "Relocate"
-  void raiseElsewhereIfOverruled(const RelocationResult& result, bool beaten);
+  /// Not where a track is retained, unless that pose leads by enough. `lead` is that of the best
+  /// candidate without a track over the best with one, in log-odds. Section 8, "Relocate"
+  void raiseElsewhereIfOverruled(const RelocationResult& result, double lead);
+
+  /// Weighs "somewhere else" by the same `lead`, which counts by `fresh_share` in [0, 1]. Then
+  /// raises it as above. A search that was not complete changes nothing: it may have missed the
+  /// poses of the tracks. Eq. (8.19), (9.3)
+  void weighUntracked(const RelocationResult& result, double lead, double fresh_share);
 
   /// Shares the weight of "somewhere else" out by the probabilities of a relocation: to the tracks
   /// at its candidates, and to new ones that `start` makes of candidate k. The rest stays. Eq.
@@ -136,13 +147,16 @@ class TrackSet
   /// The heaviest track. Must not be called on an empty set.
   const Track& heaviest() const;
 
+  /// The highest score of a track for the last scan. Must not be called on an empty set.
+  double bestScore() const;
+
   std::vector<Track> tracks;
   double elsewhere = 1;
 
  private:
   void noteObservedCells(const DenseScan& scan);
   void normalise();
-  double bestScore() const;
+  bool mayOverrule(double lead) const;
   void giveRestToElsewhere();
 
   TrackerOptions options_;

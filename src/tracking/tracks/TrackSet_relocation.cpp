@@ -19,15 +19,37 @@ void TrackSet::markBestOfMap(const RelocationResult& result)
   for (Track& track : tracks) track.found = &track == best;
 }
 
-bool TrackSet::retainsAny() const
+TrackSet::BestCandidates TrackSet::bestCandidates(const RelocationResult& result,
+                                                  double Candidate::*measure, double least) const
 {
-  return std::any_of(tracks.begin(), tracks.end(),
-                     [&](const Track& track) { return track.retained(sureLogOdds(options_)); });
+  BestCandidates best{least, least};
+  for (const Candidate& candidate : result.candidates)
+  {
+    double& same_kind = trackAt(candidate.pose.mean) != nullptr ? best.tracked : best.untracked;
+    same_kind = std::max(same_kind, candidate.*measure);
+  }
+  return best;
 }
 
-void TrackSet::raiseElsewhereIfOverruled(const RelocationResult& result, bool beaten)
+/// True for a lead over the tracks that is large, or where no track is retained.
+bool TrackSet::mayOverrule(double lead) const
 {
-  if (tracks.empty() || result.candidates.empty() || (!beaten && retainsAny())) return;
+  const double sure = sureLogOdds(options_);
+  return lead > sure || std::none_of(tracks.begin(), tracks.end(),
+                                     [&](const Track& track) { return track.retained(sure); });
+}
+
+void TrackSet::weighUntracked(const RelocationResult& result, double lead, double fresh_share)
+{
+  if (!result.complete) return;
+  const double counted = mayOverrule(lead) ? lead : std::min(0.0, lead);
+  scaleOddsOfElsewhere(fresh_share * counted);
+  raiseElsewhereIfOverruled(result, lead);
+}
+
+void TrackSet::raiseElsewhereIfOverruled(const RelocationResult& result, double lead)
+{
+  if (tracks.empty() || result.candidates.empty() || !mayOverrule(lead)) return;
   const Candidate& first = result.candidates.front();
   if (first.probability < kSure || trackAt(first.pose.mean) != nullptr) return;
   elsewhere = std::max(elsewhere, options_.suspicion);

@@ -69,14 +69,9 @@ void confirmTracks(TrackSet& set, const RelocationResult& result, const DenseSca
 
 double leadOfUntracked(const TrackSet& set, const RelocationResult& result)
 {
-  double tracked = -1;
-  for (const Track& track : set.tracks) tracked = std::max(tracked, track.score);
-  double untracked = -1;
-  for (const Candidate& candidate : result.candidates)
-  {
-    if (set.trackAt(candidate.pose.mean) != nullptr) continue;
-    untracked = std::max(untracked, candidate.score);
-  }
+  constexpr double kWorst = -1.0;  // of scores
+  const double tracked = set.tracks.empty() ? kWorst : std::max(kWorst, set.bestScore());
+  const double untracked = set.bestCandidates(result, &Candidate::score, kWorst).untracked;
   return logLikelihoodOfScore(untracked) - logLikelihoodOfScore(tracked);
 }
 }  // namespace sigloc
