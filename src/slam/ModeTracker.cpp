@@ -161,22 +161,13 @@ std::vector<ParticleMode> ModeTracker::started() const
 
 Belief ModeTracker::publish(const SignatureMatcher& matcher, bool blind)
 {
-  Belief belief = beliefOf(set_, matcher.map(), options_);
+  Belief belief = beliefOf(set_, matcher.map());
   for (TrackedHypothesis& hypothesis : belief.hypotheses)
   {
     hypothesis.pose.covariance(2, 2) += kMinTurnSigma * kMinTurnSigma;
   }
-  VerdictGrounds grounds;
-  grounds.sees_too_little = blind;
-  grounds.unfinished = !schedule_.hasSearchedAll();
-  if (!set_.tracks.empty())
-  {
-    belief.reliability = reliabilityOf(set_.tracks.front().evidence);
-    grounds.confirmed = set_.isConfirmed();
-    grounds.doubtful = set_.isDoubtful();
-  }
-  setVerdict(belief, grounds, options_.localized_probability, fieldOf(matcher.map()));
-  schedule_.noteVerdict(belief.verdict == Verdict::localized);
+  const double reliability = set_.tracks.empty() ? 0 : reliabilityOf(set_.tracks.front().evidence);
+  concludeBelief(belief, set_, schedule_, matcher.map(), {blind, set_.isDoubtful(), reliability});
   return belief;
 }
 }  // namespace sigloc

@@ -196,17 +196,8 @@ bool HypothesisTracker::State::doubtful() const
 
 void HypothesisTracker::State::publish(const ObservedScene& scene)
 {
-  belief = beliefOf(set, matcher->map(), options);
-  VerdictGrounds grounds;
-  grounds.sees_too_little = seesTooLittle(scene);
-  grounds.unfinished = !schedule.hasSearchedAll();
-  if (!set.tracks.empty())
-  {
-    belief.reliability = reliability;
-    grounds.confirmed = set.isConfirmed();
-    grounds.doubtful = doubtful();
-  }
-  setVerdict(belief, grounds, options.localized_probability, fieldOf(matcher->map()));
-  schedule.noteVerdict(belief.verdict == Verdict::localized);
+  belief = beliefOf(set, matcher->map());
+  concludeBelief(belief, set, schedule, matcher->map(),
+                 {seesTooLittle(scene), doubtful(), reliability});
 }
 }  // namespace sigloc

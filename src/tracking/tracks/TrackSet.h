@@ -144,6 +144,8 @@ class TrackSet
   /// walls. False for an empty set.
   bool isDoubtful() const;
 
+  const TrackerOptions& options() const { return options_; }
+
   /// The heaviest track. Must not be called on an empty set.
   const Track& heaviest() const;
 
