@@ -152,7 +152,7 @@ void SignatureMonteCarlo2D::step(const CActionCollection* action, const CSensory
   noticeReset();
   const ObservedScene scene = sceneOf(observation, extraction_);
   const bool by_features = signatures.verifier() == nullptr && !scene.features.empty();
-  const bool blind = scene.beams.size() < signatures.options().min_beams && !by_features;
+  const bool blind = !signatures.seesEnoughReturns(scene) && !by_features;
   const double travel = modes_->predict(motionIn(action));
   // Evidence counts by distance driven, because the errors of map and scan stay the same for a
   // while.

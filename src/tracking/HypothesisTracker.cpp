@@ -99,9 +99,8 @@ const Belief& HypothesisTracker::step(const std::optional<MotionIncrement>& moti
   checkScene(scene);
   State& s = *state_;
   s.relocated = false;
-  const bool sees_enough = s.landmark_tracker
-                               ? s.landmark_tracker->addScan(s.set, motion, scene)
-                               : scene.beams.size() >= s.matcher->options().min_beams;
+  const bool sees_enough = s.landmark_tracker ? s.landmark_tracker->addScan(s.set, motion, scene)
+                                              : s.matcher->seesEnoughReturns(scene);
   const double travel = s.set.predict(motion);
   s.relocation.move(motion);
   if (!sees_enough)
@@ -185,7 +184,7 @@ void HypothesisTracker::State::rateFirst(const DenseScan& scan)
 bool HypothesisTracker::State::seesTooLittle(const ObservedScene& scene) const
 {
   return landmark_tracker ? !landmark_tracker->seesEnoughToTell()
-                          : scene.beams.size() < matcher->options().min_beams;
+                          : !matcher->seesEnoughReturns(scene);
 }
 
 /// True where suspicion stops a claim.
