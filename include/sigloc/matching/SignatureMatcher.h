@@ -39,8 +39,9 @@ struct MatcherOptions
   static void visitFields(V&& visit)
   {
     using O = MatcherOptions;
-    visit(OptionField{"mode", &O::mode, 0U, 5U,
-                      "[-] 0: automatic; 1 to 4: by features, (a) to (d); 5: by minimal sets, (e)"});
+    visit(
+        OptionField{"mode", &O::mode, 0U, 5U,
+                    "[-] 0: automatic; 1 to 4: by features, (a) to (d); 5: by minimal sets, (e)"});
     visit(OptionField{"use_dense_field", &O::use_dense_field, false, true,
                       "[-] verify proposed poses in the dense field where the map has one"});
     visit(OptionField{"max_candidates", &O::max_candidates, 1U, 1000U,
