@@ -94,7 +94,7 @@ void LandmarkTracker::update(TrackSet& set, double travelled, std::uint64_t& nex
       child.score = ways.front().log_odds;
       child.features.correlation = way.correlation;
       child.features.correlation.forgetBefore(travelled - kMemory);
-      child.features.fresh_share = way.fresh_share;
+      child.features.new_feature_share = way.new_feature_share;
       child.features.paired = way.pairings.size();
       child.features.doubt = std::min(0.0, track.features.doubt + way.log_odds);
       updated.push_back(std::move(child));
@@ -119,7 +119,7 @@ void LandmarkTracker::weigh(TrackSet& set, double travel) const
     const double deficit = kFeatureTempering * (track.score - best);
     track.hypothesis.weight *= std::exp(between * deficit);
     const double evidence = kFeatureTempering * track.score;
-    const double gain = evidence > 0 ? track.features.fresh_share * evidence
+    const double gain = evidence > 0 ? track.features.new_feature_share * evidence
                                      : between * std::max(evidence, -kMaxAgainst);
     track.confirmed = std::clamp(track.confirmed + gain, kMinInMap, kMaxConfirmed);
   }

@@ -31,8 +31,8 @@ bool heavier(const Track& a, const Track& b)
   return a.hypothesis.id < b.hypothesis.id;
 }
 
-/// Returns how much a scan counts in a mean over the last kMemory of travel.
-double freshShare(double travel)
+/// Returns the weight of a scan in a mean over the last kMemory, `travel` [m] after the one before.
+double weightInMean(double travel)
 {
   return 1.0 - std::exp(-travel / kMemory);
 }
@@ -129,7 +129,7 @@ void TrackSet::addWayEvidence(const DenseScan& scan, double travelled, double dr
 void TrackSet::updateUnexplainedShare(double travel)
 {
   if (tracks.empty()) return;
-  unexplained_ += freshShare(travel) * (std::max(0.0, 1.0 - bestScore()) - unexplained_);
+  unexplained_ += weightInMean(travel) * (std::max(0.0, 1.0 - bestScore()) - unexplained_);
 }
 
 double TrackSet::bestScore() const
@@ -274,7 +274,7 @@ void TrackSet::updateMeanScores(double travel)
   for (Track& track : tracks)
   {
     if (&track == doubted) continue;
-    track.mean_score += freshShare(travel) * (track.score - track.mean_score);
+    track.mean_score += weightInMean(travel) * (track.score - track.mean_score);
   }
 }
 

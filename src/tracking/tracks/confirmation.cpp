@@ -42,8 +42,8 @@ Track trackAtCandidate(const RelocationResult& result, std::size_t k, const Dens
   const Candidate& candidate = result.candidates[k];
   Track track = unprovenTrack(candidate.pose);
   track.score = track.mean_score = candidate.score;
-  const double novelty = track.seen.add(scan, candidate.pose.mean, travelled);
-  track.seen_while_tracked = track.seen;
+  const double novelty = track.seen_at_relocations.add(scan, candidate.pose.mean, travelled);
+  track.seen_while_tracked = track.seen_at_relocations;
   const double evidence = inMapLogOdds(result, k);
   track.confirmed = std::clamp(kPriorHereLogOdds + std::min(evidence, novelty * evidence),
                                kMinInMap, kMaxConfirmed);
@@ -58,7 +58,8 @@ void confirmTracks(TrackSet& set, const RelocationResult& result, const DenseSca
   for (Track& track : set.tracks)
   {
     const double evidence = evidenceFor(track, set, result);
-    const double novelty = track.seen.add(scan, track.hypothesis.pose.mean, travelled);
+    const double novelty =
+        track.seen_at_relocations.add(scan, track.hypothesis.pose.mean, travelled);
     const double gain = evidence > 0
                             ? novelty * std::min(evidence, kMaxConfirmed)
                             : fresh_share * kMissWeight *
