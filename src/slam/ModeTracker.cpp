@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/same_place.h"
 #include "matching/candidate_probabilities.h"
 #include "tracking/belief_verdict.h"
 #include "tracking/tracks/confirmation.h"
@@ -15,8 +14,6 @@ namespace sigloc
 namespace
 {
 constexpr double kLeastProbability = 0.001;  // of a candidate that the relocation left out
-constexpr double kSameDistance = 0.75;  // [m], a mode from one step to the next
-constexpr double kSameAngle = 20.0 * M_PI / 180.0;
 
 /// The log-odds that a relocation gives a pose of probability p, at least -2. Eq. (9.2)
 double gainOf(double p)
@@ -66,11 +63,9 @@ void ModeTracker::gather(const std::vector<ParticleMode>& modes, const Signature
   set_.tracks.clear();
   for (const ParticleMode& mode : modes)
   {
-    const auto known = std::find_if(before.begin(), before.end(),
-                                    [&](const Track& track) {
-                                      return withinReach(track.hypothesis.pose.mean, mode.pose.mean,
-                                                         kSameDistance, kSameAngle);
-                                    });
+    const auto known = std::find_if(
+        before.begin(), before.end(),
+        [&](const Track& track) { return sameMode(track.hypothesis.pose.mean, mode.pose.mean); });
     if (known != before.end())
     {
       set_.tracks.push_back(std::move(*known));
