@@ -110,7 +110,7 @@ bool ModeTracker::judge(const ObservedScene& scene, const SignatureMatcher& matc
   if (relocated)
   {
     relocated = verifier != nullptr
-                    ? relocation_.run(set_, schedule_, matcher, scene, scan, region, next_id_)
+                    ? relocation_.run(set_, schedule_, {matcher, scene, scan, region}, next_id_)
                     : relocateByFeatures(scene, matcher, region);
   }
   set_.mergeAndPrune();

@@ -6,12 +6,12 @@
 
 namespace sigloc
 {
-bool DenseRelocation::run(TrackSet& set, RelocationSchedule& schedule,
-                          const SignatureMatcher& matcher, const ObservedScene& scene,
-                          const DenseScan& scan, const std::optional<PoseRegion>& region,
+bool DenseRelocation::run(TrackSet& set, RelocationSchedule& schedule, const RelocationInput& input,
                           std::uint64_t& next_id) const
 {
-  const RelocationResult result = matcher.localize(scene, region);
+  const SignatureMatcher& matcher = input.matcher;
+  const DenseScan& scan = input.scan;
+  const RelocationResult result = matcher.localize(input.scene, input.region);
   const double fresh_share = schedule.freshShare();
   if (!schedule.noteResult(result)) return false;
   const DenseVerifier& verifier = *matcher.verifier();

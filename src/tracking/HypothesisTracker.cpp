@@ -133,7 +133,7 @@ void HypothesisTracker::State::trackDensely(const std::optional<MotionIncrement>
   set.weighRivals(scan, *matcher->verifier(), schedule.travelled(), travel);
   if (schedule.isDue(suspicious()))
   {
-    relocated = relocation.run(set, schedule, *matcher, scene, scan, regionToSearch(), next_id);
+    relocated = relocation.run(set, schedule, {*matcher, scene, scan, regionToSearch()}, next_id);
   }
   set.mergeAndPrune();
   set.updateMeanScores(travel);
