@@ -43,8 +43,6 @@ class FeatureAssociator
   std::vector<FeatureAssociation> associate(const GaussianPose& predicted,
                                             const SchmidtKalmanFilter& correlation) const;
 
-  std::size_t size() const { return scene_.size(); }
-
  private:
   struct Growing;
   struct Option;
