@@ -130,7 +130,7 @@ RelocationResult SignatureMatcher::localize(const ObservedScene& scene,
   RelocationResult result;
   result.view = angularCoverage(scene);
   // Without returns, only a search by features can find anything.
-  const bool enough = scene.beams.size() >= options_.min_beams ||
+  const bool enough = seesEnoughReturns(scene) ||
                       (generator_ && scene.beams.empty() && scene.features.size() >= kMinLandmarks);
   if (!enough)
   {

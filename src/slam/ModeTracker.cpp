@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/same_place.h"
 #include "matching/candidate_probabilities.h"
 #include "tracking/belief_verdict.h"
 #include "tracking/tracks/confirmation.h"
@@ -15,8 +14,6 @@ namespace sigloc
 namespace
 {
 constexpr double kLeastProbability = 0.001;  // of a candidate that the relocation left out
-constexpr double kSameDistance = 0.75;  // [m], a mode from one step to the next
-constexpr double kSameAngle = 20.0 * M_PI / 180.0;
 
 /// The log-odds that a relocation gives a pose of probability p, at least -2. Eq. (9.2)
 double gainOf(double p)
@@ -66,11 +63,9 @@ void ModeTracker::gather(const std::vector<ParticleMode>& modes, const Signature
   set_.tracks.clear();
   for (const ParticleMode& mode : modes)
   {
-    const auto known = std::find_if(before.begin(), before.end(),
-                                    [&](const Track& track) {
-                                      return withinReach(track.hypothesis.pose.mean, mode.pose.mean,
-                                                         kSameDistance, kSameAngle);
-                                    });
+    const auto known = std::find_if(
+        before.begin(), before.end(),
+        [&](const Track& track) { return sameMode(track.hypothesis.pose.mean, mode.pose.mean); });
     if (known != before.end())
     {
       set_.tracks.push_back(std::move(*known));
@@ -98,7 +93,7 @@ bool ModeTracker::judge(const ObservedScene& scene, const SignatureMatcher& matc
   if (verifier != nullptr)
   {
     scan = makeDenseScan(scene, kUpdateBeams);
-    set_.score(scan, *verifier);
+    set_.scoreInPlace(scan, *verifier);
   }
   if (!motion_) travel = schedule_.travelSeen(set_, set_.isSuspicious(), travel);
   const double driven = motion_ ? motion_->mean.norm() : travel;
@@ -107,19 +102,19 @@ bool ModeTracker::judge(const ObservedScene& scene, const SignatureMatcher& matc
   if (verifier != nullptr)
   {
     relocation_.remember(scan, schedule_.travelled());
-    set_.follow(scan, schedule_.travelled(), driven);
-    set_.noteChange(travel);
-    set_.showToAll(scan, *verifier, schedule_.travelled());
+    set_.addWayEvidence(scan, schedule_.travelled(), driven);
+    set_.updateUnexplainedShare(travel);
+    set_.addToCellEvidence(scan, *verifier, schedule_.travelled());
   }
   bool relocated = schedule_.isDue(set_.isSuspicious());
   if (relocated)
   {
     relocated = verifier != nullptr
-                    ? relocation_.run(set_, schedule_, matcher, scene, scan, region, next_id_)
+                    ? relocation_.run(set_, schedule_, {matcher, scene, scan, region}, next_id_)
                     : relocateByFeatures(scene, matcher, region);
   }
   set_.mergeAndPrune();
-  set_.rememberScores(travel);
+  set_.updateMeanScores(travel);
   return relocated;
 }
 
@@ -131,33 +126,20 @@ bool ModeTracker::relocateByFeatures(const ObservedScene& scene, const Signature
   const RelocationResult result = matcher.localize(scene, region);
   const double fresh_share = schedule_.freshShare();
   if (!schedule_.noteResult(result)) return false;
-  double covered = kLeastProbability;
-  double rival = kLeastProbability;
-  for (const Candidate& candidate : result.candidates)
-  {
-    double& best = set_.trackAt(candidate.pose.mean) != nullptr ? covered : rival;
-    best = std::max(best, candidate.probability);
-  }
-  set_.noteFound(result);
+  const auto best = set_.bestCandidates(result, &Candidate::probability, kLeastProbability);
+  set_.markBestOfMap(result);
   confirmByProbability(set_, result, fresh_share);
-  if (result.complete)
+  set_.weighUntracked(result, std::log(best.untracked / best.tracked), fresh_share);
+  const auto new_track = [&](std::size_t k)
   {
-    const double lead = std::log(rival / covered);
-    const bool beaten = lead > sureLogOdds(options_);
-    const double counted = set_.holdsAgainst(beaten) ? std::min(0.0, lead) : lead;
-    set_.weighElsewhere(fresh_share * counted);
-    set_.overrule(result, beaten);
-  }
-  set_.dealOut(result,
-               [&](std::size_t k)
-               {
-                 const Candidate& candidate = result.candidates[k];
-                 Track fresh;
-                 fresh.hypothesis.pose = candidate.pose;
-                 fresh.hypothesis.id = next_id_++;
-                 fresh.confirmed = std::max(kMinInMap, gainOf(candidate.probability));
-                 return fresh;
-               });
+    const Candidate& candidate = result.candidates[k];
+    Track fresh;
+    fresh.hypothesis.pose = candidate.pose;
+    fresh.hypothesis.id = next_id_++;
+    fresh.confirmed = std::max(kMinInMap, gainOf(candidate.probability));
+    return fresh;
+  };
+  set_.shareOutElsewhere(result, new_track);
   return true;
 }
 
@@ -174,22 +156,13 @@ std::vector<ParticleMode> ModeTracker::started() const
 
 Belief ModeTracker::publish(const SignatureMatcher& matcher, bool blind)
 {
-  Belief belief = beliefOf(set_, matcher.map(), options_);
+  Belief belief = beliefOf(set_, matcher.map());
   for (TrackedHypothesis& hypothesis : belief.hypotheses)
   {
     hypothesis.pose.covariance(2, 2) += kMinTurnSigma * kMinTurnSigma;
   }
-  VerdictGrounds grounds;
-  grounds.sees_too_little = blind;
-  grounds.unfinished = !schedule_.hasSearchedAll();
-  if (!set_.tracks.empty())
-  {
-    belief.reliability = reliabilityOf(set_.tracks.front().evidence);
-    grounds.confirmed = set_.isConfirmed();
-    grounds.doubtful = set_.isDoubtful();
-  }
-  setVerdict(belief, grounds, options_.localized_probability, fieldOf(matcher.map()));
-  schedule_.noteVerdict(belief.verdict == Verdict::localized);
+  const double reliability = set_.tracks.empty() ? 0 : reliabilityOf(set_.tracks.front().evidence);
+  concludeBelief(belief, set_, schedule_, matcher.map(), {blind, set_.isDoubtful(), reliability});
   return belief;
 }
 }  // namespace sigloc

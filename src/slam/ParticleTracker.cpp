@@ -27,20 +27,22 @@ const ParticleOptions& checked(const ParticleOptions& options)
 }
 }  // namespace
 
-ParticleTracker::ParticleTracker(std::shared_ptr<const SignatureMap> map,
-                                 std::shared_ptr<const SignatureMatcher> matcher,
-                                 const TrackerOptions& tracking, const ParticleOptions& options,
-                                 std::uint32_t seed, const FeatureExtractorOptions& extraction)
-    : tracking_(tracking), options_(checked(options)), filter_(options.particles, tracking)
+ParticleTracker::ParticleTracker(const ParticleTrackerParts& parts)
+    : tracking_(parts.tracking),
+      options_(checked(parts.particles)),
+      filter_(parts.particles.particles, parts.tracking)
 {
-  if (!map || !matcher) throw std::invalid_argument("ParticleTracker: no map or matcher");
-  filter_.options.metricMap = std::move(map);
-  filter_.useMatcher(std::move(matcher));
-  filter_.useExtraction(extraction);
+  if (!parts.map || !parts.matcher)
+  {
+    throw std::invalid_argument("ParticleTracker: no map or matcher");
+  }
+  filter_.options.metricMap = parts.map;
+  filter_.useMatcher(parts.matcher);
+  filter_.useExtraction(parts.extraction);
   executor_.m_options.PF_algorithm = CParticleFilter::pfStandardProposal;
   executor_.m_options.resamplingMethod = CParticleFilter::prSystematic;
   // Its own randomize() would keep a Gaussian drawn before.
-  mrpt::random::getRandomGenerator() = mrpt::random::CRandomGenerator(seed);
+  mrpt::random::getRandomGenerator() = mrpt::random::CRandomGenerator(parts.seed);
 }
 
 const Belief& ParticleTracker::step(const RawlogStep& step)
@@ -73,7 +75,5 @@ const Belief& ParticleTracker::step(const RawlogStep& step)
 
 sigloc::LogTracker* siglocMakeParticleTracker(const sigloc::ParticleTrackerParts& parts)
 {
-  return std::make_unique<sigloc::ParticleTracker>(parts.map, parts.matcher, parts.tracking,
-                                                   parts.particles, parts.seed, parts.extraction)
-      .release();
+  return std::make_unique<sigloc::ParticleTracker>(parts).release();
 }

@@ -4,13 +4,10 @@
 
 #include <mrpt/bayes/CParticleFilter.h>
 
-#include <cstdint>
-#include <memory>
 #include <optional>
 
 #include "localize/particle_library.h"
 #include "sigloc/io/RawlogReader.h"
-#include "sigloc/plugin/SignatureMap.h"
 #include "sigloc/slam/SignatureMonteCarlo2D.h"
 
 namespace sigloc
@@ -24,10 +21,7 @@ class ParticleTracker : public LogTracker
 {
  public:
   /// Throws std::invalid_argument for a null map or matcher, or options outside their ranges.
-  ParticleTracker(std::shared_ptr<const SignatureMap> map,
-                  std::shared_ptr<const SignatureMatcher> matcher,
-                  const TrackerOptions& tracking = {}, const ParticleOptions& options = {},
-                  std::uint32_t seed = 1, const FeatureExtractorOptions& extraction = {});
+  explicit ParticleTracker(const ParticleTrackerParts& parts);
 
   /// Advances by one step and returns the belief after it. Without a motion a wide prior is used.
   const Belief& step(const RawlogStep& step) override;

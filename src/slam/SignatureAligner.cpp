@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sigloc/slam/SignatureAligner.h"
 
-#include <mrpt/maps/CMultiMetricMap.h>
 #include <mrpt/maps/COccupancyGridMap2D.h>
 #include <mrpt/maps/CPointsMap.h>
 #include <mrpt/poses/CPose3DPDFGaussian.h>
@@ -19,31 +18,17 @@
 #include "sigloc/io/map_files.h"
 #include "sigloc/plugin/pose_pdf.h"
 #include "sigloc/plugin/SignatureMap.h"
+#include "slam/map_matcher.h"
 
 namespace sigloc
 {
 using mrpt::maps::CMetricMap;
-using mrpt::maps::CMultiMetricMap;
 using mrpt::maps::COccupancyGridMap2D;
 using mrpt::maps::CPointsMap;
 using mrpt::math::TPoint2D;
 
 namespace
 {
-/// The map itself, or the first of its kind in a multi-map; null when there is none.
-template <class Kind>
-const Kind* findMap(const CMetricMap* map)
-{
-  if (const auto* own = dynamic_cast<const Kind*>(map)) return own;
-  const auto* several = dynamic_cast<const CMultiMetricMap*>(map);
-  if (several == nullptr) return nullptr;
-  for (const auto& each : several->maps)
-  {
-    if (const auto* found = dynamic_cast<const Kind*>(each.get())) return found;
-  }
-  return nullptr;
-}
-
 [[noreturn]] void refuse(const char* which, const CMetricMap* map, const char* wanted)
 {
   const std::string kind = map == nullptr ? "null" : map->GetRuntimeClass()->className;
@@ -104,11 +89,7 @@ const SignatureMatcher& SignatureAligner::matcherFor(const CMetricMap* m1)
   {
     refuse("m1", m1, "a SignatureMap or a COccupancyGridMap2D");
   }
-  if (!matcher_ || &matcher_->map() != features.get())
-  {
-    matcher_ = std::make_shared<const SignatureMatcher>(features, options_);
-  }
-  return *matcher_;
+  return matcherOf(features, options_, matcher_);
 }
 
 mrpt::poses::CPosePDF::Ptr SignatureAligner::AlignPDF(

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sigloc/slam/SignatureMonteCarlo2D.h"
 
-#include <mrpt/maps/CMultiMetricMap.h>
 #include <mrpt/math/wrap2pi.h>
 #include <mrpt/random/RandomGenerators.h>
 
@@ -14,6 +13,7 @@
 #include "io/scan_conversion.h"
 #include "sigloc/plugin/pose_pdf.h"
 #include "sigloc/plugin/SignatureMap.h"
+#include "slam/map_matcher.h"
 #include "slam/ModeTracker.h"
 #include "slam/particle_modes.h"
 
@@ -34,16 +34,6 @@ ObservedScene sceneOf(const CSensoryFrame* frame, const FeatureExtractorOptions&
 {
   if (frame == nullptr) return {};
   return observeScene(laserScansOf(*frame), landmarksOf(*frame), extraction);
-}
-
-std::shared_ptr<const SignatureMap> signatureMapIn(const mrpt::maps::CMetricMap::ConstPtr& map)
-{
-  if (auto own = std::dynamic_pointer_cast<const SignatureMap>(map)) return own;
-  if (auto several = std::dynamic_pointer_cast<const mrpt::maps::CMultiMetricMap>(map))
-  {
-    return several->mapByClass<SignatureMap>();
-  }
-  return nullptr;
 }
 
 /// The box around the particles, a little wider than the samples reach, and their headings.
@@ -152,7 +142,7 @@ void SignatureMonteCarlo2D::step(const CActionCollection* action, const CSensory
   noticeReset();
   const ObservedScene scene = sceneOf(observation, extraction_);
   const bool by_features = signatures.verifier() == nullptr && !scene.features.empty();
-  const bool blind = scene.beams.size() < signatures.options().min_beams && !by_features;
+  const bool blind = !signatures.seesEnoughReturns(scene) && !by_features;
   const double travel = modes_->predict(motionIn(action));
   // Evidence counts by distance driven, because the errors of map and scan stay the same for a
   // while.
@@ -184,17 +174,12 @@ std::optional<MotionIncrement> SignatureMonteCarlo2D::motionIn(
 const SignatureMatcher& SignatureMonteCarlo2D::matcher()
 {
   if (!own_matcher_) return *matcher_;
-  const auto map = signatureMapIn(options.metricMap);
-  if (!map)
+  const auto* map = findMap<SignatureMap>(options.metricMap.get());
+  if (map == nullptr)
   {
     throw std::invalid_argument("SignatureMonteCarlo2D: no SignatureMap in options.metricMap");
   }
-  const auto features = map->featureMap();
-  if (!matcher_ || &matcher_->map() != features.get())
-  {
-    matcher_ = std::make_shared<const SignatureMatcher>(features);
-  }
-  return *matcher_;
+  return matcherOf(map->featureMap(), {}, matcher_);
 }
 
 void SignatureMonteCarlo2D::rememberParticles()

@@ -84,7 +84,7 @@ ParticleMode momentsAround(const std::vector<WeightedPose>& poses, const TPose2D
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
   for (const WeightedPose& p : poses)
   {
-    if (p.taken || !withinReach(p.pose, center, kModeDistance, kModeAngle)) continue;
+    if (p.taken || !sameMode(p.pose, center)) continue;
     const Eigen::Vector3d apart(p.pose.x - center.x, p.pose.y - center.y,
                                 wrapToPi(p.pose.phi - center.phi));
     mode.weight += p.weight;
@@ -103,6 +103,11 @@ ParticleMode momentsAround(const std::vector<WeightedPose>& poses, const TPose2D
   return mode;
 }
 }  // namespace
+
+bool sameMode(const TPose2D& a, const TPose2D& b)
+{
+  return withinReach(a, b, kModeDistance, kModeAngle);
+}
 
 std::vector<ParticleMode> modesOf(const mrpt::poses::CPosePDFParticles& particles,
                                   std::size_t max_modes)
@@ -123,7 +128,7 @@ std::vector<ParticleMode> modesOf(const mrpt::poses::CPosePDFParticles& particle
     start->taken = true;  // also where the means have shifted away from it: so this ends
     for (WeightedPose& p : poses)
     {
-      if (withinReach(p.pose, center, kModeDistance, kModeAngle)) p.taken = true;
+      if (sameMode(p.pose, center)) p.taken = true;
     }
     if (mode.weight > kLeastWeight) modes.push_back(mode);
   }

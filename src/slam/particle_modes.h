@@ -18,6 +18,10 @@ struct ParticleMode
   double weight = 0;  ///< share of all particles' weight
 };
 
+/// True for poses within 0.75 m and 20 degrees of each other: a mode reaches as far from its mean,
+/// and from one step to the next.
+bool sameMode(const mrpt::math::TPose2D& a, const mrpt::math::TPose2D& b);
+
 /// Returns the modes of the particles, heaviest first, at most `max_modes` of them. A mode has the
 /// particles within 0.75 m and 20 degrees of their mean. Weights are normalised over all particles,
 /// so the modes of a scattered set sum to less than one.

@@ -6,34 +6,33 @@
 
 namespace sigloc
 {
-bool DenseRelocation::run(TrackSet& set, RelocationSchedule& schedule,
-                          const SignatureMatcher& matcher, const ObservedScene& scene,
-                          const DenseScan& scan, const std::optional<PoseRegion>& region,
+bool DenseRelocation::run(TrackSet& set, RelocationSchedule& schedule, const RelocationInput& input,
                           std::uint64_t& next_id) const
 {
-  const RelocationResult result = matcher.localize(scene, region);
+  const SignatureMatcher& matcher = input.matcher;
+  const DenseScan& scan = input.scan;
+  const RelocationResult result = matcher.localize(input.scene, input.region);
   const double fresh_share = schedule.freshShare();
   if (!schedule.noteResult(result)) return false;
   const DenseVerifier& verifier = *matcher.verifier();
   const double travelled = schedule.travelled();
 
-  set.noteFound(result);
+  set.markBestOfMap(result);
   confirmTracks(set, result, scan, travelled, fresh_share);
-  set.overrule(result, leadOfUntracked(set, result) > sureLogOdds(options_));
-  set.dealOut(result,
-              [&](std::size_t k)
-              {
-                Track fresh = trackAtCandidate(result, k, scan, verifier, travelled);
-                // The map's common error is the same for every scan. The filter would treat it as
-                // fresh noise, so it is added only to the poses that are published.
-                fresh.hypothesis.pose =
-                    withoutCommonError(fresh.hypothesis.pose, matcher.map().error());
-                fresh.hypothesis.id = next_id++;
-                fresh.searched_distance = schedule.searched();
-                set.showTo(fresh, scan, verifier, travelled);
-                return fresh;
-              });
-  set.weighFirstScan();
+  set.raiseElsewhereIfOverruled(result, leadOfUntracked(set, result));
+  const auto new_track = [&](std::size_t k)
+  {
+    Track fresh = trackAtCandidate(result, k, scan, verifier, travelled);
+    // The map's common error is the same for every scan. The filter would treat it as fresh noise,
+    // so it is added only to the poses that are published.
+    fresh.hypothesis.pose = withoutCommonError(fresh.hypothesis.pose, matcher.map().error());
+    fresh.hypothesis.id = next_id++;
+    fresh.searched_distance = schedule.searched();
+    set.addToCellEvidence(fresh, scan, verifier, travelled);
+    return fresh;
+  };
+  set.shareOutElsewhere(result, new_track);
+  set.weighNewTracks();
   past_.weighNewcomers(set, scan, verifier, travelled);
   return true;
 }

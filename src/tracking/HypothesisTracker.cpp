@@ -99,9 +99,8 @@ const Belief& HypothesisTracker::step(const std::optional<MotionIncrement>& moti
   checkScene(scene);
   State& s = *state_;
   s.relocated = false;
-  const bool sees_enough = s.landmark_tracker
-                               ? s.landmark_tracker->addScan(s.set, motion, scene)
-                               : scene.beams.size() >= s.matcher->options().min_beams;
+  const bool sees_enough = s.landmark_tracker ? s.landmark_tracker->addScan(s.set, motion, scene)
+                                              : s.matcher->seesEnoughReturns(scene);
   const double travel = s.set.predict(motion);
   s.relocation.move(motion);
   if (!sees_enough)
@@ -124,20 +123,20 @@ void HypothesisTracker::State::trackDensely(const std::optional<MotionIncrement>
                                             const ObservedScene& scene, double travel)
 {
   const DenseScan scan = makeDenseScan(scene, kUpdateBeams);
-  set.update(scan, *matcher->verifier());
+  set.refineAndScore(scan, *matcher->verifier());
   if (!motion) travel = schedule.travelSeen(set, suspicious(), travel);
   schedule.countTravel(travel);
   const double driven = motion ? motion->mean.norm() : travel;
   schedule.countSearched(driven);
   relocation.remember(scan, schedule.travelled());
-  set.follow(scan, schedule.travelled(), driven);
-  set.weigh(scan, *matcher->verifier(), schedule.travelled(), travel);
+  set.addWayEvidence(scan, schedule.travelled(), driven);
+  set.weighRivals(scan, *matcher->verifier(), schedule.travelled(), travel);
   if (schedule.isDue(suspicious()))
   {
-    relocated = relocation.run(set, schedule, *matcher, scene, scan, regionToSearch(), next_id);
+    relocated = relocation.run(set, schedule, {*matcher, scene, scan, regionToSearch()}, next_id);
   }
   set.mergeAndPrune();
-  set.rememberScores(travel);
+  set.updateMeanScores(travel);
   rateFirst(scan);
 }
 
@@ -155,7 +154,7 @@ void HypothesisTracker::State::trackByFeatures(const std::optional<MotionIncreme
   }
   landmark_tracker->remember();
   set.mergeAndPrune();
-  set.rememberScores(travel);
+  set.updateMeanScores(travel);
   reliability = set.tracks.empty() ? 0 : landmark_tracker->reliabilityOf(set.tracks.front());
 }
 
@@ -185,7 +184,7 @@ void HypothesisTracker::State::rateFirst(const DenseScan& scan)
 bool HypothesisTracker::State::seesTooLittle(const ObservedScene& scene) const
 {
   return landmark_tracker ? !landmark_tracker->seesEnoughToTell()
-                          : scene.beams.size() < matcher->options().min_beams;
+                          : !matcher->seesEnoughReturns(scene);
 }
 
 /// True where suspicion stops a claim.
@@ -196,17 +195,8 @@ bool HypothesisTracker::State::doubtful() const
 
 void HypothesisTracker::State::publish(const ObservedScene& scene)
 {
-  belief = beliefOf(set, matcher->map(), options);
-  VerdictGrounds grounds;
-  grounds.sees_too_little = seesTooLittle(scene);
-  grounds.unfinished = !schedule.hasSearchedAll();
-  if (!set.tracks.empty())
-  {
-    belief.reliability = reliability;
-    grounds.confirmed = set.isConfirmed();
-    grounds.doubtful = doubtful();
-  }
-  setVerdict(belief, grounds, options.localized_probability, fieldOf(matcher->map()));
-  schedule.noteVerdict(belief.verdict == Verdict::localized);
+  belief = beliefOf(set, matcher->map());
+  concludeBelief(belief, set, schedule, matcher->map(),
+                 {seesTooLittle(scene), doubtful(), reliability});
 }
 }  // namespace sigloc

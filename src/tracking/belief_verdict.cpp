@@ -9,7 +9,7 @@
 
 namespace sigloc
 {
-Belief beliefOf(const TrackSet& set, const FeatureMap& map, const TrackerOptions& options)
+Belief beliefOf(const TrackSet& set, const FeatureMap& map)
 {
   Belief belief;
   belief.elsewhere = set.elsewhere;
@@ -23,16 +23,11 @@ Belief beliefOf(const TrackSet& set, const FeatureMap& map, const TrackerOptions
   double sum = 0;
   for (TrackedHypothesis& hypothesis : belief.hypotheses)
   {
-    hypothesis.weight *= here / (1.0 - options.min_elsewhere);
+    hypothesis.weight *= here / (1.0 - set.options().min_elsewhere);
     sum += hypothesis.weight;
   }
   belief.elsewhere = std::max(0.0, 1.0 - sum);
   return belief;
-}
-
-const DenseField* fieldOf(const FeatureMap& map)
-{
-  return map.field() ? &*map.field() : nullptr;
 }
 
 void setVerdict(Belief& belief, VerdictGrounds grounds, double sure, const DenseField* field)
@@ -51,5 +46,22 @@ void setVerdict(Belief& belief, VerdictGrounds grounds, double sure, const Dense
       decision.reason == VerdictReason::not_sure ||
       (decision.reason == VerdictReason::unconfirmed && belief.hypotheses.size() > 1);
   belief.reason = has_rivals ? describeRivals(belief.hypotheses, field) : toString(decision.reason);
+}
+
+void concludeBelief(Belief& belief, const TrackSet& set, RelocationSchedule& schedule,
+                    const FeatureMap& map, const StepFindings& findings)
+{
+  VerdictGrounds grounds;
+  grounds.sees_too_little = findings.sees_too_little;
+  grounds.unfinished = !schedule.hasSearchedAll();
+  if (!set.tracks.empty())
+  {
+    belief.reliability = findings.reliability;
+    grounds.confirmed = set.isConfirmed();
+    grounds.doubtful = findings.doubtful;
+  }
+  const DenseField* const field = map.field() ? &*map.field() : nullptr;
+  setVerdict(belief, grounds, set.options().localized_probability, field);
+  schedule.noteVerdict(belief.verdict == Verdict::localized);
 }
 }  // namespace sigloc

@@ -176,7 +176,7 @@ TEST(ParticleTracker, IsAFunctionOfItsSeed)
   const auto matcher = std::make_shared<const SignatureMatcher>(office.map->featureMap());
   const auto endOf = [&](std::uint32_t seed)
   {
-    ParticleTracker tracker(office.map, matcher, {}, {}, seed);
+    ParticleTracker tracker({office.map, matcher, {}, {}, seed, {}});
     for (std::size_t i = 0; i < 15; ++i) tracker.step(office.steps[i]);
     return tracker.filter().belief().hypotheses.front().pose.mean;
   };
@@ -189,7 +189,7 @@ TEST(ParticleTracker, FollowsWithoutOdometry)
 {
   const Office office;
   const auto matcher = std::make_shared<const SignatureMatcher>(office.map->featureMap());
-  ParticleTracker tracker(office.map, matcher, {}, {}, kFilterSeed);
+  ParticleTracker tracker({office.map, matcher, {}, {}, kFilterSeed, {}});
   constexpr std::size_t kEnd = 30;
   for (std::size_t i = 0; i <= kEnd; ++i)
   {
@@ -208,7 +208,7 @@ TEST(ParticleTracker, RefusesTooManyParticlesBeforeItMakesThem)
   const auto matcher = std::make_shared<const SignatureMatcher>(office.map->featureMap());
   ParticleOptions options;
   options.particles = 4000000000U;
-  EXPECT_THROW(ParticleTracker(office.map, matcher, {}, options), std::invalid_argument);
+  EXPECT_THROW(ParticleTracker({office.map, matcher, {}, options, 1, {}}), std::invalid_argument);
 }
 
 TEST(ParticleTracker, SeesFeaturesAsItIsTold)
@@ -219,7 +219,7 @@ TEST(ParticleTracker, SeesFeaturesAsItIsTold)
   {
     FeatureExtractorOptions extraction;
     extraction.min_segment_length = min_segment_length;
-    ParticleTracker tracker(office.map, matcher, {}, {}, kFilterSeed, extraction);
+    ParticleTracker tracker({office.map, matcher, {}, {}, kFilterSeed, extraction});
     tracker.step(office.steps[0]);
     const Belief& belief = tracker.filter().belief();
     return belief.hypotheses.empty() ? TPose2D() : belief.hypotheses.front().pose.mean;

@@ -83,7 +83,7 @@ ObservedScene lookAround(int unmapped)
   return scene;
 }
 
-TEST(TrackSetUpdate, AScanThatFitsBadlySaysLessOfThePose)
+TEST(TrackSetRefinement, AScanThatFitsBadlySaysLessOfThePose)
 {
   const DenseField field = room();
   const DenseVerifier verifier(field);
@@ -101,7 +101,7 @@ TEST(TrackSetUpdate, AScanThatFitsBadlySaysLessOfThePose)
     motion.mean = {0.1, 0, 0};
     motion.covariance = mrpt::math::CMatrixDouble33::Zero();
     set.predict(motion);
-    set.update(makeDenseScan(lookAround(unmapped), 180), verifier);
+    set.refineAndScore(makeDenseScan(lookAround(unmapped), 180), verifier);
     return 5.1 - set.tracks[0].hypothesis.pose.mean.x;
   };
   const double well = drawn_back(0);
@@ -112,7 +112,7 @@ TEST(TrackSetUpdate, AScanThatFitsBadlySaysLessOfThePose)
   EXPECT_NEAR(drawn_back(10), 0, 0.05) << "nothing is explained, and nothing breaks";
 }
 
-TEST(TrackSetUpdate, BeamsThroughWallsAreThoseOfThePoseThatIsEvaluated)
+TEST(TrackSetRefinement, BeamsThroughWallsAreThoseOfThePoseThatIsEvaluated)
 {
   const DenseField field = room();
   const DenseVerifier verifier(field);
@@ -135,7 +135,7 @@ TEST(TrackSetUpdate, BeamsThroughWallsAreThoseOfThePoseThatIsEvaluated)
     motion.covariance = mrpt::math::CMatrixDouble33::Zero();
     set.predict(motion);
     const DenseScan scan = makeDenseScan(lookAround(k % 4), 180);
-    set.update(scan, verifier);
+    set.refineAndScore(scan, verifier);
     EXPECT_EQ(track.through, verifier.beamsThroughWalls(scan, track.evaluated_at));
     measured += track.evaluated_at == start ? 0 : 1;
     passing += track.through != 0 ? 1 : 0;
@@ -145,7 +145,7 @@ TEST(TrackSetUpdate, BeamsThroughWallsAreThoseOfThePoseThatIsEvaluated)
   EXPECT_GT(passing, 20);
 }
 
-TEST(TrackSetUpdate, WithoutOdometryATrackDrivesOnAsItDidAndKeepsItsHeading)
+TEST(TrackSetRefinement, WithoutOdometryATrackDrivesOnAsItDidAndKeepsItsHeading)
 {
   const DenseField field = room();
   const DenseVerifier verifier(field);
@@ -156,7 +156,7 @@ TEST(TrackSetUpdate, WithoutOdometryATrackDrivesOnAsItDidAndKeepsItsHeading)
   pose.covariance = mrpt::math::CMatrixDouble33::Identity();
   set.predict(std::nullopt);
   EXPECT_NEAR(pose.mean.x, 4.8, 1e-9) << "a new track has not moved yet";
-  set.update(makeDenseScan(lookAround(0), 180), verifier);
+  set.refineAndScore(makeDenseScan(lookAround(0), 180), verifier);
   ASSERT_NEAR(pose.mean.x, 5.0, 0.02);
   const double heading = pose.mean.phi;
   ASSERT_LT(heading, 0.05) << "it has turned back";
@@ -179,13 +179,47 @@ TEST(TrackSetStanding, TheFirstTellsWhetherTheRobotIsInTheMap)
   EXPECT_GT(set.probabilityHere(), 0.99);
 }
 
-TEST(WeighFirstLook, TheMilderOfScoreAndGroundCounts)
+/// The odds of "somewhere else" after a relocation that has found a pose without a track, over
+/// those before. The only track has the log-odds `confirmed`.
+double oddsOfElsewhereGrow(double lead, double confirmed, double probability = 0.5,
+                           bool complete = true)
+{
+  TrackSet set = setOf({newcomer(0.9, 1, 0)});
+  set.elsewhere = 0.1;
+  set.tracks[0].confirmed = confirmed;
+  RelocationResult result;
+  result.complete = complete;
+  result.candidates.resize(1);
+  result.candidates[0].pose.mean = {20, 0, 0};
+  result.candidates[0].probability = probability;
+  set.weighUntracked(result, lead, 0.5);
+  EXPECT_NEAR(set.elsewhere + set.tracks[0].hypothesis.weight, 1, 1e-12);
+  return set.elsewhere / set.tracks[0].hypothesis.weight * 9;
+}
+
+TEST(WeighUntracked, ALeadCountsByHowFreshItIs)
+{
+  EXPECT_NEAR(oddsOfElsewhereGrow(1, 0), std::exp(0.5), 1e-9);
+  EXPECT_NEAR(oddsOfElsewhereGrow(-1, 0), std::exp(-0.5), 1e-9);
+  EXPECT_NEAR(oddsOfElsewhereGrow(1, 0, 0.95, false), 1, 1e-9) << "its pose may have been missed";
+}
+
+TEST(WeighUntracked, OnlyAFarBetterPoseSpeaksAgainstATrackThatIsRetained)
+{
+  EXPECT_NEAR(oddsOfElsewhereGrow(1, 12), 1, 1e-9);
+  EXPECT_NEAR(oddsOfElsewhereGrow(-1, 12), std::exp(-0.5), 1e-9);
+  EXPECT_NEAR(oddsOfElsewhereGrow(5, 12), std::exp(2.5), 1e-9);
+  EXPECT_NEAR(oddsOfElsewhereGrow(0, 12, 0.95), 1, 1e-9);
+  EXPECT_NEAR(oddsOfElsewhereGrow(0, 0, 0.95), 3, 1e-9) << "overruled: 0.3 to 0.9";
+}
+
+TEST(WeighNewTracks, TheMilderOfScoreAndGroundCounts)
 {
   // Worse by score 9 : 1, by observed cells hardly. Then worse by both, by the cells less. Then
   // worse by both, more.
   TrackSet set = setOf({newcomer(0.81, 1, 0), newcomer(0.09, 0.9, 0.2), newcomer(0.09, 0.9, 0.5),
                         newcomer(0.01, 0.8, 6)});
-  set.weighFirstScan();
+  set.weighNewTracks();
   const double cost = set.costOfUnexplained();
   const double first = set.tracks[0].hypothesis.weight;
   EXPECT_NEAR(set.tracks[1].hypothesis.weight / first, std::exp(-0.2 * cost), 1e-6);
@@ -196,33 +230,33 @@ TEST(WeighFirstLook, TheMilderOfScoreAndGroundCounts)
   EXPECT_NEAR(sum, 1.0, 1e-9);
 }
 
-TEST(WeighFirstLook, RemembersWhatTheOtherJudgeSaid)
+TEST(WeighNewTracks, RemembersWhatTheOtherJudgeSaid)
 {
   TrackSet set = setOf({newcomer(0.5, 1, 0), newcomer(0.5, 1, 4)});
-  set.weighFirstScan();
+  set.weighNewTracks();
   EXPECT_NEAR(set.tracks[1].hypothesis.weight, 0.5, 1e-9);
   EXPECT_NEAR(set.tracks[1].deficit.by_score, 0, 1e-9);
   EXPECT_NEAR(set.tracks[1].deficit.by_cells, -4 * set.costOfUnexplained(), 1e-5);
 }
 
-TEST(WeighFirstLook, LeavesTracksAloneThatAreOlder)
+TEST(WeighNewTracks, LeavesTracksAloneThatAreOlder)
 {
   TrackSet set = setOf({newcomer(0.6, 1, 0), newcomer(0.3, 0.9, 0.1), newcomer(0.1, 0.8, 0)});
   set.tracks[0].hypothesis.age = 7;
   const double cost = set.costOfUnexplained();
-  set.weighFirstScan();
+  set.weighNewTracks();
   EXPECT_EQ(set.tracks[0].hypothesis.weight, 0.6);
   EXPECT_EQ(set.tracks[0].deficit.by_cells, 0);
   EXPECT_NEAR(set.tracks[1].hypothesis.weight + set.tracks[2].hypothesis.weight, 0.4, 1e-9);
   EXPECT_EQ(set.costOfUnexplained(), cost) << "what the place has changed is told by older tracks";
 }
 
-TEST(WeighFirstLook, ExpectsChangeWhereTheBestExplainsLittle)
+TEST(WeighNewTracks, ExpectsChangeWhereTheBestExplainsLittle)
 {
   const auto cost_after = [](double score)
   {
     TrackSet set = setOf({newcomer(1, score, 0)});
-    set.weighFirstScan();
+    set.weighNewTracks();
     EXPECT_EQ(set.tracks[0].hypothesis.weight, 1);
     return set.costOfUnexplained();
   };
@@ -232,13 +266,13 @@ TEST(WeighFirstLook, ExpectsChangeWhereTheBestExplainsLittle)
   EXPECT_EQ(cost_after(0.6), cost_after(0.1));
 }
 
-TEST(WeighFirstLook, NoTracksAreNoTrouble)
+TEST(WeighNewTracks, NoTracksAreNoTrouble)
 {
   TrackSet set = setOf({});
-  set.weighFirstScan();
+  set.weighNewTracks();
   EXPECT_TRUE(set.tracks.empty());
   set.tracks = {newcomer(0, 1, 0)};
-  set.weighFirstScan();
+  set.weighNewTracks();
   EXPECT_EQ(set.tracks[0].hypothesis.weight, 0);
 }
 }  // namespace

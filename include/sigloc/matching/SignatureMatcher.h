@@ -94,6 +94,12 @@ class SignatureMatcher
   /// evaluation and drawing.
   std::vector<mrpt::math::TPose2D> propose(const ObservedScene& scene) const;
 
+  /// True for a scene with `min_beams` returns, the fewest that a search in a dense field uses.
+  bool seesEnoughReturns(const ObservedScene& scene) const
+  {
+    return scene.beams.size() >= options_.min_beams;
+  }
+
   const FeatureMap& map() const { return *map_; }
   const MatcherOptions& options() const { return options_; }
   /// The dense verifier, or null when the map has no dense field or it is switched off.

@@ -70,7 +70,7 @@ class ParticleTracking : public SteppedTracking
                    std::shared_ptr<const SignatureMatcher> matcher,
                    const std::optional<PoseRegion>& region, const ParticleOptions& particles,
                    std::uint32_t seed)
-      : tracker_(std::move(map), std::move(matcher), {}, particles, seed)
+      : tracker_({std::move(map), std::move(matcher), {}, particles, seed, {}})
   {
     tracker_.reset(region);
   }

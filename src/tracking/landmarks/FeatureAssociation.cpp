@@ -167,7 +167,7 @@ FeatureAssociation FeatureAssociator::finished(const Growing& growing) const
       std::log1p(-verifier_.options().detection_probability) *
       static_cast<double>(countMissedInView(scene_, verifier_.map(), result.pose, result.pairings));
   const std::size_t paired = result.pairings.size();
-  result.fresh_share =
+  result.new_feature_share =
       paired > 0 ? static_cast<double>(growing.fresh) / static_cast<double>(paired) : 0;
   return result;
 }

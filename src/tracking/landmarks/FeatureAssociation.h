@@ -23,7 +23,7 @@ struct FeatureAssociation
   SchmidtKalmanFilter correlation;
   std::vector<FeaturePairing> pairings;
   double log_odds = 0;  // against "all clutter", eq. (8.14)
-  double fresh_share = 0;  // share of the pairings with features not paired within the last 10 m
+  double new_feature_share = 0;  // of the pairings: with features not paired within the last 10 m
   double share = 1;  // of the parent's weight; all alternatives sum to one
 };
 
@@ -42,8 +42,6 @@ class FeatureAssociator
   /// is ambiguous. Eq. (8.15)
   std::vector<FeatureAssociation> associate(const GaussianPose& predicted,
                                             const SchmidtKalmanFilter& correlation) const;
-
-  std::size_t size() const { return scene_.size(); }
 
  private:
   struct Growing;

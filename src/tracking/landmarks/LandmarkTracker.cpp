@@ -35,13 +35,6 @@ std::vector<Feature> ofTypes(const std::vector<Feature>& features, const std::ve
   }
   return kept;
 }
-
-double bestScore(const std::vector<Track>& tracks)
-{
-  return std::max_element(tracks.begin(), tracks.end(),
-                          [](const Track& a, const Track& b) { return a.score < b.score; })
-      ->score;
-}
 }  // namespace
 
 LandmarkTracker::LandmarkTracker(std::shared_ptr<const SignatureMatcher> matcher,
@@ -101,7 +94,7 @@ void LandmarkTracker::update(TrackSet& set, double travelled, std::uint64_t& nex
       child.score = ways.front().log_odds;
       child.features.correlation = way.correlation;
       child.features.correlation.forgetBefore(travelled - kMemory);
-      child.features.fresh_share = way.fresh_share;
+      child.features.new_feature_share = way.new_feature_share;
       child.features.paired = way.pairings.size();
       child.features.doubt = std::min(0.0, track.features.doubt + way.log_odds);
       updated.push_back(std::move(child));
@@ -119,19 +112,19 @@ void LandmarkTracker::update(TrackSet& set, double travelled, std::uint64_t& nex
 void LandmarkTracker::weigh(TrackSet& set, double travel) const
 {
   if (set.tracks.empty()) return;
-  const double best = bestScore(set.tracks);
+  const double best = set.bestScore();
   const double between = std::min(1.0, travel / options_.evidence_distance);
   for (Track& track : set.tracks)
   {
     const double deficit = kFeatureTempering * (track.score - best);
     track.hypothesis.weight *= std::exp(between * deficit);
     const double evidence = kFeatureTempering * track.score;
-    const double gain = evidence > 0 ? track.features.fresh_share * evidence
+    const double gain = evidence > 0 ? track.features.new_feature_share * evidence
                                      : between * std::max(evidence, -kMaxAgainst);
     track.confirmed = std::clamp(track.confirmed + gain, kMinInMap, kMaxConfirmed);
   }
   const double lost = std::min(1.0, travel / options_.lost_distance);
-  set.weighElsewhere(-lost * kFeatureTempering * best);
+  set.scaleOddsOfElsewhere(-lost * kFeatureTempering * best);
 }
 
 std::vector<Feature> LandmarkTracker::gathered() const
@@ -158,7 +151,9 @@ bool LandmarkTracker::relocate(TrackSet& set, RelocationSchedule& schedule,
   const RelocationResult result = localize(region, settled);
   const double fresh_share = schedule.freshShare();
   if (!schedule.noteResult(result)) return false;
-  weighElsewhere(set, result, fresh_share);
+  // "All clutter" has the log-odds 0. Eq. (8.19)
+  const auto best = set.bestCandidates(result, &Candidate::score, 0);
+  set.weighUntracked(result, kFeatureTempering * (best.untracked - best.tracked), fresh_share);
   for (const Candidate& candidate : result.candidates)
   {
     // A track that has slipped off pairs hardly anything any more, so it moves to the candidate.
@@ -168,7 +163,8 @@ bool LandmarkTracker::relocate(TrackSet& set, RelocationSchedule& schedule,
     slipped->hypothesis.pose = there.hypothesis.pose;
     slipped->features = there.features;
   }
-  set.dealOut(result, [&](std::size_t k) { return startAt(result.candidates[k], next_id++); });
+  const auto new_track = [&](std::size_t k) { return startAt(result.candidates[k], next_id++); };
+  set.shareOutElsewhere(result, new_track);
   weighNewcomers(set);
   return true;
 }
@@ -197,26 +193,6 @@ void LandmarkTracker::weighNewcomers(TrackSet& set) const
     track.hypothesis.weight = std::max(track.hypothesis.weight, weight * std::exp(lead));
   }
   set.normaliseTracks();
-}
-
-/// "Somewhere else" gains where a relocation finds poses without a track that are as good as those
-/// of the tracks. A search that was not complete may have missed those of the tracks. Eq. (8.19)
-void LandmarkTracker::weighElsewhere(TrackSet& set, const RelocationResult& result,
-                                     double fresh_share) const
-{
-  if (set.tracks.empty() || !result.complete) return;
-  double best_tracked = 0;  // "all clutter"
-  double best_untracked = 0;
-  for (const Candidate& candidate : result.candidates)
-  {
-    double& best = set.trackAt(candidate.pose.mean) != nullptr ? best_tracked : best_untracked;
-    best = std::max(best, candidate.score);
-  }
-  const double lead = kFeatureTempering * (best_tracked - best_untracked);
-  const bool beaten = lead < -sureLogOdds(options_);
-  const double counted = set.holdsAgainst(beaten) ? std::max(0.0, lead) : lead;
-  set.weighElsewhere(-fresh_share * counted);
-  set.overrule(result, beaten);
 }
 
 /// Returns a new track at a candidate. The features share the errors of the odometry that gathered

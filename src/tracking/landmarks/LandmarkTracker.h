@@ -63,7 +63,6 @@ class LandmarkTracker
   };
   std::vector<Feature> gathered() const;
   RelocationResult localize(const std::optional<PoseRegion>& region, bool settled) const;
-  void weighElsewhere(TrackSet& set, const RelocationResult& result, double fresh_share) const;
   void weighNewcomers(TrackSet& set) const;
   Track startAt(const Candidate& candidate, std::uint64_t id) const;
 

@@ -165,7 +165,7 @@ void ScanHistory::weighNewcomers(TrackSet& set, const DenseScan& scan,
     else
     {
       track.explained = std::move(way->explained);
-      set.showTo(track, scan, verifier, travelled);
+      set.addToCellEvidence(track, scan, verifier, travelled);
     }
     double& weight = track.hypothesis.weight;
     weight = std::max(weight, heaviest.weight * std::exp(std::min(0.0, way->sum.smaller())));

@@ -49,7 +49,7 @@ void Track::absorb(const Track& lighter)
 void Track::inherit(const Track& parent)
 {
   confirmed = std::max(confirmed, parent.confirmed);
-  seen = parent.seen;
+  seen_at_relocations = parent.seen_at_relocations;
   tracked_log_odds = std::max(tracked_log_odds, parent.tracked_log_odds);
   seen_while_tracked = parent.seen_while_tracked;
   tracked_distance = parent.tracked_distance;

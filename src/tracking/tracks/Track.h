@@ -25,7 +25,7 @@ struct FeatureMemory
 {
   SchmidtKalmanFilter correlation;
   std::size_t paired = 0;  // pairings of the last step
-  double fresh_share = 0;  // share of them with features not paired within the last 10 m
+  double new_feature_share = 0;  // share of them with features not paired within the last 10 m
   double doubt = 0;  // log-odds lately lost against clutter, at most 0, eq. (8.20)
 };
 
@@ -55,12 +55,12 @@ struct Track
   DenseEvidence evidence;  // of the last scan
   mrpt::math::TPose2D evaluated_at;  // pose at which the observed cells are evaluated
   std::uint64_t through = 0;  // beams that pass walls there, as bits
-  double mean_score = 0;  // over the last kMemory of travel, without doubt
+  double mean_score = 0;  // over the last kMemory of travel, steps in doubt left out
   bool found = false;  // this step's relocation found it best of the whole map
   double confirmed = 0;  // log-odds from relocations: kappa of eq. (8.7)
-  VisitedCells seen;  // cells seen at relocations
+  VisitedCells seen_at_relocations;  // so that only new cells add to kappa
   double tracked_log_odds = 0;  // log-odds from the way driven: gamma of eq. (8.21)
-  VisitedCells seen_while_tracked;  // cells seen on the way
+  VisitedCells seen_while_tracked;  // so that only new cells add to gamma
   double tracked_distance = 0;  // [m] driven since the track began
   double searched_distance = 0;  // [m] driven unlocalized before the track began
   CellEvidence explained;  // how it explains the observed cells, each once

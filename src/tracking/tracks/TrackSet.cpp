@@ -23,7 +23,6 @@ constexpr double kMergeAngle = 10.0 * M_PI / 180.0;  // [rad] within which track
 constexpr double kLeastChange = 0.02;  // share that has changed even in a new map, eq. (8.26)
 constexpr double kMostChange = 0.3;  // largest share that is taken to have changed, eq. (8.26)
 constexpr double kCellIndependence = 0.7;  // neighbouring cells share their evidence, eq. (8.26)
-constexpr double kSure = 0.9;  // probability of a candidate that overrules all tracks, section 8
 constexpr double kMinSigma = 0.005;  // [m] added to the motion of a step, eq. (8.1)
 
 bool heavier(const Track& a, const Track& b)
@@ -32,8 +31,8 @@ bool heavier(const Track& a, const Track& b)
   return a.hypothesis.id < b.hypothesis.id;
 }
 
-/// Returns how much a scan counts in a mean over the last kMemory of travel.
-double freshShare(double travel)
+/// Returns the weight of a scan in a mean over the last kMemory, `travel` [m] after the one before.
+double weightInMean(double travel)
 {
   return 1.0 - std::exp(-travel / kMemory);
 }
@@ -88,13 +87,13 @@ double TrackSet::predict(const std::optional<MotionIncrement>& motion)
   return travel;
 }
 
-void TrackSet::update(const DenseScan& scan, const DenseVerifier& verifier)
+void TrackSet::refineAndScore(const DenseScan& scan, const DenseVerifier& verifier)
 {
   for (Track& track : tracks) updatePose(track, scan, verifier, has_odometry_, options_);
-  look(scan);
+  noteObservedCells(scan);
 }
 
-void TrackSet::score(const DenseScan& scan, const DenseVerifier& verifier)
+void TrackSet::scoreInPlace(const DenseScan& scan, const DenseVerifier& verifier)
 {
   for (Track& track : tracks)
   {
@@ -104,19 +103,19 @@ void TrackSet::score(const DenseScan& scan, const DenseVerifier& verifier)
     track.through = track.evidence.through;
     track.score = track.evidence.score;
   }
-  look(scan);
+  noteObservedCells(scan);
 }
 
 /// Notes which cells the scan shows, and how far each track has moved. Without odometry the
 /// heaviest track tells how the robot moved.
-void TrackSet::look(const DenseScan& scan)
+void TrackSet::noteObservedCells(const DenseScan& scan)
 {
   for (Track& track : tracks) track.moved = track.hypothesis.pose.mean - track.left;
   if (!has_odometry_ && !tracks.empty()) ground_ = ground_ + heaviest().moved;
   view_ = observedCells(scan, ground_);
 }
 
-void TrackSet::follow(const DenseScan& scan, double travelled, double driven)
+void TrackSet::addWayEvidence(const DenseScan& scan, double travelled, double driven)
 {
   for (Track& track : tracks)
   {
@@ -127,19 +126,10 @@ void TrackSet::follow(const DenseScan& scan, double travelled, double driven)
   }
 }
 
-void TrackSet::weigh(const DenseScan& scan, const DenseVerifier& verifier, double travelled,
-                     double travel)
-{
-  if (tracks.empty() || travel <= 0) return;
-  noteChange(travel);
-  weighRivals(scan, verifier, travelled, travel);
-  normalise();
-}
-
-void TrackSet::noteChange(double travel)
+void TrackSet::updateUnexplainedShare(double travel)
 {
   if (tracks.empty()) return;
-  unexplained_ += freshShare(travel) * (std::max(0.0, 1.0 - bestScore()) - unexplained_);
+  unexplained_ += weightInMean(travel) * (std::max(0.0, 1.0 - bestScore()) - unexplained_);
 }
 
 double TrackSet::bestScore() const
@@ -154,7 +144,9 @@ double TrackSet::bestScore() const
 void TrackSet::weighRivals(const DenseScan& scan, const DenseVerifier& verifier, double travelled,
                            double travel)
 {
-  const std::vector<double> unexplained = showToAll(scan, verifier, travelled);
+  if (tracks.empty() || travel <= 0) return;
+  updateUnexplainedShare(travel);
+  const std::vector<double> unexplained = addToCellEvidence(scan, verifier, travelled);
   const double least = *std::min_element(unexplained.begin(), unexplained.end());
   const double best = logLikelihoodOfScore(bestScore());
   const double share = shareBetweenRivals(travel, options_);
@@ -167,10 +159,11 @@ void TrackSet::weighRivals(const DenseScan& scan, const DenseVerifier& verifier,
     deficit.by_cells -= costOfUnexplained() * (unexplained[k] - least);
     tracks[k].hypothesis.weight *= std::exp(deficit.smaller() - before);
   }
+  normalise();
 }
 
-std::vector<double> TrackSet::showToAll(const DenseScan& scan, const DenseVerifier& verifier,
-                                        double travelled)
+std::vector<double> TrackSet::addToCellEvidence(const DenseScan& scan,
+                                                const DenseVerifier& verifier, double travelled)
 {
   std::vector<double> unexplained;
   for (Track& track : tracks)
@@ -181,8 +174,8 @@ std::vector<double> TrackSet::showToAll(const DenseScan& scan, const DenseVerifi
   return unexplained;
 }
 
-void TrackSet::showTo(Track& track, const DenseScan& scan, const DenseVerifier& verifier,
-                      double travelled) const
+void TrackSet::addToCellEvidence(Track& track, const DenseScan& scan, const DenseVerifier& verifier,
+                                 double travelled) const
 {
   const TPose2D& pose = track.hypothesis.pose.mean;
   const auto explained =
@@ -190,7 +183,7 @@ void TrackSet::showTo(Track& track, const DenseScan& scan, const DenseVerifier& 
   track.explained.addScan(view_, explained, travelled);
 }
 
-void TrackSet::weighFirstScan()
+void TrackSet::weighNewTracks()
 {
   double dealt = 0;
   double most = 0;
@@ -239,7 +232,7 @@ void TrackSet::normalise()
   elsewhere /= sum;
 }
 
-void TrackSet::weighElsewhere(double log_odds)
+void TrackSet::scaleOddsOfElsewhere(double log_odds)
 {
   // Only the loser's weight changes: a gain of e^log_odds may be more than a double holds.
   elsewhere *= std::exp(std::min(0.0, log_odds));
@@ -254,58 +247,18 @@ void TrackSet::normaliseTracks()
   for (Track& track : tracks) track.hypothesis.weight *= (1.0 - elsewhere) / sum;
 }
 
-Track* TrackSet::trackAt(const TPose2D& pose)
+const Track* TrackSet::trackAt(const TPose2D& pose) const
 {
-  for (Track& track : tracks)
+  for (const Track& track : tracks)
   {
     if (samePlace(track.hypothesis.pose.mean, pose)) return &track;
   }
   return nullptr;
 }
 
-void TrackSet::noteFound(const RelocationResult& result)
+Track* TrackSet::trackAt(const TPose2D& pose)
 {
-  const Track* best =
-      result.candidates.empty() ? nullptr : trackAt(result.candidates.front().pose.mean);
-  for (Track& track : tracks) track.found = &track == best;
-}
-
-bool TrackSet::holdsAgainst(bool beaten) const
-{
-  return !beaten &&
-         std::any_of(tracks.begin(), tracks.end(),
-                     [&](const Track& track) { return track.retained(sureLogOdds(options_)); });
-}
-
-void TrackSet::overrule(const RelocationResult& result, bool beaten)
-{
-  if (tracks.empty() || result.candidates.empty() || holdsAgainst(beaten)) return;
-  const Candidate& first = result.candidates.front();
-  if (first.probability < kSure || trackAt(first.pose.mean) != nullptr) return;
-  elsewhere = std::max(elsewhere, options_.suspicion);
-  normalise();
-}
-
-/// The floor of "somewhere else" starts new tracks but adds nothing to existing ones. Otherwise
-/// look-alikes would gain from it at every relocation. Eq. (8.9)
-void TrackSet::dealOut(const RelocationResult& result,
-                       const std::function<Track(std::size_t k)>& start)
-{
-  const double lost = elsewhere;
-  const double above_floor = std::max(0.0, lost - options_.min_elsewhere);
-  for (std::size_t k = 0; k < result.candidates.size(); ++k)
-  {
-    const Candidate& candidate = result.candidates[k];
-    Track* same = trackAt(candidate.pose.mean);
-    const double share = (same != nullptr ? above_floor : lost) * candidate.probability;
-    elsewhere -= share;
-    if (same == nullptr)
-    {
-      tracks.push_back(start(k));
-      same = &tracks.back();
-    }
-    same->hypothesis.weight += share;
-  }
+  return const_cast<Track*>(std::as_const(*this).trackAt(pose));
 }
 
 void TrackSet::sort()
@@ -315,13 +268,13 @@ void TrackSet::sort()
 
 /// A robot that was carried away may stand for long, with jitter in its odometry that adds up. Its
 /// scans there do not tell how well the old place is usually explained. So none counts in doubt.
-void TrackSet::rememberScores(double travel)
+void TrackSet::updateMeanScores(double travel)
 {
   const Track* const doubted = isDoubtful() ? &heaviest() : nullptr;
   for (Track& track : tracks)
   {
     if (&track == doubted) continue;
-    track.mean_score += freshShare(travel) * (track.score - track.mean_score);
+    track.mean_score += weightInMean(travel) * (track.score - track.mean_score);
   }
 }
 

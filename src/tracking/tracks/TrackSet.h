@@ -42,33 +42,34 @@ class TrackSet
 
   /// Refines every track by the returns and scores it. Must be called first for every scan.
   /// Eq. (8.3), (8.4)
-  void update(const DenseScan& scan, const DenseVerifier& verifier);
+  void refineAndScore(const DenseScan& scan, const DenseVerifier& verifier);
 
   /// Scores every track by the returns, at the pose that a refinement reaches, in the place of
-  /// update(): something else has set the poses, and they stay.
-  void score(const DenseScan& scan, const DenseVerifier& verifier);
+  /// refineAndScore(): something else has set the poses, and they stay.
+  void scoreInPlace(const DenseScan& scan, const DenseVerifier& verifier);
 
   /// Weighs tracks against each other. The scan is taken after `travelled` [m] in all, `travel` [m]
   /// after the one before. Where that is 0 nothing changes: the same scan again is no new evidence.
-  /// Includes noteChange(). Eq. (8.5), (8.26)
-  void weigh(const DenseScan& scan, const DenseVerifier& verifier, double travelled, double travel);
+  /// Includes updateUnexplainedShare(). Eq. (8.5), (8.26)
+  void weighRivals(const DenseScan& scan, const DenseVerifier& verifier, double travelled,
+                   double travel);
 
   /// Updates the mean share that the best track leaves unexplained, where there are tracks. Eq.
   /// (8.26)
-  void noteChange(double travel);
+  void updateUnexplainedShare(double travel);
 
   /// Adds the scan to the observed cells of every track. Returns by how many cells the unexplained
   /// sum of each has grown. Eq. (8.26)
-  std::vector<double> showToAll(const DenseScan& scan, const DenseVerifier& verifier,
-                                double travelled);
+  std::vector<double> addToCellEvidence(const DenseScan& scan, const DenseVerifier& verifier,
+                                        double travelled);
 
   /// Adds the last scan to the observed cells of a track that starts with it.
-  void showTo(Track& track, const DenseScan& scan, const DenseVerifier& verifier,
-              double travelled) const;
+  void addToCellEvidence(Track& track, const DenseScan& scan, const DenseVerifier& verifier,
+                         double travelled) const;
 
   /// Weighs the tracks that the last relocation has started against each other by their observed
   /// cells too, where the relocation has used scores alone. Eq. (8.27)
-  void weighFirstScan();
+  void weighNewTracks();
 
   /// Log-odds that an unexplained cell costs against a rival that explains it. Eq. (8.26)
   double costOfUnexplained() const;
@@ -76,32 +77,42 @@ class TrackSet
   /// Adds to the log-odds of every track by the part of the scan that came into view with the last
   /// step, after `travelled` [m] in all. The robot has moved by `driven` [m], turns not counted.
   /// Eq. (8.21)
-  void follow(const DenseScan& scan, double travelled, double driven);
-
-  /// Scales all weights so that they sum to one.
-  void normalise();
+  void addWayEvidence(const DenseScan& scan, double travelled, double driven);
 
   /// Multiplies the odds of "somewhere else" against the tracks by e^log_odds, and scales all
   /// weights so that they sum to one. Any finite number will do. Eq. (8.17), (8.19), (9.3)
-  void weighElsewhere(double log_odds);
+  void scaleOddsOfElsewhere(double log_odds);
 
   /// Scales the weights of the tracks alone so that all sum to one. They must not all be zero.
   void normaliseTracks();
 
-  /// Notes which track the relocation has found best of the whole map.
-  void noteFound(const RelocationResult& result);
+  /// Marks the track that the relocation has found best of the whole map, and no other.
+  void markBestOfMap(const RelocationResult& result);
 
-  /// True where a track is retained and not `beaten` by far by a pose without a track.
-  bool holdsAgainst(bool beaten) const;
+  /// The best of a relocation's candidates that belong to a track, and of the others.
+  struct BestCandidates
+  {
+    double tracked, untracked;
+  };
+  /// Returns the largest `measure` of both kinds of candidates, `least` where there is none above.
+  BestCandidates bestCandidates(const RelocationResult& result, double Candidate::*measure,
+                                double least) const;
 
-  /// Raises the weight of "somewhere else" where a relocation is sure of a pose without a track and
-  /// no track holds against it. Section 8, "Relocate"
-  void overrule(const RelocationResult& result, bool beaten);
+  /// Raises the weight of "somewhere else" where a relocation is sure of a pose without a track.
+  /// Not where a track is retained, unless that pose leads by enough. `lead` is that of the best
+  /// candidate without a track over the best with one, in log-odds. Section 8, "Relocate"
+  void raiseElsewhereIfOverruled(const RelocationResult& result, double lead);
 
-  /// Deals the weight of "somewhere else" out by the probabilities of a relocation: to the tracks
+  /// Weighs "somewhere else" by the same `lead`, which counts by `fresh_share` in [0, 1]. Then
+  /// raises it as above. A search that was not complete changes nothing: it may have missed the
+  /// poses of the tracks. Eq. (8.19), (9.3)
+  void weighUntracked(const RelocationResult& result, double lead, double fresh_share);
+
+  /// Shares the weight of "somewhere else" out by the probabilities of a relocation: to the tracks
   /// at its candidates, and to new ones that `start` makes of candidate k. The rest stays. Eq.
   /// (8.9)
-  void dealOut(const RelocationResult& result, const std::function<Track(std::size_t k)>& start);
+  void shareOutElsewhere(const RelocationResult& result,
+                         const std::function<Track(std::size_t k)>& start);
 
   /// Sorts the tracks by weight, heaviest first.
   void sort();
@@ -110,9 +121,10 @@ class TrackSet
   void mergeAndPrune();
 
   /// Adds the scores of the last scan, `travel` [m] after the one before, to the tracks' means.
-  void rememberScores(double travel);
+  void updateMeanScores(double travel);
 
   /// Returns the track at a pose (within 0.5 m and 17 degrees), or null.
+  const Track* trackAt(const mrpt::math::TPose2D& pose) const;
   Track* trackAt(const mrpt::math::TPose2D& pose);
 
   /// Probability that the robot is in the map, by the first track. The tracks must be sorted, and
@@ -132,17 +144,21 @@ class TrackSet
   /// walls. False for an empty set.
   bool isDoubtful() const;
 
+  const TrackerOptions& options() const { return options_; }
+
   /// The heaviest track. Must not be called on an empty set.
   const Track& heaviest() const;
+
+  /// The highest score of a track for the last scan. Must not be called on an empty set.
+  double bestScore() const;
 
   std::vector<Track> tracks;
   double elsewhere = 1;
 
  private:
-  void look(const DenseScan& scan);
-  void weighRivals(const DenseScan& scan, const DenseVerifier& verifier, double travelled,
-                   double travel);
-  double bestScore() const;
+  void noteObservedCells(const DenseScan& scan);
+  void normalise();
+  bool mayOverrule(double lead) const;
   void giveRestToElsewhere();
 
   TrackerOptions options_;

@@ -15,7 +15,7 @@ constexpr double kMissWeight = 0.5;  // factor of the evidence against a track, 
 /// What a relocation says of a track: the log-odds of the candidate that it found there. A track
 /// that it did not find has the fit of the best candidate and its own score; a search that was not
 /// complete says nothing of it.
-double evidenceFor(const Track& track, TrackSet& set, const RelocationResult& result)
+double evidenceFor(const Track& track, const TrackSet& set, const RelocationResult& result)
 {
   if (result.candidates.empty()) return 0;
   for (std::size_t k = 0; k < result.candidates.size(); ++k)
@@ -42,8 +42,8 @@ Track trackAtCandidate(const RelocationResult& result, std::size_t k, const Dens
   const Candidate& candidate = result.candidates[k];
   Track track = unprovenTrack(candidate.pose);
   track.score = track.mean_score = candidate.score;
-  const double novelty = track.seen.add(scan, candidate.pose.mean, travelled);
-  track.seen_while_tracked = track.seen;
+  const double novelty = track.seen_at_relocations.add(scan, candidate.pose.mean, travelled);
+  track.seen_while_tracked = track.seen_at_relocations;
   const double evidence = inMapLogOdds(result, k);
   track.confirmed = std::clamp(kPriorHereLogOdds + std::min(evidence, novelty * evidence),
                                kMinInMap, kMaxConfirmed);
@@ -58,7 +58,8 @@ void confirmTracks(TrackSet& set, const RelocationResult& result, const DenseSca
   for (Track& track : set.tracks)
   {
     const double evidence = evidenceFor(track, set, result);
-    const double novelty = track.seen.add(scan, track.hypothesis.pose.mean, travelled);
+    const double novelty =
+        track.seen_at_relocations.add(scan, track.hypothesis.pose.mean, travelled);
     const double gain = evidence > 0
                             ? novelty * std::min(evidence, kMaxConfirmed)
                             : fresh_share * kMissWeight *
@@ -67,16 +68,11 @@ void confirmTracks(TrackSet& set, const RelocationResult& result, const DenseSca
   }
 }
 
-double leadOfUntracked(TrackSet& set, const RelocationResult& result)
+double leadOfUntracked(const TrackSet& set, const RelocationResult& result)
 {
-  double tracked = -1;
-  for (const Track& track : set.tracks) tracked = std::max(tracked, track.score);
-  double untracked = -1;
-  for (const Candidate& candidate : result.candidates)
-  {
-    if (set.trackAt(candidate.pose.mean) != nullptr) continue;
-    untracked = std::max(untracked, candidate.score);
-  }
+  constexpr double kWorst = -1.0;  // of scores
+  const double tracked = set.tracks.empty() ? kWorst : std::max(kWorst, set.bestScore());
+  const double untracked = set.bestCandidates(result, &Candidate::score, kWorst).untracked;
   return logLikelihoodOfScore(untracked) - logLikelihoodOfScore(tracked);
 }
 }  // namespace sigloc

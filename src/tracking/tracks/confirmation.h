@@ -27,5 +27,5 @@ void confirmTracks(TrackSet& set, const RelocationResult& result, const DenseSca
 
 /// Returns the lead, in log-likelihood of scores (7.1), of the best candidate without a track over
 /// the best track. \cite algorithm section 8, "Relocate"
-double leadOfUntracked(TrackSet& set, const RelocationResult& result);
+double leadOfUntracked(const TrackSet& set, const RelocationResult& result);
 }  // namespace sigloc
