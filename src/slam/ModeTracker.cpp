@@ -104,7 +104,7 @@ bool ModeTracker::judge(const ObservedScene& scene, const SignatureMatcher& matc
     relocation_.remember(scan, schedule_.travelled());
     set_.addWayEvidence(scan, schedule_.travelled(), driven);
     set_.updateUnexplainedShare(travel);
-    set_.addToCellEvidence(scan, *verifier, schedule_.travelled());
+    if (travel > 0) set_.addToCellEvidence(scan, *verifier, schedule_.travelled());
   }
   bool relocated = schedule_.isDue(set_.isSuspicious());
   if (relocated)

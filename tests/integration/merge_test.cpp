@@ -85,6 +85,8 @@ std::string withoutColumn(const std::string& csv, const std::string& name)
       if (c != ',') cells.back() += c;
     }
     if (column < 0) column = std::find(cells.begin(), cells.end(), name) - cells.begin();
+    EXPECT_LT(column, static_cast<std::ptrdiff_t>(cells.size())) << name;
+    if (column >= static_cast<std::ptrdiff_t>(cells.size())) return csv;
     cells.erase(cells.begin() + column);
     for (std::size_t k = 0; k < cells.size(); ++k) out += (k > 0 ? "," : "") + cells[k];
     out += "\n";

@@ -73,20 +73,20 @@ const MappedWorld& corridor()
 
 TEST(Tracker, StandingStillSettlesNothing)
 {
-  standStill(corridor(), Odometry::exact, 51, 10, 3);
-  standStill(office(), Odometry::exact, 52, 40, 1);
+  standStill(corridor(), Odometry::exact, 51, 10, 8);
+  standStill(office(), Odometry::exact, 52, 40, 2);
 }
 
 TEST(Tracker, StandingStillWithJitteringOdometrySettlesNothing)
 {
-  standStill(corridor(), Odometry::jittering, 51, 10, 3);
-  standStill(office(), Odometry::jittering, 52, 40, 1);
+  standStill(corridor(), Odometry::jittering, 51, 10, 8);
+  standStill(office(), Odometry::jittering, 52, 40, 2);
 }
 
 TEST(Tracker, StandingStillWithoutOdometrySettlesNothing)
 {
-  standStill(corridor(), Odometry::none, 53, 10, 3);
-  standStill(office(), Odometry::none, 54, 40, 1);
+  standStill(corridor(), Odometry::none, 53, 10, 8);
+  standStill(office(), Odometry::none, 54, 40, 3);
 }
 }  // namespace
 }  // namespace sigloc

@@ -17,6 +17,8 @@ using mrpt::math::wrapToPi;
 
 namespace
 {
+constexpr double kLeastCell = 0.5;  // [m] of the hash: the means of sightings move
+
 bool areAlike(const Feature& a, const Feature& b)
 {
   return a.type == b.type && a.side == b.side && a.label == b.label &&
@@ -50,7 +52,7 @@ FeatureMerger::FeatureMerger(const MapBuildingOptions& options, std::vector<Merg
     : options_(options),
       walls_(options, std::move(walls)),
       places_(std::move(places)),
-      places_by_cell_(2 * options.merge_point_distance)  // the means move a little
+      places_by_cell_(std::max(kLeastCell, 2 * options.merge_point_distance))
 {
   for (std::uint32_t k = 0; k < places_.size(); ++k)
   {

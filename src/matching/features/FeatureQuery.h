@@ -22,6 +22,11 @@ struct FeatureQuery
                const GeneratorOptions& search_options, const BinaryGates& search_gates,
                MatchingCounters& counted_in);
 
+  /// The features must outlive the query.
+  FeatureQuery(std::vector<Feature>&&, const FeatureVerifier&, MatchingCounters&) = delete;
+  FeatureQuery(std::vector<Feature>&&, const PreparedMap&, const GeneratorOptions&,
+               const BinaryGates&, MatchingCounters&) = delete;
+
   /// Returns how many bases were retrieved since the query began.
   std::uint64_t bases() const { return counters.hypotheses - hypotheses_before; }
 

@@ -99,8 +99,9 @@ class TrackSet
                                 double least) const;
 
   /// Raises the weight of "somewhere else" where a relocation is sure of a pose without a track.
-  /// Not where a track is retained, unless that pose leads by enough. `lead` is that of the best
-  /// candidate without a track over the best with one, in log-odds. Section 8, "Relocate"
+  /// Not where a track is retained, unless that pose leads by enough. `lead` [log-odds] is that of
+  /// the best candidate without a track over the best with one, in a dense field over the best
+  /// track. Section 8, "Relocate"
   void raiseElsewhereIfOverruled(const RelocationResult& result, double lead);
 
   /// Weighs "somewhere else" by the same `lead`, which counts by `fresh_share` in [0, 1]. Then
