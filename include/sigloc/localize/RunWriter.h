@@ -54,10 +54,10 @@ class RunWriter
   /// Where files belong until finish(), pictures of an app included.
   const std::filesystem::path& workFolder() const { return work_; }
 
-  /// Writes belief/<stepName>.CPosePDFSOG and .txt. `anywhere`: LocalizationRun::anywhere(). Throws
-  /// std::runtime_error for a file that cannot be written, as the next two do.
+  /// Writes `belief/step_00012.CPosePDFSOG` and `.txt`. `anywhere`: LocalizationRun::anywhere().
+  /// Throws std::runtime_error for a file that cannot be written, as the next two do.
   void writeBelief(const StepRecord& step, const GaussianPose& anywhere) const;
-  /// Writes 3D/<stepName>.3Dscene.
+  /// Writes `3D/step_00012.3Dscene`.
   void writeScene(const FeatureMap& map, const StepRecord& step, const StepDrawing& drawing) const;
   /// Writes everything that covers the whole run and gives the folder its name.
   void finish(const LocalizationRun& run);
