@@ -24,7 +24,7 @@ enum class Odometry
 };
 
 /// A belief that is ambiguous after its first scan must stay so while the robot stands still. The
-/// same scan again is no new evidence.
+/// same scan again is no new evidence. With other seeds some tip where the odometry jitters.
 void standStill(const MappedWorld& world, Odometry odometry, std::uint64_t seed, int tries,
                 int at_least)
 {
