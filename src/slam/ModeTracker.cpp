@@ -50,7 +50,7 @@ void ModeTracker::forget(bool known)
   schedule_.noteKnownStart();
 }
 
-double ModeTracker::predict(const std::optional<MotionIncrement>& motion)
+Travel ModeTracker::predict(const std::optional<MotionIncrement>& motion)
 {
   motion_ = motion;
   relocation_.move(motion);
@@ -85,7 +85,7 @@ void ModeTracker::gather(const std::vector<ParticleMode>& modes, const Signature
   set_.sort();
 }
 
-bool ModeTracker::judge(const ObservedScene& scene, const SignatureMatcher& matcher, double travel,
+bool ModeTracker::judge(const ObservedScene& scene, const SignatureMatcher& matcher, Travel travel,
                         const std::optional<PoseRegion>& region)
 {
   const DenseVerifier* const verifier = matcher.verifier();
@@ -96,15 +96,17 @@ bool ModeTracker::judge(const ObservedScene& scene, const SignatureMatcher& matc
     set_.scoreInPlace(scan, *verifier);
   }
   if (!motion_) travel = schedule_.travelSeen(set_, set_.isSuspicious(), travel);
-  const double driven = motion_ ? motion_->mean.norm() : travel;
   schedule_.countTravel(travel);
-  schedule_.countSearched(driven);
+  schedule_.countSearched(travel);
   if (verifier != nullptr)
   {
     relocation_.remember(scan, schedule_.travelled());
-    set_.addWayEvidence(scan, schedule_.travelled(), driven);
-    set_.updateUnexplainedShare(travel);
-    if (travel > 0) set_.addToCellEvidence(scan, *verifier, schedule_.travelled());
+    if (travel.with_turns > 0)
+    {
+      set_.addWayEvidence(scan, schedule_.travelled(), travel.distance);
+      set_.updateUnexplainedShare(travel.with_turns);
+      set_.addToCellEvidence(scan, *verifier, schedule_.travelled());
+    }
   }
   bool relocated = schedule_.isDue(set_.isSuspicious());
   if (relocated)
@@ -114,7 +116,7 @@ bool ModeTracker::judge(const ObservedScene& scene, const SignatureMatcher& matc
                     : relocateByFeatures(scene, matcher, region);
   }
   set_.mergeAndPrune();
-  set_.updateMeanScores(travel);
+  set_.updateMeanScores(travel.with_turns);
   return relocated;
 }
 

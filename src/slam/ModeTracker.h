@@ -30,16 +30,16 @@ class ModeTracker
   /// Forgets all modes. A pose that is `known` waits for its first relocation.
   void forget(bool known);
 
-  /// Moves the modes as the robot moved, and returns the travel [m]. Eq. (8.2)
-  double predict(const std::optional<MotionIncrement>& motion);
+  /// Moves the modes as the robot moved, and returns the travel. Eq. (8.2)
+  Travel predict(const std::optional<MotionIncrement>& motion);
 
   /// Takes the modes of the particles. One within 0.75 m and 20 degrees of a mode before keeps its
   /// identity and evidence.
   void gather(const std::vector<ParticleMode>& modes, const SignatureMatcher& matcher);
 
-  /// Judges the modes by a scan that is not blind, after `travel` [m]. Relocates where that is due,
+  /// Judges the modes by a scan that is not blind, after a travel. Relocates where that is due,
   /// within a region if one is given, and returns whether it did. Eq. (8.21)
-  bool judge(const ObservedScene& scene, const SignatureMatcher& matcher, double travel,
+  bool judge(const ObservedScene& scene, const SignatureMatcher& matcher, Travel travel,
              const std::optional<PoseRegion>& region);
 
   /// The poses that the last step's relocation has started, and their shares of the weight of all

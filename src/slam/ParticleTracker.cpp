@@ -53,7 +53,7 @@ const Belief& ParticleTracker::step(const RawlogStep& step)
   if (step.motion)
   {
     motion = *step.motion;
-    const double travel = travelOf(motion.mean, tracking_);
+    const double travel = travelOf(motion.mean, tracking_).with_turns;
     sigma = options_.motion_sigma * std::sqrt(travel);
     turn_sigma = options_.motion_turn_sigma * std::sqrt(travel);
   }

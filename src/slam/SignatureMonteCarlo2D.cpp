@@ -143,10 +143,11 @@ void SignatureMonteCarlo2D::step(const CActionCollection* action, const CSensory
   const ObservedScene scene = sceneOf(observation, extraction_);
   const bool by_features = signatures.verifier() == nullptr && !scene.features.empty();
   const bool blind = !signatures.seesEnoughReturns(scene) && !by_features;
-  const double travel = modes_->predict(motionIn(action));
+  const Travel travel = modes_->predict(motionIn(action));
   // Evidence counts by distance driven, because the errors of map and scan stay the same for a
   // while.
-  filtering.powFactor *= std::min(1.0, travel / tracking_.evidence_distance);  // eq. (9.1)
+  filtering.powFactor *=
+      std::min(1.0, travel.with_turns / tracking_.evidence_distance);  // eq. (9.1)
   relocated_ = false;
   if (!lost_)
   {

@@ -27,8 +27,8 @@ struct HypothesisTracker::State
 
   void startAnew();
   void trackDensely(const std::optional<MotionIncrement>& motion, const ObservedScene& scene,
-                    double travel);
-  void trackByFeatures(const std::optional<MotionIncrement>& motion, double travel);
+                    Travel travel);
+  void trackByFeatures(const std::optional<MotionIncrement>& motion, Travel travel);
   bool seesTooLittle(const ObservedScene& scene) const;
   bool suspicious() const;
   bool doubtful() const;
@@ -101,7 +101,7 @@ const Belief& HypothesisTracker::step(const std::optional<MotionIncrement>& moti
   s.relocated = false;
   const bool sees_enough = s.landmark_tracker ? s.landmark_tracker->addScan(s.set, motion, scene)
                                               : s.matcher->seesEnoughReturns(scene);
-  const double travel = s.set.predict(motion);
+  const Travel travel = s.set.predict(motion);
   s.relocation.move(motion);
   if (!sees_enough)
   {
@@ -120,33 +120,35 @@ const Belief& HypothesisTracker::step(const std::optional<MotionIncrement>& moti
 }
 
 void HypothesisTracker::State::trackDensely(const std::optional<MotionIncrement>& motion,
-                                            const ObservedScene& scene, double travel)
+                                            const ObservedScene& scene, Travel travel)
 {
   const DenseScan scan = makeDenseScan(scene, kUpdateBeams);
   set.refineAndScore(scan, *matcher->verifier());
   if (!motion) travel = schedule.travelSeen(set, suspicious(), travel);
   schedule.countTravel(travel);
-  const double driven = motion ? motion->mean.norm() : travel;
-  schedule.countSearched(driven);
+  schedule.countSearched(travel);
   relocation.remember(scan, schedule.travelled());
-  set.addWayEvidence(scan, schedule.travelled(), driven);
-  set.weighRivals(scan, *matcher->verifier(), schedule.travelled(), travel);
+  if (travel.with_turns > 0)  // the same scan again is no new evidence
+  {
+    set.addWayEvidence(scan, schedule.travelled(), travel.distance);
+    set.weighRivals(scan, *matcher->verifier(), schedule.travelled(), travel.with_turns);
+  }
   if (schedule.isDue(suspicious()))
   {
     relocated = relocation.run(set, schedule, {*matcher, scene, scan, regionToSearch()}, next_id);
   }
   set.mergeAndPrune();
-  set.updateMeanScores(travel);
+  set.updateMeanScores(travel.with_turns);
   rateFirst(scan);
 }
 
 void HypothesisTracker::State::trackByFeatures(const std::optional<MotionIncrement>& motion,
-                                               double travel)
+                                               Travel travel)
 {
-  landmark_tracker->update(set, schedule.travelled() + travel, next_id);
+  landmark_tracker->update(set, schedule.travelled() + travel.with_turns, next_id);
   if (!motion) travel = schedule.travelSeen(set, suspicious(), travel);
   schedule.countTravel(travel);
-  landmark_tracker->weigh(set, travel);
+  landmark_tracker->weigh(set, travel.with_turns);
   if (schedule.isDue(suspicious()))
   {
     const bool settled = belief.verdict == Verdict::localized && !suspicious();
@@ -154,7 +156,7 @@ void HypothesisTracker::State::trackByFeatures(const std::optional<MotionIncreme
   }
   landmark_tracker->remember();
   set.mergeAndPrune();
-  set.updateMeanScores(travel);
+  set.updateMeanScores(travel.with_turns);
   reliability = set.tracks.empty() ? 0 : landmark_tracker->reliabilityOf(set.tracks.front());
 }
 

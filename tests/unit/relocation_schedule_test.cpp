@@ -39,7 +39,7 @@ TEST(RelocationSchedule, WhatWasCutShortWithNothingFoundIsNoAnswer)
   EXPECT_FALSE(schedule.hasSearchedAll());
   EXPECT_FALSE(schedule.isDue(false)) << "it would cost as much again";
   EXPECT_TRUE(schedule.isDue(true));
-  schedule.countTravel(options.relocation_distance);
+  schedule.countTravel({0, options.relocation_distance});
   EXPECT_TRUE(schedule.isDue(false));
   EXPECT_TRUE(schedule.noteResult(answered(true)));
   EXPECT_FALSE(schedule.isWakingUp());

@@ -70,7 +70,7 @@ bool LandmarkTracker::addScan(TrackSet& set, const std::optional<MotionIncrement
 
 void LandmarkTracker::remember()
 {
-  if (!recent_.empty() && travelOf(since_recent_.mean, options_) < kStepTravel) return;
+  if (!recent_.empty() && travelOf(since_recent_.mean, options_).with_turns < kStepTravel) return;
   recent_.push_back({since_recent_, seen_});
   since_recent_ = {};
   if (recent_.size() > kRecentSteps) recent_.pop_front();

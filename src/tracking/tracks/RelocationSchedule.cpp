@@ -4,29 +4,24 @@
 
 #include <algorithm>
 
-#include "tracking/tracks/travel.h"
-
 namespace sigloc
 {
-double RelocationSchedule::travelSeen(const TrackSet& set, bool suspicious, double assumed)
+Travel RelocationSchedule::travelSeen(const TrackSet& set, bool suspicious, const Travel& assumed)
 {
-  constexpr double kMoved = 0.15;  // [m], more than the jitter of the poses of a robot at rest
   if (set.tracks.empty() || suspicious) return assumed;
   const Track& first = set.heaviest();
   if (first.score < 0) return assumed;
   const mrpt::math::TPose2D& pose = first.hypothesis.pose.mean;
-  const bool same = first.hypothesis.id == seen_id_;
-  const double moved = travelBetween(seen_pose_, pose, options_);
-  if (same && moved < kMoved) return 0;
+  if (first.hypothesis.id == seen_id_) return seen_.moveTo(pose, options_);
   seen_id_ = first.hypothesis.id;
-  seen_pose_ = pose;
-  return same ? moved : 0;
+  seen_.startAt(pose);
+  return {};
 }
 
-void RelocationSchedule::countTravel(double travel)
+void RelocationSchedule::countTravel(const Travel& travel)
 {
-  since_relocation_ += travel;
-  travelled_ += travel;
+  since_relocation_ += travel.with_turns;
+  travelled_ += travel.with_turns;
 }
 
 void RelocationSchedule::noteVerdict(bool localized)

@@ -6,6 +6,7 @@
 
 #include "sigloc/tracking/TrackerOptions.h"
 #include "tracking/tracks/TrackSet.h"
+#include "tracking/tracks/travel.h"
 
 namespace sigloc
 {
@@ -15,15 +16,15 @@ class RelocationSchedule
  public:
   explicit RelocationSchedule(const TrackerOptions& options) : options_(options) {}
 
-  /// Returns the travel [m] of a step without odometry, where only the scans show whether the robot
+  /// Returns the travel of a step without odometry, where only the scans show whether the robot
   /// moves. While the heaviest track stays where it is and scores at least 0, another scan is no
   /// new evidence. Where it explains the scans no more, the `assumed` travel counts. Eq. (8.2)
-  double travelSeen(const TrackSet& set, bool suspicious, double assumed);
+  Travel travelSeen(const TrackSet& set, bool suspicious, const Travel& assumed);
 
-  /// Counts the `travel` [m] of a step, turns included.
-  void countTravel(double travel);
-  /// Counts the distance [m] of a step that was driven unlocalized.
-  void countSearched(double driven) { searched_ += driven; }
+  /// Counts the travel of a step, turns included.
+  void countTravel(const Travel& travel);
+  /// Counts the distance of a step that was driven unlocalized.
+  void countSearched(const Travel& travel) { searched_ += travel.distance; }
   /// Notes whether the last step ended *localized*, which ends the search.
   void noteVerdict(bool localized);
 
@@ -56,7 +57,7 @@ class RelocationSchedule
   double since_relocation_ = 0;  // [m]
   double travelled_ = 0;
   double searched_ = 0;
-  std::uint64_t seen_id_ = 0;  // id of the track that was heaviest when the robot last moved
-  mrpt::math::TPose2D seen_pose_;  // pose of that track then
+  std::uint64_t seen_id_ = 0;  // id of the heaviest track at the last step without odometry
+  TravelMeter seen_;  // of that track
 };
 }  // namespace sigloc

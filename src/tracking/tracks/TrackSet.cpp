@@ -55,7 +55,7 @@ bool wouldMerge(const TPose2D& a, const TPose2D& b)
   return withinReach(a, b, kMergeDistance, kMergeAngle);
 }
 
-double TrackSet::predict(const std::optional<MotionIncrement>& motion)
+Travel TrackSet::predict(const std::optional<MotionIncrement>& motion)
 {
   MotionIncrement increment;
   has_odometry_ = motion.has_value();
@@ -73,7 +73,8 @@ double TrackSet::predict(const std::optional<MotionIncrement>& motion)
     increment.covariance(1, 1) = increment.covariance(0, 0);
     increment.covariance(2, 2) = options_.free_turn_sigma * options_.free_turn_sigma;
   }
-  const double travel = motion ? travelOf(increment.mean, options_) : options_.lost_distance;
+  const Travel travel = motion ? meter_.moveTo(ground_, options_)
+                               : Travel{options_.lost_distance, options_.lost_distance};
   for (Track& track : tracks)
   {
     // A robot drives on more steadily than it turns.
@@ -144,7 +145,7 @@ double TrackSet::bestScore() const
 void TrackSet::weighRivals(const DenseScan& scan, const DenseVerifier& verifier, double travelled,
                            double travel)
 {
-  if (tracks.empty() || travel <= 0) return;
+  if (tracks.empty()) return;
   updateUnexplainedShare(travel);
   const std::vector<double> unexplained = addToCellEvidence(scan, verifier, travelled);
   const double least = *std::min_element(unexplained.begin(), unexplained.end());

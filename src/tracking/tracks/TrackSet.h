@@ -12,6 +12,7 @@
 #include "sigloc/tracking/TrackerOptions.h"
 #include "tracking/evidence/ObservedCells.h"
 #include "tracking/tracks/Track.h"
+#include "tracking/tracks/travel.h"
 
 namespace sigloc
 {
@@ -36,9 +37,9 @@ class TrackSet
  public:
   explicit TrackSet(const TrackerOptions& options) : options_(options) {}
 
-  /// Moves every track by the odometry, and without one on as in its last step. Returns the travel
-  /// [m], turns included. Eq. (8.1), (8.2)
-  double predict(const std::optional<MotionIncrement>& motion);
+  /// Moves every track by the odometry, and without one on as in its last step. Returns the travel,
+  /// `lost_distance` without odometry. Eq. (8.1), (8.2)
+  Travel predict(const std::optional<MotionIncrement>& motion);
 
   /// Refines every track by the returns and scores it. Must be called first for every scan.
   /// Eq. (8.3), (8.4)
@@ -49,8 +50,7 @@ class TrackSet
   void scoreInPlace(const DenseScan& scan, const DenseVerifier& verifier);
 
   /// Weighs tracks against each other. The scan is taken after `travelled` [m] in all, `travel` [m]
-  /// after the one before. Where that is 0 nothing changes: the same scan again is no new evidence.
-  /// Includes updateUnexplainedShare(). Eq. (8.5), (8.26)
+  /// after the one before, more than 0. Includes updateUnexplainedShare(). Eq. (8.5), (8.26)
   void weighRivals(const DenseScan& scan, const DenseVerifier& verifier, double travelled,
                    double travel);
 
@@ -166,6 +166,7 @@ class TrackSet
   bool has_odometry_ = true;  // of the last prediction
   // The robot's pose by odometry alone; without odometry, by the heaviest track.
   mrpt::math::TPose2D ground_;
+  TravelMeter meter_;  // of the odometry
   ObservedCells view_;  // of the last scan, from ground_
   double unexplained_ = 0;  // fading mean of the share that the best track leaves unexplained
 };

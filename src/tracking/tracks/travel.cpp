@@ -10,15 +10,20 @@ namespace sigloc
 {
 using mrpt::math::TPose2D;
 
-double travelOf(const TPose2D& motion, const TrackerOptions& options)
+Travel travelOf(const TPose2D& motion, const TrackerOptions& options)
 {
-  return std::hypot(motion.x, motion.y) +
-         std::abs(motion.phi) * options.evidence_distance / options.evidence_turn;
+  const double distance = std::hypot(motion.x, motion.y);
+  return {distance,
+          distance + std::abs(motion.phi) * options.evidence_distance / options.evidence_turn};
 }
 
-double travelBetween(const TPose2D& before, const TPose2D& after, const TrackerOptions& options)
+Travel TravelMeter::moveTo(const TPose2D& pose, const TrackerOptions& options)
 {
-  const double turn = mrpt::math::wrapToPi(after.phi - before.phi);
-  return travelOf({after.x - before.x, after.y - before.y, turn}, options);
+  constexpr double kMoved = 0.15;  // [m], more than the jitter of the poses of a robot at rest
+  const double turn = mrpt::math::wrapToPi(pose.phi - moved_to_.phi);
+  const Travel travel = travelOf({pose.x - moved_to_.x, pose.y - moved_to_.y, turn}, options);
+  if (travel.with_turns < kMoved) return {};
+  moved_to_ = pose;
+  return travel;
 }
 }  // namespace sigloc

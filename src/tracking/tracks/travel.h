@@ -8,12 +8,30 @@
 
 namespace sigloc
 {
-/// Returns the travel [m] of a motion: its distance, and its turn of any sign and size as a
-/// distance. \cite algorithm eq. (8.2)
-double travelOf(const mrpt::math::TPose2D& motion, const TrackerOptions& options);
+/// How far a robot has moved.
+struct Travel
+{
+  double distance = 0;  // [m]
+  double with_turns = 0;  // [m], turns included: D of \cite algorithm eq. (8.2)
+};
 
-/// Returns the travel [m] between two poses, with a turn of less than half a circle.
+/// Returns the travel of a motion: its distance, and its turn of any sign and size as a distance.
 /// \cite algorithm eq. (8.2)
-double travelBetween(const mrpt::math::TPose2D& before, const mrpt::math::TPose2D& after,
-                     const TrackerOptions& options);
+Travel travelOf(const mrpt::math::TPose2D& motion, const TrackerOptions& options);
+
+/// Counts the travel of a robot whose poses jitter. A scan from where the robot stood before is no
+/// new evidence. \cite algorithm eq. (8.2)
+class TravelMeter
+{
+ public:
+  /// Goes on to a pose. Returns the travel to it since the robot last moved, with a turn of less
+  /// than half a circle; none while that is less than 0.15 m.
+  Travel moveTo(const mrpt::math::TPose2D& pose, const TrackerOptions& options);
+
+  /// Starts anew at a pose.
+  void startAt(const mrpt::math::TPose2D& pose) { moved_to_ = pose; }
+
+ private:
+  mrpt::math::TPose2D moved_to_;
+};
 }  // namespace sigloc
