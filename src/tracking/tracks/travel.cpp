@@ -19,7 +19,7 @@ Travel travelOf(const TPose2D& motion, const TrackerOptions& options)
 
 Travel TravelMeter::moveTo(const TPose2D& pose, const TrackerOptions& options)
 {
-  constexpr double kMoved = 0.15;  // [m], more than the jitter of the poses of a robot at rest
+  constexpr double kMoved = 0.1;  // [m], more than the jitter of the poses of a robot at rest
   const double turn = mrpt::math::wrapToPi(pose.phi - moved_to_.phi);
   const Travel travel = travelOf({pose.x - moved_to_.x, pose.y - moved_to_.y, turn}, options);
   if (travel.with_turns < kMoved) return {};

@@ -25,7 +25,7 @@ class TravelMeter
 {
  public:
   /// Goes on to a pose. Returns the travel to it since the robot last moved, with a turn of less
-  /// than half a circle; none while that is less than 0.15 m.
+  /// than half a circle; none while that is less than 0.1 m.
   Travel moveTo(const mrpt::math::TPose2D& pose, const TrackerOptions& options);
 
   /// Starts anew at a pose.
