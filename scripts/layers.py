@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Checks the rules of docs/architecture.md that a compiler does not see.
 
-* Each room includes only the rooms below it, the headers of VOCABULARY and the MRPT modules it may use.
+* Each module includes only the modules below it, the headers of VOCABULARY and the MRPT modules it may use.
 * Public headers, product apps and examples include public headers only.
 * No folder of src/ is crowded, and public headers are few.
 * Files are no longer than MAX_LINES and carry the two SPDX lines.
@@ -21,7 +21,7 @@ import sys
 
 MAX_LINES = 400
 
-# The rooms of src/, lowest first: a room may include itself and the rooms before it in its line.
+# The modules of src/, lowest first: a module may include itself and the modules before it in its line.
 CORE = [
     "config", "geometry", "features", "signature", "map", "map/building",
     "matching/dense", "matching/keypoints", "matching/features", "matching/generation", "matching",
@@ -33,14 +33,14 @@ EVAL = BRIDGE + [
     "eval/methods/features", "eval/methods/particles", "eval/methods", "eval/scoring",
     "eval/protocols", "eval/wakeup", "eval/reports",
 ]  # fmt: skip
-ROOMS = {room: line[: line.index(room) + 1] for line in (EVAL, BRIDGE, CORE) for room in line}
-ROOMS["render"] = BRIDGE + ["render"]
-ROOMS["slam"] = BRIDGE + ["slam"]
-ROOMS["hwdrivers"] = BRIDGE + ["hwdrivers"]
-ROOMS["bindings"] = BRIDGE + ["bindings"]  # of python/
-ROOMS["ros1"] = BRIDGE + ["ros1"]  # of ros/
+MODULES = {module: line[: line.index(module) + 1] for line in (EVAL, BRIDGE, CORE) for module in line}
+MODULES["render"] = BRIDGE + ["render"]
+MODULES["slam"] = BRIDGE + ["slam"]
+MODULES["hwdrivers"] = BRIDGE + ["hwdrivers"]
+MODULES["bindings"] = BRIDGE + ["bindings"]  # of python/
+MODULES["ros1"] = BRIDGE + ["ros1"]  # of ros/
 
-# Headers of types alone that rooms below their own may include, and which rooms.
+# Headers of types alone that modules below their own may include, and which modules.
 VOCABULARY = {
     "sigloc/matching/RelocationResult.h":
         {"matching/dense", "matching/keypoints", "matching/features"},
@@ -61,10 +61,10 @@ MRPT_BRIDGE = MRPT_CORE | {
     "bayes", "containers", "img", "io", "maps", "obs", "opengl", "poses", "random", "rtti",
     "serialization", "system", "tfest", "topography", "typemeta",
 }  # fmt: skip
-MRPT_MODULES = {room: MRPT_CORE if room in CORE else MRPT_BRIDGE for room in ROOMS}
+MRPT_MODULES = {module: MRPT_CORE if module in CORE else MRPT_BRIDGE for module in MODULES}
 MRPT_MODULES["hwdrivers"] = MRPT_BRIDGE | {"hwdrivers"}
 WITH_SLAM = MRPT_BRIDGE | {"slam"}
-MRPT_MODULES |= {room: WITH_SLAM for room in EVAL if room == "slam" or room.startswith("eval/")}
+MRPT_MODULES |= {module: WITH_SLAM for module in EVAL if module == "slam" or module.startswith("eval/")}
 
 # Tests of the core stay as light as the core.
 CORE_TESTS = {"unit", "threads"}
@@ -100,49 +100,49 @@ SPDX = ["SPDX-FileCopyrightText: 2026 the sigloc authors", "SPDX-License-Identif
 SPDX_SUFFIXES = {".h", ".cpp", ".py", ".pyi", ".sh", ".cmake", ".cmake.in", ".gp", ".ini"}
 
 
-def room_of_public(header):
-    """Returns the room of a public header: where the source file of its name lies."""
+def module_of_public(header):
+    """Returns the module of a public header: where the source file of its name lies."""
     part, name = pathlib.PurePath(header).parts[1:3]
-    for room in ROOMS:
-        if room.split("/")[0] == part and (SOURCE / room / name).with_suffix(".cpp").is_file():
-            return room
+    for module in MODULES:
+        if module.split("/")[0] == part and (SOURCE / module / name).with_suffix(".cpp").is_file():
+            return module
     return part
 
 
 def place(path):
-    """Returns (kind, name) of a source file: a room, an app, an example, a kind of test."""
+    """Returns (kind, name) of a source file: a module, an app, an example, a kind of test."""
     parts = path.parts
     if parts[:2] == ("include", "sigloc") and len(parts) == 3:
         return "umbrella", parts[2]
     if parts[0] == "include" and len(parts) == 4:
-        return "room", room_of_public("/".join(parts[1:]))
+        return "module", module_of_public("/".join(parts[1:]))
     if parts[0] == "src" and len(parts) > 2:
-        return "room", "/".join(parts[1:-1])
+        return "module", "/".join(parts[1:-1])
     if parts[0] in ("python", "ros") and len(parts) > 2:
-        return "room", "/".join(parts[1:-1])
+        return "module", "/".join(parts[1:-1])
     if parts[0] == "examples":
         return "examples", path.stem
     if parts[0] in ("apps", "tests") and len(parts) > 2:
         if parts[0] == "apps" and parts[1] == "render":
-            return "room", "render"
+            return "module", "render"
         return parts[0], parts[1]
     return "none", ""
 
 
-def allowed_rooms(kind, name):
-    if kind == "room":
-        return set(ROOMS[name])
+def allowed_modules(kind, name):
+    if kind == "module":
+        return set(MODULES[name])
     if kind in ("examples", "umbrella"):
-        return set(ROOMS["slam"])
+        return set(MODULES["slam"])
     if kind == "apps" and name in PRODUCT_APPS:
-        return set(ROOMS["render"])
+        return set(MODULES["render"])
     if kind == "tests" and name in CORE_TESTS:
         return set(CORE)
-    return set(ROOMS)
+    return set(MODULES)
 
 
-def allowed_modules(kind, name):
-    if kind == "room":
+def allowed_mrpt_modules(kind, name):
+    if kind == "module":
         return MRPT_MODULES[name]
     if kind == "tests" and name in CORE_TESTS:
         return MRPT_CORE
@@ -151,31 +151,31 @@ def allowed_modules(kind, name):
 
 def own_include_violations(path, kind, name, header):
     is_public = header.startswith("sigloc/")
-    room = room_of_public(header) if header.count("/") == 2 and is_public else ""
+    module = module_of_public(header) if header.count("/") == 2 and is_public else ""
     if not is_public:
-        room = str(pathlib.PurePath(header).parent)
-        if room not in ROOMS:
+        module = str(pathlib.PurePath(header).parent)
+        if module not in MODULES:
             beside = path.parent / header  # where a compiler looks first
             if beside.parts[0] == "src" and (ROOT / beside).is_file():
                 yield f"{header}: include from the root, not relative to the folder"
             return
         if path.parts[0] == "include" or kind == "examples" or (
-            kind in ("apps", "room") and path.parts[0] == "apps" and not room.startswith("eval")
+            kind in ("apps", "module") and path.parts[0] == "apps" and not module.startswith("eval")
         ):
             yield f"{header}: is not installed; users' headers, apps and examples do without"
     if is_public and header != "sigloc/sigloc.h" and not (INCLUDED / header).is_file():
         yield f"{header}: no such public header"
-    if header == "sigloc/sigloc.h" and kind == "room":
-        yield f"{header}: includes every room"
-    upward = room not in allowed_rooms(kind, name) and name not in VOCABULARY.get(header, ())
-    if room and upward:
-        yield f"{kind} '{name}' may not include room '{room}' ({header})"
+    if header == "sigloc/sigloc.h" and kind == "module":
+        yield f"{header}: includes every module"
+    upward = module not in allowed_modules(kind, name) and name not in VOCABULARY.get(header, ())
+    if module and upward:
+        yield f"{kind} '{name}' may not include module '{module}' ({header})"
 
 
 def include_violations(path, kind, name, header):
     yield from own_include_violations(path, kind, name, header)
     mrpt = re.match(r"mrpt/([^/]+)[/.]", header)
-    if mrpt and mrpt.group(1) not in allowed_modules(kind, name):
+    if mrpt and mrpt.group(1) not in allowed_mrpt_modules(kind, name):
         yield f"{kind} '{name}' may not include MRPT module '{mrpt.group(1)}' ({header})"
     for pattern, folders, reason in RESTRICTED:
         if re.fullmatch(pattern, header) and kind not in folders and name not in folders:
@@ -188,11 +188,11 @@ def include_violations(path, kind, name, header):
 
 def source_violations(path, lines):
     kind, name = place(path)
-    if kind == "none" or (kind == "room" and name not in ROOMS):
+    if kind == "none" or (kind == "module" and name not in MODULES):
         yield 1, "a source file outside the folders of docs/architecture.md"
         return
     for number, line in enumerate(lines, 1):
-        if kind == "room" and path.name != "main.cpp" and PRINTS.search(line):
+        if kind == "module" and path.name != "main.cpp" and PRINTS.search(line):
             yield number, "the library never prints"
         match = INCLUDE.match(line)
         for reason in include_violations(path, kind, name, match[1]) if match else ():

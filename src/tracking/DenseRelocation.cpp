@@ -32,8 +32,8 @@ bool DenseRelocation::run(TrackSet& set, RelocationSchedule& schedule, const Rel
     return fresh;
   };
   set.shareOutElsewhere(result, new_track);
-  set.weighNewTracks();
-  past_.weighNewcomers(set, scan, verifier, travelled);
+  set.weighNewTracksAmongThemselves();
+  past_.weighNewTracksAgainstOlder(set, scan, verifier, travelled);
   return true;
 }
 }  // namespace sigloc

@@ -92,7 +92,7 @@ LaserScan scanInRoom(const mrpt::math::TPose2D& map_from_robot)
   return scan;
 }
 
-void requireLaws(const Belief& belief)
+void requireLaws(const Belief& belief, double sure)
 {
   double sum = belief.elsewhere;
   for (const TrackedHypothesis& hypothesis : belief.hypotheses)
@@ -109,7 +109,7 @@ void requireLaws(const Belief& belief)
   if (belief.verdict == Verdict::localized)
   {
     require(!belief.hypotheses.empty(), "localized at no pose");
-    require(belief.probability >= kLocalizedProbability - 1e-12, "localized, but not sure");
+    require(belief.probability >= sure - 1e-12, "localized, but not sure");
   }
 }
 

@@ -24,7 +24,8 @@ std::shared_ptr<const SignatureMatcher> matcherIn(const std::shared_ptr<const Fe
 /// The scan from a pose in the room: a full turn of kBeams.
 LaserScan scanInRoom(const mrpt::math::TPose2D& map_from_robot);
 
-/// Throws Finding unless a belief or an answer obeys its laws.
-void requireLaws(const Belief& belief);
+/// Throws Finding unless a belief or an answer obeys its laws. A belief is only *localized* from
+/// the probability `sure` on.
+void requireLaws(const Belief& belief, double sure = kLocalizedProbability);
 void requireLaws(const RelocationResult& result);
 }  // namespace sigloc::fuzz

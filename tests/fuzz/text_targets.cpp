@@ -123,7 +123,8 @@ bool readsSetup(std::string_view bytes)
   for (const double x : {-3.0, -2.9, -2.8})
   {
     const MotionIncrement motion{{0.1, 0, 0}, {}};
-    requireLaws(tracker.step(motion, observeScene({scanInRoom({x, 0, 0.3})}, setup.features)));
+    requireLaws(tracker.step(motion, observeScene({scanInRoom({x, 0, 0.3})}, setup.features)),
+                setup.tracker.localized_probability);
   }
   return true;
 }

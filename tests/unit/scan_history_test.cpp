@@ -90,7 +90,7 @@ double weightOfTheOtherRoom(double kappa, double score)
   }
   followed.hypothesis.pose.mean = pose;
   set.tracks[1].hypothesis.pose.mean = {pose.x + 11, pose.y, pose.phi};
-  history.weighNewcomers(set, scan, verifier, travelled);
+  history.weighNewTracksAgainstOlder(set, scan, verifier, travelled);
   EXPECT_NEAR(set.tracks[0].hypothesis.weight + set.tracks[1].hypothesis.weight, 1, 1e-9);
   return set.tracks[1].hypothesis.weight;
 }

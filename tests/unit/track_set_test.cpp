@@ -219,7 +219,7 @@ TEST(WeighNewTracks, TheMilderOfScoreAndGroundCounts)
   // worse by both, more.
   TrackSet set = setOf({newcomer(0.81, 1, 0), newcomer(0.09, 0.9, 0.2), newcomer(0.09, 0.9, 0.5),
                         newcomer(0.01, 0.8, 6)});
-  set.weighNewTracks();
+  set.weighNewTracksAmongThemselves();
   const double cost = set.costOfUnexplained();
   const double first = set.tracks[0].hypothesis.weight;
   EXPECT_NEAR(set.tracks[1].hypothesis.weight / first, std::exp(-0.2 * cost), 1e-6);
@@ -233,7 +233,7 @@ TEST(WeighNewTracks, TheMilderOfScoreAndGroundCounts)
 TEST(WeighNewTracks, RemembersWhatTheOtherJudgeSaid)
 {
   TrackSet set = setOf({newcomer(0.5, 1, 0), newcomer(0.5, 1, 4)});
-  set.weighNewTracks();
+  set.weighNewTracksAmongThemselves();
   EXPECT_NEAR(set.tracks[1].hypothesis.weight, 0.5, 1e-9);
   EXPECT_NEAR(set.tracks[1].deficit.by_score, 0, 1e-9);
   EXPECT_NEAR(set.tracks[1].deficit.by_cells, -4 * set.costOfUnexplained(), 1e-5);
@@ -244,7 +244,7 @@ TEST(WeighNewTracks, LeavesTracksAloneThatAreOlder)
   TrackSet set = setOf({newcomer(0.6, 1, 0), newcomer(0.3, 0.9, 0.1), newcomer(0.1, 0.8, 0)});
   set.tracks[0].hypothesis.age = 7;
   const double cost = set.costOfUnexplained();
-  set.weighNewTracks();
+  set.weighNewTracksAmongThemselves();
   EXPECT_EQ(set.tracks[0].hypothesis.weight, 0.6);
   EXPECT_EQ(set.tracks[0].deficit.by_cells, 0);
   EXPECT_NEAR(set.tracks[1].hypothesis.weight + set.tracks[2].hypothesis.weight, 0.4, 1e-9);
@@ -256,7 +256,7 @@ TEST(WeighNewTracks, ExpectsChangeWhereTheBestExplainsLittle)
   const auto cost_after = [](double score)
   {
     TrackSet set = setOf({newcomer(1, score, 0)});
-    set.weighNewTracks();
+    set.weighNewTracksAmongThemselves();
     EXPECT_EQ(set.tracks[0].hypothesis.weight, 1);
     return set.costOfUnexplained();
   };
@@ -269,10 +269,10 @@ TEST(WeighNewTracks, ExpectsChangeWhereTheBestExplainsLittle)
 TEST(WeighNewTracks, NoTracksAreNoTrouble)
 {
   TrackSet set = setOf({});
-  set.weighNewTracks();
+  set.weighNewTracksAmongThemselves();
   EXPECT_TRUE(set.tracks.empty());
   set.tracks = {newcomer(0, 1, 0)};
-  set.weighNewTracks();
+  set.weighNewTracksAmongThemselves();
   EXPECT_EQ(set.tracks[0].hypothesis.weight, 0);
 }
 }  // namespace

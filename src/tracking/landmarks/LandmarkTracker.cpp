@@ -165,14 +165,14 @@ bool LandmarkTracker::relocate(TrackSet& set, RelocationSchedule& schedule,
   }
   const auto new_track = [&](std::size_t k) { return startAt(result.candidates[k], next_id++); };
   set.shareOutElsewhere(result, new_track);
-  weighNewcomers(set);
+  weighNewTracksAgainstOlder(set);
   return true;
 }
 
 /// A new track has explained the gathered features already. So has the heaviest older one, and what
 /// came before. The new one may weigh as much where its log-odds are no lower, unless the older one
 /// is retained: look-alikes explain a part of the way as well. Eq. (8.24)
-void LandmarkTracker::weighNewcomers(TrackSet& set) const
+void LandmarkTracker::weighNewTracksAgainstOlder(TrackSet& set) const
 {
   const Track* heaviest = nullptr;
   for (const Track& track : set.tracks)

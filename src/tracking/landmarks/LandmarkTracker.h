@@ -63,7 +63,7 @@ class LandmarkTracker
   };
   std::vector<Feature> gathered() const;
   RelocationResult localize(const std::optional<PoseRegion>& region, bool settled) const;
-  void weighNewcomers(TrackSet& set) const;
+  void weighNewTracksAgainstOlder(TrackSet& set) const;
   Track startAt(const Candidate& candidate, std::uint64_t id) const;
 
   std::shared_ptr<const SignatureMatcher> matcher_;

@@ -130,8 +130,8 @@ CellEvidence ScanHistory::rememberedOf(const std::vector<Visit>& way) const
   return explained;
 }
 
-void ScanHistory::weighNewcomers(TrackSet& set, const DenseScan& scan,
-                                 const DenseVerifier& verifier, double travelled) const
+void ScanHistory::weighNewTracksAgainstOlder(TrackSet& set, const DenseScan& scan,
+                                             const DenseVerifier& verifier, double travelled) const
 {
   const auto lighter = [](const Track& a, const Track& b)
   {

@@ -37,8 +37,8 @@ class ScanHistory
   /// of that one up to a slip takes over its evidence. One that the way refutes gets no weight
   /// while the older track is retained and not suspected. `scan` is the last one, after `travelled`
   /// [m] in all. \cite algorithm eq. (8.24)
-  void weighNewcomers(TrackSet& set, const DenseScan& scan, const DenseVerifier& verifier,
-                      double travelled) const;
+  void weighNewTracksAgainstOlder(TrackSet& set, const DenseScan& scan,
+                                  const DenseVerifier& verifier, double travelled) const;
 
  private:
   struct StoredScan

@@ -184,7 +184,7 @@ void TrackSet::addToCellEvidence(Track& track, const DenseScan& scan, const Dens
   track.explained.addScan(view_, explained, travelled);
 }
 
-void TrackSet::weighNewTracks()
+void TrackSet::weighNewTracksAmongThemselves()
 {
   double dealt = 0;
   double most = 0;

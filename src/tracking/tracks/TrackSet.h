@@ -69,7 +69,7 @@ class TrackSet
 
   /// Weighs the tracks that the last relocation has started against each other by their observed
   /// cells too, where the relocation has used scores alone. Eq. (8.27)
-  void weighNewTracks();
+  void weighNewTracksAmongThemselves();
 
   /// Log-odds that an unexplained cell costs against a rival that explains it. Eq. (8.26)
   double costOfUnexplained() const;
