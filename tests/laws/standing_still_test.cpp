@@ -5,7 +5,6 @@
 #include "sigloc/tracking/HypothesisTracker.h"
 #include "support/followed_drive.h"
 #include "support/simulated_office.h"
-#include "tracking/tracks/travel.h"
 
 namespace sigloc
 {
@@ -89,36 +88,5 @@ TEST(Tracker, StandingStillWithoutOdometrySettlesNothing)
   standStill(corridor(), Odometry::none, 53, 40, 30);
   standStill(office(), Odometry::none, 54, 160, 8);
 }
-TEST(TravelMeter, JitterAtRestIsNoTravel)
-{
-  Random random(61);
-  TravelMeter meter;
-  TPose2D pose;
-  for (int step = 0; step < 300; ++step)
-  {
-    pose =
-        pose + TPose2D{0.002 * random.normal(), 0.002 * random.normal(), 0.001 * random.normal()};
-    EXPECT_EQ(meter.moveTo(pose, TrackerOptions{}).with_turns, 0);
-  }
-}
-
-TEST(TravelMeter, StepsOfAnySizeCountWhatWasDriven)
-{
-  const TrackerOptions options;
-  for (const double step : {0.01, 0.1, 0.4})
-  {
-    TravelMeter meter;
-    Travel sum;
-    for (double x = 0; x < 10; x += step)
-    {
-      const Travel travel = meter.moveTo({x, 0, x}, options);
-      sum.distance += travel.distance;
-      sum.with_turns += travel.with_turns;
-    }
-    EXPECT_NEAR(sum.distance, 10, 0.15 + step);
-    EXPECT_NEAR(sum.with_turns, 10 + 10 * options.evidence_distance / options.evidence_turn, 0.6);
-  }
-}
-
 }  // namespace
 }  // namespace sigloc

@@ -275,5 +275,55 @@ TEST(WeighNewTracks, NoTracksAreNoTrouble)
   set.weighNewTracksAmongThemselves();
   EXPECT_EQ(set.tracks[0].hypothesis.weight, 0);
 }
+
+TEST(TravelMeter, NoiseAroundOnePoseIsNoTravel)
+{
+  std::mt19937_64 random(61);
+  std::uniform_real_distribution<double> noise(-0.02, 0.02);
+  TravelMeter meter;
+  for (int step = 0; step < 10000; ++step)
+  {
+    const mrpt::math::TPose2D pose{noise(random), noise(random), noise(random)};
+    EXPECT_EQ(meter.moveTo(pose, TrackerOptions{}).with_turns, 0);
+  }
+}
+
+TEST(TravelMeter, StepsOfAnySizeCountWhatWasDriven)
+{
+  const TrackerOptions options;
+  for (const double step : {0.01, 0.1, 0.4})
+  {
+    TravelMeter meter;
+    Travel sum;
+    for (double x = 0; x < 10; x += step)
+    {
+      const Travel travel = meter.moveTo({x, 0, x}, options);
+      sum.distance += travel.distance;
+      sum.with_turns += travel.with_turns;
+    }
+    EXPECT_NEAR(sum.distance, 10, 0.15 + step);
+    EXPECT_NEAR(sum.with_turns, 10 + 10 * options.evidence_distance / options.evidence_turn, 0.6);
+  }
+}
+
+TEST(TrackSet, StepsWithoutOdometryAreNotCountedAgainByTheNextOneWithIt)
+{
+  const DenseField field = room();
+  const DenseVerifier verifier(field);
+  Track track;
+  track.hypothesis.pose.mean = {4, 3, 0};
+  track.hypothesis.weight = 1;
+  TrackSet set = setOf({track});
+  for (int step = 0; step < 5; ++step)
+  {
+    set.predict(std::nullopt);
+    set.tracks[0].hypothesis.pose.mean.x += 0.2;
+    set.scoreInPlace(makeDenseScan(lookAround(0), 180), verifier);
+  }
+  EXPECT_EQ(set.predict(MotionIncrement{}).with_turns, 0);
+  MotionIncrement motion;
+  motion.mean = {0.2, 0, 0};
+  EXPECT_NEAR(set.predict(motion).distance, 0.2, 1e-12);
+}
 }  // namespace
 }  // namespace sigloc

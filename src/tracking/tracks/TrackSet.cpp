@@ -112,7 +112,11 @@ void TrackSet::scoreInPlace(const DenseScan& scan, const DenseVerifier& verifier
 void TrackSet::noteObservedCells(const DenseScan& scan)
 {
   for (Track& track : tracks) track.moved = track.hypothesis.pose.mean - track.left;
-  if (!has_odometry_ && !tracks.empty()) ground_ = ground_ + heaviest().moved;
+  if (!has_odometry_ && !tracks.empty())
+  {
+    ground_ = ground_ + heaviest().moved;
+    meter_.startAt(ground_);  // this way is counted as the scans show it
+  }
   view_ = observedCells(scan, ground_);
 }
 

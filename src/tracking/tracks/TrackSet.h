@@ -166,7 +166,7 @@ class TrackSet
   bool has_odometry_ = true;  // of the last prediction
   // The robot's pose by odometry alone; without odometry, by the heaviest track.
   mrpt::math::TPose2D ground_;
-  TravelMeter meter_;  // of the odometry
+  TravelMeter meter_;  // of ground_, for steps with odometry
   ObservedCells view_;  // of the last scan, from ground_
   double unexplained_ = 0;  // fading mean of the share that the best track leaves unexplained
 };
