@@ -52,7 +52,6 @@ void ModeTracker::forget(bool known)
 
 Travel ModeTracker::predict(const std::optional<MotionIncrement>& motion)
 {
-  motion_ = motion;
   relocation_.move(motion);
   return set_.predict(motion);
 }
@@ -85,7 +84,7 @@ void ModeTracker::gather(const std::vector<ParticleMode>& modes, const Signature
   set_.sort();
 }
 
-bool ModeTracker::judge(const ObservedScene& scene, const SignatureMatcher& matcher, Travel travel,
+bool ModeTracker::judge(const ObservedScene& scene, const SignatureMatcher& matcher,
                         const std::optional<PoseRegion>& region)
 {
   const DenseVerifier* const verifier = matcher.verifier();
@@ -95,7 +94,7 @@ bool ModeTracker::judge(const ObservedScene& scene, const SignatureMatcher& matc
     scan = makeDenseScan(scene, kUpdateBeams);
     set_.scoreInPlace(scan, *verifier);
   }
-  if (!motion_) travel = schedule_.travelSeen(set_, set_.isSuspicious(), travel);
+  const Travel travel = set_.travelToScan(set_.isSuspicious());
   schedule_.countTravel(travel);
   schedule_.countSearched(travel);
   if (verifier != nullptr)
@@ -111,9 +110,11 @@ bool ModeTracker::judge(const ObservedScene& scene, const SignatureMatcher& matc
   bool relocated = schedule_.isDue(set_.isSuspicious());
   if (relocated)
   {
-    relocated = verifier != nullptr
-                    ? relocation_.run(set_, schedule_, {matcher, scene, scan, region}, next_id_)
-                    : relocateByFeatures(scene, matcher, region);
+    relocated =
+        verifier != nullptr
+            ? relocation_.run(set_, schedule_,
+                              {matcher, scene, scan, region, travel.with_turns > 0}, next_id_)
+            : relocateByFeatures(scene, matcher, region);
   }
   set_.mergeAndPrune();
   set_.updateMeanScores(travel.with_turns);

@@ -30,16 +30,16 @@ class ModeTracker
   /// Forgets all modes. A pose that is `known` waits for its first relocation.
   void forget(bool known);
 
-  /// Moves the modes as the robot moved, and returns the travel. Eq. (8.2)
+  /// Moves the modes as the robot moved, and returns the travel by odometry. Eq. (8.2)
   Travel predict(const std::optional<MotionIncrement>& motion);
 
   /// Takes the modes of the particles. One within 0.75 m and 20 degrees of a mode before keeps its
   /// identity and evidence.
   void gather(const std::vector<ParticleMode>& modes, const SignatureMatcher& matcher);
 
-  /// Judges the modes by a scan that is not blind, after a travel. Relocates where that is due,
-  /// within a region if one is given, and returns whether it did. Eq. (8.21)
-  bool judge(const ObservedScene& scene, const SignatureMatcher& matcher, Travel travel,
+  /// Judges the modes by a scan that is not blind. Relocates where that is due, within a region if
+  /// one is given, and returns whether it did. Eq. (8.21)
+  bool judge(const ObservedScene& scene, const SignatureMatcher& matcher,
              const std::optional<PoseRegion>& region);
 
   /// The poses that the last step's relocation has started, and their shares of the weight of all
@@ -57,7 +57,6 @@ class ModeTracker
   TrackSet set_;
   DenseRelocation relocation_;
   RelocationSchedule schedule_;
-  std::optional<MotionIncrement> motion_;  // of the last step
   std::uint64_t next_id_ = 1;
 };
 }  // namespace sigloc

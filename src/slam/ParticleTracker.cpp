@@ -10,8 +10,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "tracking/tracks/travel.h"
-
 namespace sigloc
 {
 using mrpt::bayes::CParticleFilter;
@@ -53,7 +51,9 @@ const Belief& ParticleTracker::step(const RawlogStep& step)
   if (step.motion)
   {
     motion = *step.motion;
-    const double travel = travelOf(motion.mean, tracking_).with_turns;
+    ground_ = ground_ + motion.mean;
+    // The poses of a robot at rest jitter. Noise for each of them would drive the particles apart.
+    const double travel = meter_.moveTo(ground_, tracking_).with_turns;
     sigma = options_.motion_sigma * std::sqrt(travel);
     turn_sigma = options_.motion_turn_sigma * std::sqrt(travel);
   }

@@ -9,6 +9,7 @@
 #include "localize/particle_library.h"
 #include "sigloc/io/RawlogReader.h"
 #include "sigloc/slam/SignatureMonteCarlo2D.h"
+#include "tracking/tracks/travel.h"
 
 namespace sigloc
 {
@@ -40,6 +41,8 @@ class ParticleTracker : public LogTracker
  private:
   TrackerOptions tracking_;
   ParticleOptions options_;
+  mrpt::math::TPose2D ground_;  // the robot's pose by odometry alone
+  TravelMeter meter_;  // of it
   SignatureMonteCarlo2D filter_;
   mrpt::bayes::CParticleFilter executor_;
 };

@@ -154,7 +154,7 @@ void SignatureMonteCarlo2D::step(const CActionCollection* action, const CSensory
     update(filtering);
     modes_->gather(modesOf(*this, tracking_.max_hypotheses), signatures);
   }
-  if (!blind) relocated_ = modes_->judge(scene, signatures, travel, lost_ ? region_ : std::nullopt);
+  if (!blind) relocated_ = modes_->judge(scene, signatures, lost_ ? region_ : std::nullopt);
   if (relocated_) drawStarted();
   belief_ = modes_->publish(signatures, blind);
   rememberParticles();

@@ -18,7 +18,7 @@ bool DenseRelocation::run(TrackSet& set, RelocationSchedule& schedule, const Rel
   const double travelled = schedule.travelled();
 
   set.markBestOfMap(result);
-  confirmTracks(set, result, scan, travelled, fresh_share);
+  if (input.moved) confirmTracks(set, result, scan, travelled, fresh_share);
   set.raiseElsewhereIfOverruled(result, leadOfUntracked(set, result));
   const auto new_track = [&](std::size_t k)
   {

@@ -19,6 +19,7 @@ struct RelocationInput
   const ObservedScene& scene;
   const DenseScan& scan;  ///< of the scene
   std::optional<PoseRegion> region;  ///< that the search is limited to, if any
+  bool moved;  ///< since the scan before
 };
 
 /// Relocates tracks in a map with a dense field. A relocation does not depend on the tracks. So it

@@ -26,9 +26,8 @@ struct HypothesisTracker::State
   }
 
   void startAnew();
-  void trackDensely(const std::optional<MotionIncrement>& motion, const ObservedScene& scene,
-                    Travel travel);
-  void trackByFeatures(const std::optional<MotionIncrement>& motion, Travel travel);
+  void trackDensely(const ObservedScene& scene);
+  void trackByFeatures();
   bool seesTooLittle(const ObservedScene& scene) const;
   bool suspicious() const;
   bool doubtful() const;
@@ -101,30 +100,25 @@ const Belief& HypothesisTracker::step(const std::optional<MotionIncrement>& moti
   s.relocated = false;
   const bool sees_enough = s.landmark_tracker ? s.landmark_tracker->addScan(s.set, motion, scene)
                                               : s.matcher->seesEnoughReturns(scene);
-  const Travel travel = s.set.predict(motion);
+  s.set.predict(motion);
   s.relocation.move(motion);
-  if (!sees_enough)
+  if (sees_enough && s.landmark_tracker)
   {
-    s.schedule.countTravel(travel);
+    s.trackByFeatures();
   }
-  else if (s.landmark_tracker)
+  else if (sees_enough)
   {
-    s.trackByFeatures(motion, travel);
-  }
-  else
-  {
-    s.trackDensely(motion, scene, travel);
+    s.trackDensely(scene);
   }
   s.publish(scene);
   return s.belief;
 }
 
-void HypothesisTracker::State::trackDensely(const std::optional<MotionIncrement>& motion,
-                                            const ObservedScene& scene, Travel travel)
+void HypothesisTracker::State::trackDensely(const ObservedScene& scene)
 {
   const DenseScan scan = makeDenseScan(scene, kUpdateBeams);
   set.refineAndScore(scan, *matcher->verifier());
-  if (!motion) travel = schedule.travelSeen(set, suspicious(), travel);
+  const Travel travel = set.travelToScan(suspicious());
   schedule.countTravel(travel);
   schedule.countSearched(travel);
   relocation.remember(scan, schedule.travelled());
@@ -135,18 +129,18 @@ void HypothesisTracker::State::trackDensely(const std::optional<MotionIncrement>
   }
   if (schedule.isDue(suspicious()))
   {
-    relocated = relocation.run(set, schedule, {*matcher, scene, scan, regionToSearch()}, next_id);
+    relocated = relocation.run(
+        set, schedule, {*matcher, scene, scan, regionToSearch(), travel.with_turns > 0}, next_id);
   }
   set.mergeAndPrune();
   set.updateMeanScores(travel.with_turns);
   rateFirst(scan);
 }
 
-void HypothesisTracker::State::trackByFeatures(const std::optional<MotionIncrement>& motion,
-                                               Travel travel)
+void HypothesisTracker::State::trackByFeatures()
 {
-  landmark_tracker->update(set, schedule.travelled() + travel.with_turns, next_id);
-  if (!motion) travel = schedule.travelSeen(set, suspicious(), travel);
+  landmark_tracker->update(set, schedule.travelled(), next_id);
+  const Travel travel = set.travelToScan(suspicious());
   schedule.countTravel(travel);
   landmark_tracker->weigh(set, travel.with_turns);
   if (schedule.isDue(suspicious()))

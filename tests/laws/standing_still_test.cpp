@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include "eval/worlds/LandmarkSimulator.h"
 #include "sigloc/tracking/HypothesisTracker.h"
 #include "support/followed_drive.h"
 #include "support/simulated_office.h"
@@ -25,7 +26,8 @@ enum class Odometry
 
 /// A belief that is ambiguous after its first scan must stay so while the robot stands still. The
 /// same scan again is no new evidence.
-void standStill(const MappedWorld& world, Odometry odometry, std::uint64_t seed, int tries,
+template <class MappedPlace>
+void standStill(const MappedPlace& world, Odometry odometry, std::uint64_t seed, int tries,
                 int at_least)
 {
   Random random(seed);
@@ -69,6 +71,50 @@ const MappedWorld& corridor()
     return MappedWorld(makeWorld(WorldKind::corridor, options, 9), 9);
   }();
   return world;
+}
+
+/// Point landmarks, of which few are in view at a time.
+class LandmarkPlace
+{
+ public:
+  explicit LandmarkPlace(std::uint64_t seed)
+      : world_(makeWorld(WorldKind::points, {}, seed)), simulator_(world_, sensor())
+  {
+    Random random(seed);
+    matcher_ = std::make_shared<SignatureMatcher>(
+        std::make_shared<FeatureMap>(simulator_.mappedLandmarks(random)));
+  }
+  const std::shared_ptr<const SignatureMatcher>& matcher() const { return matcher_; }
+  TPose2D randomPose(Random& random) const
+  {
+    const Bounds& bounds = world_.bounds;
+    return {random.uniform(bounds.x_min, bounds.x_max), random.uniform(bounds.y_min, bounds.y_max),
+            random.uniform(-M_PI, M_PI)};
+  }
+  ObservedScene sceneAt(const TPose2D& pose, Random& random) const
+  {
+    ObservedScene scene;
+    scene.features = simulator_.observe(pose, random).features;
+    return scene;
+  }
+
+ private:
+  static LandmarkSensorOptions sensor()
+  {
+    LandmarkSensorOptions options;
+    options.range = 5;
+    return options;
+  }
+  World world_;
+  LandmarkSimulator simulator_;
+  std::shared_ptr<const SignatureMatcher> matcher_;
+};
+
+TEST(Tracker, StandingStillAmongLandmarksSettlesNothing)
+{
+  const LandmarkPlace place(10);
+  standStill(place, Odometry::exact, 55, 100, 60);
+  standStill(place, Odometry::jittering, 56, 100, 60);
 }
 
 TEST(Tracker, StandingStillSettlesNothing)

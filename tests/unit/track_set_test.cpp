@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -324,6 +325,45 @@ TEST(TrackSet, StepsWithoutOdometryAreNotCountedAgainByTheNextOneWithIt)
   MotionIncrement motion;
   motion.mean = {0.2, 0, 0};
   EXPECT_NEAR(set.predict(motion).distance, 0.2, 1e-12);
+  set.tracks[0].hypothesis.id = 7;
+  set.tracks[0].score = 1;
+  set.travelToScan(false);
+  EXPECT_EQ(set.predict(std::nullopt).distance, TrackerOptions{}.lost_distance);
+  EXPECT_EQ(set.travelToScan(false).distance, 0) << "counted by odometry";
+}
+
+TEST(TravelToScan, ABlindWayCountsAtTheNextScan)
+{
+  TrackSet set = setOf({});
+  MotionIncrement motion;
+  motion.mean = {0.06, 0, 0};
+  double sum = 0;
+  for (int step = 0; step < 100; ++step)
+  {
+    set.predict(motion);
+    if (step % 10 == 9) sum += set.travelToScan(false).distance;
+  }
+  EXPECT_NEAR(sum, 6, 0.13);
+}
+
+TEST(TravelToScan, WithoutOdometryTheTrackShowsTheMotion)
+{
+  Track track;
+  track.hypothesis.id = 7;
+  TrackSet set = setOf({track});
+  const auto travel_at = [&](double x, bool doubted)
+  {
+    set.predict(std::nullopt);
+    set.tracks[0].hypothesis.pose.mean = {x, 0, 0};
+    return set.travelToScan(doubted).distance;
+  };
+  EXPECT_EQ(travel_at(0, false), 0) << "nothing to compare with";
+  EXPECT_EQ(travel_at(0.05, false), 0);
+  EXPECT_NEAR(travel_at(0.2, false), 0.2, 1e-12);
+  EXPECT_NEAR(travel_at(0.2, true), TrackerOptions{}.lost_distance, 1e-12);
+  EXPECT_NEAR(travel_at(0.4, false), 0.2, 1e-12);
+  set.tracks[0].hypothesis.id = 8;
+  EXPECT_EQ(travel_at(5, false), 0) << "another track";
 }
 }  // namespace
 }  // namespace sigloc

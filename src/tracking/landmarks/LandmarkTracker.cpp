@@ -94,7 +94,8 @@ void LandmarkTracker::update(TrackSet& set, double travelled, std::uint64_t& nex
       child.score = ways.front().log_odds;
       child.features.correlation = way.correlation;
       child.features.correlation.forgetBefore(travelled - kMemory);
-      child.features.new_feature_share = way.new_feature_share;
+      child.features.new_feature_share =
+          std::min(1.0, track.features.new_feature_share + way.new_feature_share);
       child.features.paired = way.pairings.size();
       child.features.doubt = std::min(0.0, track.features.doubt + way.log_odds);
       updated.push_back(std::move(child));
@@ -111,7 +112,7 @@ void LandmarkTracker::update(TrackSet& set, double travelled, std::uint64_t& nex
 /// The in-map log-odds grow by new features only. Eq. (8.16) to (8.18)
 void LandmarkTracker::weigh(TrackSet& set, double travel) const
 {
-  if (set.tracks.empty()) return;
+  if (set.tracks.empty() || travel == 0) return;
   const double best = set.bestScore();
   const double between = std::min(1.0, travel / options_.evidence_distance);
   for (Track& track : set.tracks)
@@ -121,6 +122,7 @@ void LandmarkTracker::weigh(TrackSet& set, double travel) const
     const double evidence = kFeatureTempering * track.score;
     const double gain = evidence > 0 ? track.features.new_feature_share * evidence
                                      : between * std::max(evidence, -kMaxAgainst);
+    track.features.new_feature_share = 0;
     track.confirmed = std::clamp(track.confirmed + gain, kMinInMap, kMaxConfirmed);
   }
   const double lost = std::min(1.0, travel / options_.lost_distance);

@@ -6,18 +6,6 @@
 
 namespace sigloc
 {
-Travel RelocationSchedule::travelSeen(const TrackSet& set, bool suspicious, const Travel& assumed)
-{
-  if (set.tracks.empty() || suspicious) return assumed;
-  const Track& first = set.heaviest();
-  if (first.score < 0) return assumed;
-  const mrpt::math::TPose2D& pose = first.hypothesis.pose.mean;
-  if (first.hypothesis.id == seen_id_) return seen_.moveTo(pose, options_);
-  seen_id_ = first.hypothesis.id;
-  seen_.startAt(pose);
-  return {};
-}
-
 void RelocationSchedule::countTravel(const Travel& travel)
 {
   since_relocation_ += travel.with_turns;

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstdint>
-
 #include "sigloc/tracking/TrackerOptions.h"
 #include "tracking/tracks/TrackSet.h"
 #include "tracking/tracks/travel.h"
@@ -15,11 +13,6 @@ class RelocationSchedule
 {
  public:
   explicit RelocationSchedule(const TrackerOptions& options) : options_(options) {}
-
-  /// Returns the travel of a step without odometry, where only the scans show whether the robot
-  /// moves. While the heaviest track stays where it is and scores at least 0, another scan is no
-  /// new evidence. Where it explains the scans no more, the `assumed` travel counts. Eq. (8.2)
-  Travel travelSeen(const TrackSet& set, bool suspicious, const Travel& assumed);
 
   /// Counts the travel of a step, turns included.
   void countTravel(const Travel& travel);
@@ -57,7 +50,5 @@ class RelocationSchedule
   double since_relocation_ = 0;  // [m]
   double travelled_ = 0;
   double searched_ = 0;
-  std::uint64_t seen_id_ = 0;  // id of the heaviest track at the last step without odometry
-  TravelMeter seen_;  // of that track
 };
 }  // namespace sigloc

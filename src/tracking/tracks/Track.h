@@ -25,7 +25,8 @@ struct FeatureMemory
 {
   SchmidtKalmanFilter correlation;
   std::size_t paired = 0;  // pairings of the last step
-  double new_feature_share = 0;  // share of them with features not paired within the last 10 m
+  // Share of pairings with features not paired within the last 10 m, summed since the last travel.
+  double new_feature_share = 0;
   double doubt = 0;  // log-odds lately lost against clutter, at most 0, eq. (8.20)
 };
 

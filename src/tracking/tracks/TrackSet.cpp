@@ -85,7 +85,23 @@ Travel TrackSet::predict(const std::optional<MotionIncrement>& motion)
     ++track.hypothesis.age;
     track.found = false;
   }
+  waiting_.distance += travel.distance;
+  waiting_.with_turns += travel.with_turns;
   return travel;
+}
+
+Travel TrackSet::travelToScan(bool doubted)
+{
+  const Travel travel = waiting_;
+  waiting_ = {};
+  if (tracks.empty()) return travel;
+  const TrackedHypothesis& first = heaviest().hypothesis;
+  const bool shown = !has_odometry_ && !doubted && heaviest().score >= 0;
+  if (!shown && !has_odometry_) return travel;
+  if (shown && first.id == seen_id_) return seen_.moveTo(first.pose.mean, options_);
+  seen_id_ = first.id;
+  seen_.startAt(first.pose.mean);
+  return shown ? Travel{} : travel;
 }
 
 void TrackSet::refineAndScore(const DenseScan& scan, const DenseVerifier& verifier)

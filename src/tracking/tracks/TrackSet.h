@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -37,9 +38,16 @@ class TrackSet
  public:
   explicit TrackSet(const TrackerOptions& options) : options_(options) {}
 
-  /// Moves every track by the odometry, and without one on as in its last step. Returns the travel,
-  /// `lost_distance` without odometry. Eq. (8.1), (8.2)
+  /// Moves every track by the odometry, and without one on as in its last step. Returns the travel
+  /// by odometry, `lost_distance` without one. Eq. (8.1), (8.2)
   Travel predict(const std::optional<MotionIncrement>& motion);
+
+  /// Returns the travel to the last scan from the one before that was asked for. Without odometry
+  /// only the scans show it: while the heaviest track stays where it is and scores at least 0,
+  /// another scan is no new evidence. Where it explains the scans no more, or is `doubted`, the
+  /// travel of predict() counts. Must be called once for every scan that sees enough, after the
+  /// tracks are scored. Eq. (8.2)
+  Travel travelToScan(bool doubted);
 
   /// Refines every track by the returns and scores it. Must be called first for every scan.
   /// Eq. (8.3), (8.4)
@@ -167,6 +175,9 @@ class TrackSet
   // The robot's pose by odometry alone; without odometry, by the heaviest track.
   mrpt::math::TPose2D ground_;
   TravelMeter meter_;  // of ground_, for steps with odometry
+  Travel waiting_;  // since the last scan that saw enough
+  TravelMeter seen_;  // of the heaviest track, for steps without odometry
+  std::uint64_t seen_id_ = 0;  // of that track
   ObservedCells view_;  // of the last scan, from ground_
   double unexplained_ = 0;  // fading mean of the share that the best track leaves unexplained
 };
