@@ -262,8 +262,14 @@ TEST(FeatureTracking, WhereNothingIsMappedAClaimStands)
   for (const TPoint2D& p : kUnique) map.push_back(landmarkAt(p, 0.01));
   HypothesisTracker tracker(
       std::make_shared<const SignatureMatcher>(std::make_shared<const FeatureMap>(map)));
-  MotionIncrement still;
-  for (int step = 0; step < 3; ++step) tracker.step(still, sceneOf(kUnique));
+  for (const double x : {-0.6, -0.3, 0.0})
+  {
+    MotionIncrement drive;
+    drive.mean = {0.3, 0, 0};
+    std::vector<TPoint2D> seen;
+    for (const TPoint2D& p : kUnique) seen.emplace_back(p.x - x, p.y);
+    tracker.step(drive, sceneOf(seen));
+  }
   ASSERT_EQ(tracker.belief().verdict, Verdict::localized);
   Random random(5, 1);
   for (int step = 1; step <= 8; ++step)
