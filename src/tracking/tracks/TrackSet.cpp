@@ -85,8 +85,7 @@ Travel TrackSet::predict(const std::optional<MotionIncrement>& motion)
     ++track.hypothesis.age;
     track.found = false;
   }
-  waiting_.distance += travel.distance;
-  waiting_.with_turns += travel.with_turns;
+  waiting_ = {travel.distance, waiting_.with_turns + travel.with_turns};
   return travel;
 }
 

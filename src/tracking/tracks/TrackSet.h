@@ -42,7 +42,8 @@ class TrackSet
   /// by odometry, `lost_distance` without one. Eq. (8.1), (8.2)
   Travel predict(const std::optional<MotionIncrement>& motion);
 
-  /// Returns the travel to the last scan from the one before that was asked for. Without odometry
+  /// Returns the travel to the last scan from the one before that was asked for. Its distance is
+  /// that of the last step alone: a way on which nothing is seen is not followed. Without odometry
   /// only the scans show it: while the heaviest track stays where it is and scores at least 0,
   /// another scan is no new evidence. Where it explains the scans no more, or is `doubted`, the
   /// travel of predict() counts. Must be called once for every scan that sees enough, after the
