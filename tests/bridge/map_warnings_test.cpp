@@ -4,7 +4,10 @@
 #include <mrpt/maps/CSimpleMap.h>
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 
+#include <algorithm>
 #include <limits>
+#include <stdexcept>
+#include <string>
 #include <variant>
 
 #include "bridge/rawlog_files.h"
@@ -99,4 +102,33 @@ TEST(MapWarnings, TellOfMapsThatCannotBeMeant)
             std::string::npos);
   EXPECT_NE(warningOfMap(FeatureMap(std::vector<Feature>(3))).find("only 3 features"),
             std::string::npos);
+}
+
+TEST(MapWarnings, AnInvertedMapWithoutAFeatureIsToldForWhatItIs)
+{
+  constexpr int kSide = 120;
+  const TemporaryFolder folder;
+  std::string image = "P5\n120 120\n255\n";
+  for (int y = 0; y < kSide; ++y)
+  {
+    for (int x = 0; x < kSide; ++x)
+    {
+      const int depth = std::min({x, y, kSide - 1 - x, kSide - 1 - y});  // into the room
+      image.push_back(static_cast<char>(depth < 20 ? 205 : depth < 22 ? 0 : 254));
+    }
+  }
+  writeText(folder / "m.pgm", image);
+  writeText(folder / "m.yaml",
+            "image: m.pgm\nresolution: 0.1\norigin: [0, 0, 0]\nnegate: 1\n"
+            "occupied_thresh: 0.65\nfree_thresh: 0.196\n");
+  try
+  {
+    buildMapFromFile(folder / "m.yaml", {}, {});
+    FAIL() << "a map without a wall was taken";
+  }
+  catch (const std::runtime_error& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("colours inverted"), std::string::npos)
+        << error.what();
+  }
 }

@@ -323,7 +323,7 @@ FeatureMap buildMapFromFile(const std::filesystem::path& path, const MapBuilding
   FeatureMap map = kindOf(path) == MapKind::sigmap
                        ? loadSigmap(path)
                        : build(path, building, extraction, reading, progress);
-  if (map.empty()) detail::fail(path, "no feature found in it");
+  if (map.empty()) detail::fail(path, "no feature found in it: it " + warningOfMap(map));
   return map;
 }
 

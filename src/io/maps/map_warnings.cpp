@@ -33,6 +33,7 @@ std::string warningOfMap(const FeatureMap& map)
     }
   }
   if (map.features().size() >= kFewFeatures) return {};
-  return fmt::format("has only {} features, too few to localize in", map.features().size());
+  return fmt::format("has only {} features, too few to localize in{}", map.features().size(),
+                     map.field() ? "; is its resolution in metres?" : "");
 }
 }  // namespace sigloc
