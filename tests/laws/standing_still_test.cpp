@@ -21,14 +21,15 @@ enum class Odometry
 {
   none,
   exact,
-  jittering
+  jittering,
+  gaps  // exact, but between two scans is a step without odometry in which nothing is seen
 };
 
 /// A belief that is ambiguous after its first scan must stay so while the robot stands still. The
 /// same scan again is no new evidence.
 template <class MappedPlace>
 void standStill(const MappedPlace& world, Odometry odometry, std::uint64_t seed, int tries,
-                int at_least)
+                int at_least, int at_most_tipped = 0)
 {
   Random random(seed);
   int ambiguous = 0;
@@ -39,6 +40,7 @@ void standStill(const MappedPlace& world, Odometry odometry, std::uint64_t seed,
     HypothesisTracker tracker(world.matcher());
     const auto step = [&]() -> const Belief&
     {
+      if (odometry == Odometry::gaps) tracker.step(std::nullopt, {});
       std::optional<MotionIncrement> motion;
       if (odometry != Odometry::none) motion.emplace();
       if (odometry == Odometry::jittering)
@@ -59,7 +61,7 @@ void standStill(const MappedPlace& world, Odometry odometry, std::uint64_t seed,
     }
   }
   EXPECT_GE(ambiguous, at_least);
-  EXPECT_EQ(tipped, 0) << "of " << ambiguous;
+  EXPECT_LE(tipped, at_most_tipped) << "of " << ambiguous;
 }
 
 const MappedWorld& corridor()
@@ -127,6 +129,13 @@ TEST(Tracker, StandingStillWithJitteringOdometrySettlesNothing)
 {
   standStill(corridor(), Odometry::jittering, 51, 40, 30);
   standStill(office(), Odometry::jittering, 52, 160, 8);
+}
+
+TEST(Tracker, StandingStillWithGapsSettlesNothing)
+{
+  // Without odometry tracks may move into each other. Their weights then add up.
+  standStill(corridor(), Odometry::gaps, 61, 40, 30, 1);
+  standStill(office(), Odometry::gaps, 62, 160, 5);
 }
 
 TEST(Tracker, StandingStillWithoutOdometrySettlesNothing)

@@ -350,6 +350,15 @@ TEST(TravelToScan, ABlindWayCountsAtTheNextScan)
   EXPECT_LE(sum.distance, 1.2) << "nothing was seen on the rest of the way";
 }
 
+TEST(TravelToScan, BlindStepsWithoutOdometryAreNoTravel)
+{
+  TrackSet set = setOf({Track{}});
+  for (int step = 0; step < 10; ++step) set.predict(std::nullopt);
+  set.predict(MotionIncrement{});
+  EXPECT_EQ(set.travelToScan(false).with_turns, 0);
+  EXPECT_EQ(set.travelToScan(true).with_turns, 0);
+}
+
 TEST(TravelToScan, WithoutOdometryTheTrackShowsTheMotion)
 {
   Track track;

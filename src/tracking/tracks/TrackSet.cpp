@@ -85,14 +85,16 @@ Travel TrackSet::predict(const std::optional<MotionIncrement>& motion)
     ++track.hypothesis.age;
     track.found = false;
   }
-  waiting_ = {travel.distance, waiting_.with_turns + travel.with_turns};
+  last_ = travel;
+  // What no odometry tells does not wait: the robot may have stood still.
+  if (motion) waiting_ += travel.with_turns;
   return travel;
 }
 
 Travel TrackSet::travelToScan(bool doubted)
 {
-  const Travel travel = waiting_;
-  waiting_ = {};
+  const Travel travel = has_odometry_ ? Travel{last_.distance, waiting_} : last_;
+  waiting_ = 0;
   if (tracks.empty()) return travel;
   const TrackedHypothesis& first = heaviest().hypothesis;
   const bool shown = !has_odometry_ && !doubted && heaviest().score >= 0;

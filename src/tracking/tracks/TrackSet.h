@@ -176,7 +176,8 @@ class TrackSet
   // The robot's pose by odometry alone; without odometry, by the heaviest track.
   mrpt::math::TPose2D ground_;
   TravelMeter meter_;  // of ground_, for steps with odometry
-  Travel waiting_;  // since the last scan that saw enough
+  Travel last_;  // of the last prediction
+  double waiting_ = 0;  // [m] by odometry, turns included, since the last scan that saw enough
   TravelMeter seen_;  // of the heaviest track, for steps without odometry
   std::uint64_t seen_id_ = 0;  // of that track
   ObservedCells view_;  // of the last scan, from ground_
