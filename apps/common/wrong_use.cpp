@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "manual.h"
@@ -37,6 +38,27 @@ bool lacksCommand(const CLI::App& app)
   return app.get_require_subcommand_min() > 0 && app.get_subcommands().empty();
 }
 
+bool endsWith(const std::string& text, const std::string& end)
+{
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+/// Returns a hint at the known option that ends as the given one does, as --log and --rawlog, or an
+/// empty text.
+std::string endingAlike(const std::string& option, const std::vector<std::string>& known)
+{
+  constexpr std::size_t kDashes = 2;
+  constexpr std::size_t kShortest = 3;  // letters that must be alike
+  for (const std::string& name : known)
+  {
+    if (std::min(option.size(), name.size()) < kDashes + kShortest || name[0] != '-') continue;
+    const std::string stem = name.substr(kDashes);
+    const std::string given = option.substr(kDashes);
+    if (endsWith(stem, given) || endsWith(given, stem)) return "; did you mean '" + name + "'?";
+  }
+  return {};
+}
+
 /// What is wrong with the first word that the program does not know.
 std::string unknownWord(const CLI::App& app)
 {
@@ -51,7 +73,9 @@ std::string unknownWord(const CLI::App& app)
   {
     for (const std::string& name : shown->get_lnames()) known.push_back("--" + name);
   }
-  const std::string hint = didYouMean(word.substr(0, word.find('=')), known);
+  const std::string name = word.substr(0, word.find('='));
+  std::string hint = didYouMean(name, known);
+  if (option && hint.empty()) hint = endingAlike(name, known);
   if (!hint.empty()) return what + word + hint;
   return what + word + (option || command ? "; see --help" : "; type: " + usage(app));
 }

@@ -123,6 +123,10 @@ TEST(CommandLine, misspeltOptionsAndCommandsAreTold)
                 "no such option: --mpa; did you mean '--map'?");
   expectOneLine(folder, "sigloc-localize", {"--map", "x", "--log", "y", "--ouput=z"},
                 "no such option: --ouput=z; did you mean '--out'?");
+  expectOneLine(folder, "sigloc-localize", {"--map", "x", "--rawlog", "y"},
+                "no such option: --rawlog; did you mean '--log'?");
+  expectOneLine(folder, "sigloc-eval", {"track", "--map", "x", "--log", "y"},
+                "no such option: --log; did you mean '--rawlog'?");
   expectOneLine(folder, "sigloc-localize", {"a.ini", "b.rawlog", "c"},
                 "one argument too many: c; type: sigloc-localize [OPTIONS] [CONFIG.ini] "
                 "[DATASET.rawlog]");
