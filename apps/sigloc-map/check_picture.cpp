@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
+#include <utility>
+#include <vector>
 
 #include "metres_text.h"
 #include "RasterPicture.h"
@@ -154,17 +157,54 @@ std::vector<TwinLabel> drawTwins(RasterPicture& picture, const std::vector<Twins
   return labels;
 }
 
-void drawPlace(RasterPicture& picture, const CheckedPlace& place,
-               const std::vector<TwinLabel>& labels)
+/// Crosses the places where the robot is fooled.
+void drawFooled(RasterPicture& picture, const MapCheck& check)
 {
-  const auto at = picture.pixelOf({place.pose.x, place.pose.y});
-  if (place.fooled > 0) drawCross(picture, at.first, at.second);
-  if (!place.drive) return;
-  const bool covered =
-      std::any_of(labels.begin(), labels.end(),
-                  [&](const TwinLabel& label) { return label.covers(at.first, at.second); });
-  const int beside = covered ? 2 * kLabelRadius : -6;
-  picture.put(at.first + beside, at.second - 10, metresText(*place.drive), kText);
+  for (const CheckedPlace& place : check.places)
+  {
+    if (place.fooled == 0) continue;
+    const auto at = picture.pixelOf({place.pose.x, place.pose.y});
+    drawCross(picture, at.first, at.second);
+  }
+}
+
+/// Writes how far to drive, the longest ways first. A number that would touch another
+/// one, or a label, is left out.
+void writeDrives(RasterPicture& picture, const MapCheck& check,
+                 const std::vector<TwinLabel>& labels)
+{
+  constexpr int kWidth = 32;  // [pixels] of a number
+  constexpr int kHeight = 20;
+  std::vector<const CheckedPlace*> places;
+  for (const CheckedPlace& place : check.places)
+  {
+    if (place.drive) places.push_back(&place);
+  }
+  std::stable_sort(places.begin(), places.end(),
+                   [](const CheckedPlace* a, const CheckedPlace* b)
+                   { return *a->drive > *b->drive; });
+  std::vector<std::pair<int, int>> written;
+  written.reserve(labels.size() + places.size());
+  for (const TwinLabel& label : labels)
+    written.emplace_back(label.column - kLabelRadius, label.row - kLabelRadius);
+  for (const CheckedPlace* place : places)
+  {
+    auto at = picture.pixelOf({place->pose.x, place->pose.y});
+    const bool covered =
+        std::any_of(labels.begin(), labels.end(),
+                    [&](const TwinLabel& label) { return label.covers(at.first, at.second); });
+    at.first += covered ? 2 * kLabelRadius : -6;
+    at.second -= 10;
+    const bool touches = std::any_of(written.begin(), written.end(),
+                                     [&](const std::pair<int, int>& other)
+                                     {
+                                       return std::abs(other.first - at.first) < kWidth &&
+                                              std::abs(other.second - at.second) < kHeight;
+                                     });
+    if (touches) continue;
+    written.push_back(at);
+    picture.put(at.first, at.second, metresText(*place->drive), kText);
+  }
 }
 
 void drawTexts(RasterPicture& picture, const std::string& title)
@@ -192,7 +232,8 @@ CImage checkPicture(const MapCheck& check, const DenseField& field, const std::s
   const PlaceColors colors(check, field);
   picture.paint([&](const TPoint2D& place) { return colors.at(place); });
   const std::vector<TwinLabel> labels = drawTwins(picture, check.twins);
-  for (const CheckedPlace& place : check.places) drawPlace(picture, place, labels);
+  drawFooled(picture, check);
+  writeDrives(picture, check, labels);
   picture.drawAxes();
   drawTexts(picture, title);
   return std::move(picture.image());
