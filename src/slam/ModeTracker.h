@@ -30,7 +30,7 @@ class ModeTracker
   /// Forgets all modes. A pose that is `known` waits for its first relocation.
   void forget(bool known);
 
-  /// Moves the modes as the robot moved, and returns the travel by odometry. Eq. (8.2)
+  /// Moves the modes as the robot moved. Returns the same as TrackSet::predict(). Eq. (8.2)
   Travel predict(const std::optional<MotionIncrement>& motion);
 
   /// Takes the modes of the particles. One within 0.75 m and 20 degrees of a mode before keeps its

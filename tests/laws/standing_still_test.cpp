@@ -133,7 +133,7 @@ TEST(Tracker, StandingStillWithJitteringOdometrySettlesNothing)
 
 TEST(Tracker, StandingStillWithGapsSettlesNothing)
 {
-  // Without odometry tracks may move into each other. Their weights then add up.
+  // One belief is at 0.9900, and gains 0.0003 as a light track goes.
   standStill(corridor(), Odometry::gaps, 61, 40, 30, 1);
   standStill(office(), Odometry::gaps, 62, 160, 5);
 }

@@ -26,6 +26,9 @@ std::string warningOfMetricMap(const std::filesystem::path& path);
 /// True for a file whose object is a CMultiMetricMap.
 bool isMultiMap(const std::filesystem::path& path);
 
+/// Returns what is odd of a field's areas and scale, as warningOfMap() does, or an empty text.
+std::string warningOfField(const DenseField& field);
+
 /// Throws for a raster without a wall or a free cell, or with cells of an unusable size.
 void requireWallAndFree(const OccupancyRaster& raster, const std::filesystem::path& path);
 

@@ -323,7 +323,11 @@ FeatureMap buildMapFromFile(const std::filesystem::path& path, const MapBuilding
   FeatureMap map = kindOf(path) == MapKind::sigmap
                        ? loadSigmap(path)
                        : build(path, building, extraction, reading, progress);
-  if (map.empty()) detail::fail(path, "no feature found in it: it " + warningOfMap(map));
+  if (map.empty())
+  {
+    const std::string odd = map.field() ? detail::warningOfField(*map.field()) : "";
+    detail::fail(path, "no feature found in it" + (odd.empty() ? "" : "; it " + odd));
+  }
   return map;
 }
 
