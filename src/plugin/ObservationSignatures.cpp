@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <ostream>
+#include <string>
 #include <utility>
 
 #include "io/archive_values.h"
@@ -23,6 +24,8 @@ IMPLEMENTS_SERIALIZABLE(ObservationSignatures, mrpt::obs::CObservation, sigloc)
 
 namespace sigloc
 {
+using mrpt::math::TPoint2D;
+using mrpt::math::TPoint2Df;
 using mrpt::math::TPose2D;
 using mrpt::poses::CPose2D;
 using mrpt::poses::CPose3D;
@@ -66,6 +69,26 @@ std::string textOf(const Relation& relation)
                      key.is_angle ? mrpt::RAD2DEG(key.value) : key.value,
                      key.is_angle ? mrpt::RAD2DEG(sigma) : sigma, key.is_angle ? "deg" : "m");
 }
+
+std::vector<TPoint2Df> readReturns(CArchive& in)
+{
+  constexpr float kFarthest = 2 * kFarthestReturn;  // the laser sits up to that far from the robot
+  std::uint32_t count = 0;
+  in >> count;
+  std::vector<TPoint2Df> points;
+  // Grown as they come: a hostile count must not allocate memory that the file has no data for.
+  for (std::uint32_t k = 0; k < count; ++k)
+  {
+    TPoint2Df point;
+    in >> point.x >> point.y;
+    if (!(std::abs(point.x) <= kFarthest && std::abs(point.y) <= kFarthest))
+    {
+      throw detail::BadContent("return " + std::to_string(k) + " has no place near the robot");
+    }
+    points.push_back(point);
+  }
+  return points;
+}
 }  // namespace
 
 ObservationSignatures::ObservationSignatures(const mrpt::obs::CObservation2DRangeScan& scan,
@@ -74,7 +97,11 @@ ObservationSignatures::ObservationSignatures(const mrpt::obs::CObservation2DRang
 {
   timestamp = scan.timestamp;
   sensorLabel = source_label + "_SIGNATURES";
-  if (const auto laser = toLaserScan(scan)) features = observeScene({*laser}, options).features;
+  const auto laser = toLaserScan(scan);
+  if (!laser) return;
+  ObservedScene seen = observeScene({*laser}, options);
+  features = std::move(seen.features);
+  for (const BeamEnd& beam : seen.beams) returns.emplace_back(TPoint2Df(beam.point));
 }
 
 void ObservationSignatures::getSensorPose(CPose3D& pose) const
@@ -88,6 +115,10 @@ void ObservationSignatures::setSensorPose(const CPose3D& pose)
   const TPose2D is = CPose2D(pose).asTPose();
   const TPose2D now_from_before = is + (TPose2D(0, 0, 0) - was);
   for (Feature& feature : features) feature = transformed(now_from_before, feature);
+  for (TPoint2Df& point : returns)
+  {
+    point = TPoint2Df(now_from_before.composePoint(TPoint2D(point)));
+  }
   robot_from_sensor_ = pose;
 }
 
@@ -133,20 +164,17 @@ std::string ObservationSignatures::exportTxtDataRow() const
 
 void ObservationSignatures::getVisualizationInto(mrpt::opengl::CSetOfObjects& scene) const
 {
-  ObservedScene observed;
-  observed.features = features;
-  StepDrawing drawing;
-  drawing.observed = &observed;
-  drawing.observed_at = TPose2D(0, 0, 0);
-  drawing.line_width = 0.04;
-  auto objects = drawStep(drawing);
+  ObservedScene seen;
+  seen.features = features;
+  for (const TPoint2Df& point : returns) seen.beams.push_back({TPoint2D(point)});
+  auto objects = drawObservation(seen);
   objects->setLocation(0, 0, robot_from_sensor_.z());
   scene.insert(objects);
 }
 
 std::uint8_t ObservationSignatures::serializeGetVersion() const
 {
-  return 0;
+  return 1;  // 0: no returns
 }
 
 void ObservationSignatures::serializeTo(CArchive& out) const
@@ -154,11 +182,13 @@ void ObservationSignatures::serializeTo(CArchive& out) const
   out << timestamp << sensorLabel << source_label << robot_from_sensor_
       << static_cast<std::uint32_t>(features.size());
   for (const Feature& feature : features) detail::writeFeature(feature, out);
+  out << static_cast<std::uint32_t>(returns.size());
+  for (const TPoint2Df& point : returns) out << point.x << point.y;
 }
 
 void ObservationSignatures::serializeFrom(CArchive& in, std::uint8_t version)
 {
-  if (version != 0) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
+  if (version > 1) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
   constexpr std::uint32_t kLongestLabel = 1U << 12U;
   in >> timestamp;
   std::string label = detail::readText(in, kLongestLabel);
@@ -169,7 +199,9 @@ void ObservationSignatures::serializeFrom(CArchive& in, std::uint8_t version)
   {
     throw detail::BadContent("ObservationSignatures of a sensor that is not on the robot");
   }
-  features = detail::readFeatures(in);
+  std::vector<Feature> read_features = detail::readFeatures(in);
+  returns = version >= 1 ? readReturns(in) : std::vector<TPoint2Df>();
+  features = std::move(read_features);
   sensorLabel = std::move(label);
   source_label = std::move(source);
   robot_from_sensor_ = robot_from_sensor;

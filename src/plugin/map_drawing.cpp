@@ -24,6 +24,7 @@ using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
 
 // From below to above; the distances only order the layers, seen from straight above.
+constexpr double kFloorHeight = 0.0;
 constexpr double kMapHeight = 0.1;
 constexpr double kPathHeight = 0.2;
 constexpr double kScanHeight = 0.3;
@@ -166,6 +167,15 @@ mrpt::opengl::CSetOfObjects::Ptr drawBelief(const Belief& belief, const StepDraw
   return batch.object();
 }
 
+void addReturns(TriangleBatch& batch, const ObservedScene& observed, const TPose2D& map_from_robot,
+                double width)
+{
+  for (const BeamEnd& beam : observed.beams)
+  {
+    batch.addSquare(map_from_robot.composePoint(beam.point), 1.2 * width, Palette::kReturns);
+  }
+}
+
 mrpt::opengl::CSetOfObjects::Ptr drawScan(const ObservedScene& observed,
                                           const TPose2D& map_from_robot, double width)
 {
@@ -174,9 +184,35 @@ mrpt::opengl::CSetOfObjects::Ptr drawScan(const ObservedScene& observed,
   {
     addFeature(batch, transformed(map_from_robot, feature), 1.4 * width, false, Palette::kObserved);
   }
-  for (const BeamEnd& beam : observed.beams)
+  addReturns(batch, observed, map_from_robot, width);
+  return batch.object();
+}
+
+/// Pale squares of 10 m below all that is seen within 100 m.
+mrpt::opengl::CSetOfObjects::Ptr drawFloor(const ObservedScene& seen)
+{
+  constexpr double kSide = 10.0;  // [m]
+  constexpr double kFarthest = 100.0;  // [m]
+  constexpr double kRim = 1.0;  // [m]
+  TPoint2D low(0, 0);
+  TPoint2D high(0, 0);
+  const auto include = [&](const TPoint2D& point)
   {
-    batch.addSquare(map_from_robot.composePoint(beam.point), 1.2 * width, Palette::kReturns);
+    low = {std::min(low.x, point.x), std::min(low.y, point.y)};
+    high = {std::max(high.x, point.x), std::max(high.y, point.y)};
+  };
+  for (const BeamEnd& beam : seen.beams) include(beam.point);
+  for (const Feature& feature : seen.features) include(feature.position);
+  const auto cell = [&](double at)
+  { return static_cast<int>(std::floor(std::clamp(at, -kFarthest, kFarthest) / kSide)); };
+  const TColor color(Palette::kUnknownShade, Palette::kUnknownShade, Palette::kUnknownShade);
+  TriangleBatch batch(kFloorHeight);
+  for (int x = cell(low.x - kRim); x <= cell(high.x + kRim); ++x)
+  {
+    for (int y = cell(low.y - kRim); y <= cell(high.y + kRim); ++y)
+    {
+      batch.addSquare({kSide * (x + 0.5), kSide * (y + 0.5)}, kSide, color);
+    }
   }
   return batch.object();
 }
@@ -261,6 +297,26 @@ mrpt::opengl::CSetOfObjects::Ptr drawStep(const StepDrawing& step)
     objects->insert(drawScan(*step.observed, *observed_at, step.line_width));
   }
   if (step.truth) objects->insert(drawTruth(*step.truth, step.min_mark_size, step.line_width));
+  return objects;
+}
+
+mrpt::opengl::CSetOfObjects::Ptr drawObservation(const ObservedScene& seen, double line_width)
+{
+  constexpr double kRobotSize = 0.3;  // [m]
+  constexpr float kFlatter = 0.2F;  // looked at aslant, high layers would not lie over each other
+  auto objects = mrpt::opengl::CSetOfObjects::Create();
+  objects->insert(drawFloor(seen));
+  TriangleBatch returns(kScanHeight);
+  addReturns(returns, seen, TPose2D(0, 0, 0), line_width);
+  objects->insert(returns.object());
+  TriangleBatch features(kBeliefHeight);
+  for (const Feature& feature : seen.features)
+  {
+    addFeature(features, feature, line_width, true, std::nullopt);
+  }
+  objects->insert(features.object());
+  objects->insert(drawRobot(TPose2D(0, 0, 0), kRobotSize, Palette::kSurePose));
+  objects->setScale(1, 1, kFlatter);
   return objects;
 }
 

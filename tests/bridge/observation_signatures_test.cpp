@@ -10,7 +10,10 @@
 #include <mrpt/serialization/CArchive.h>
 
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <sstream>
+#include <string>
 
 #include "bridge/rawlog_files.h"
 #include "bridge/sample_maps.h"
@@ -88,6 +91,46 @@ TEST(ObservationSignatures, SurvivesALogThroughTheBaseClass)
   {
     expectSameFeature(read->features[i], seen.features[i]);
   }
+  ASSERT_EQ(read->returns.size(), 181U);
+  EXPECT_EQ(read->returns, seen.returns);
+  EXPECT_NEAR(read->returns[90].x, 4.2, 1e-6);  // straight ahead
+}
+
+TEST(ObservationSignatures, ReadsALogOfBeforeItsReturns)
+{
+  // Of version 0: the same bytes without the returns, which come last but for the end mark.
+  ObservationSignatures seen(halfCircleScan());
+  seen.returns.clear();
+  mrpt::io::CMemoryStream memory;
+  auto archive = mrpt::serialization::archiveFrom(memory);
+  archive << seen;
+  const auto* const data = static_cast<const char*>(memory.getRawBufferData());
+  std::string bytes(data, memory.getTotalBytesCount());
+  const std::string name = "sigloc::ObservationSignatures";
+  const std::size_t version_at = bytes.find(name) + name.size();
+  ASSERT_EQ(bytes.at(version_at), 1);
+  bytes[version_at] = 0;
+  bytes.erase(bytes.size() - 1 - sizeof(std::uint32_t), sizeof(std::uint32_t));
+  mrpt::io::CMemoryStream older(bytes.data(), bytes.size());
+  auto older_archive = mrpt::serialization::archiveFrom(older);
+  const auto read = older_archive.ReadObject<ObservationSignatures>();
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->features.size(), seen.features.size());
+  EXPECT_TRUE(read->returns.empty());
+}
+
+TEST(ObservationSignatures, RefusesAReturnWithoutAPlace)
+{
+  for (const float wrong : {std::numeric_limits<float>::quiet_NaN(), 1e6F})
+  {
+    ObservationSignatures seen(halfCircleScan());
+    seen.returns[3].y = wrong;
+    mrpt::io::CMemoryStream memory;
+    auto archive = mrpt::serialization::archiveFrom(memory);
+    archive << seen;
+    memory.Seek(0);
+    EXPECT_THROW(archive.ReadObject<ObservationSignatures>(), std::exception);
+  }
 }
 
 TEST(ObservationSignatures, MovesWithTheLaser)
@@ -104,6 +147,12 @@ TEST(ObservationSignatures, MovesWithTheLaser)
     EXPECT_NEAR(moved.features[i].position.x, fresh.features[i].position.x, 1e-9);
     EXPECT_NEAR(moved.features[i].position.y, fresh.features[i].position.y, 1e-9);
     EXPECT_NEAR(std::cos(moved.features[i].direction - fresh.features[i].direction), 1.0, 1e-9);
+  }
+  ASSERT_EQ(moved.returns.size(), fresh.returns.size());
+  for (std::size_t i = 0; i < fresh.returns.size(); ++i)
+  {
+    EXPECT_NEAR(moved.returns[i].x, fresh.returns[i].x, 1e-5);
+    EXPECT_NEAR(moved.returns[i].y, fresh.returns[i].y, 1e-5);
   }
 }
 

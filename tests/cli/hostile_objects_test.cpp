@@ -47,6 +47,13 @@ void put(std::string& bytes, const std::string& name, std::size_t offset, T valu
   std::memcpy(bytes.data() + at + offset, &value, sizeof(T));
 }
 
+/// Puts a value where an object's last one is, before its end mark.
+template <class T>
+void putBeforeEnd(std::string& bytes, T value)
+{
+  std::memcpy(&bytes[bytes.size() - 1 - sizeof(T)], &value, sizeof(T));
+}
+
 std::string gridBytes()
 {
   mrpt::maps::COccupancyGridMap2D grid(-2, 2, -2, 2, 0.05F);
@@ -100,6 +107,13 @@ std::string actionBytes(const mrpt::obs::CActionRobotMovement2D& movement)
 std::string signatureBytes()
 {
   return bytesOf(ObservationSignatures(*roomScan({0, 0, 0}), FeatureExtractorOptions{}));
+}
+
+std::string noReturnBytes()
+{
+  ObservationSignatures seen(*roomScan({0, 0, 0}), FeatureExtractorOptions{});
+  seen.returns.clear();
+  return bytesOf(seen);
 }
 
 struct HostileObject
@@ -194,6 +208,8 @@ std::vector<HostileObject> hostileLogs()
        [](S& b) { put(b, "CPose3D", 1 + 96 + 1 + 4 + 4, std::nan("")); }},
       {"parent.rawlog", signatureBytes,
        [](S& b) { put(b, "CPose3D", 1 + 96 + 1 + 4 + 4 + 80 + 8, 0x7FFFFFF0); }},
+      {"return.rawlog", signatureBytes, [](S& b) { putBeforeEnd(b, std::nanf("")); }},
+      {"returns.rawlog", noReturnBytes, [](S& b) { putBeforeEnd(b, kAll); }},
   };
 }
 

@@ -68,6 +68,12 @@ struct StepDrawing
 /// and grey elsewhere. The truth is a black ring, and proposed poses are violet dots.
 mrpt::opengl::CSetOfObjects::Ptr drawStep(const StepDrawing& step);
 
+/// Returns what a robot sees, in its own frame: an arrowhead for the robot, red returns, and the
+/// features, each type in the colour that it has in a map. A pale floor below makes them stand out
+/// from the background of any viewer. Lines are `line_width` [m] wide.
+mrpt::opengl::CSetOfObjects::Ptr drawObservation(const ObservedScene& seen,
+                                                 double line_width = 0.1);
+
 /// Axis-aligned box in the map frame [m].
 struct PlanarBox
 {

@@ -33,7 +33,7 @@ const ArchiveWalk::Layout* ArchiveWalk::layoutOf(std::string_view name)
       {"CObservationBearingRange", P::observation, 3, &W::bearingRange},
       {"CObservationRobotPose", P::observation, 1, &W::robotPose},
       {"CObservationComment", P::observation, kMrptKnowsLabels ? 1 : 0, &W::comment},
-      {"ObservationSignatures", P::observation, 0, &W::signatures},
+      {"ObservationSignatures", P::observation, 1, &W::signatures},
       {"CPose2D", P::pose_2d, 1, &W::pose2D},
       {"CPose3D", P::pose_3d, 3, &W::pose3D},
       {"CMatrixF", P::matrix, 1, &W::matrix},

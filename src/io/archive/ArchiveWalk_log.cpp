@@ -144,7 +144,7 @@ void ArchiveWalk::comment(int version)
   if (newer && use_ == Input::kept) edits_.push_back({label, at_ - label, '\0'});
 }
 
-void ArchiveWalk::signatures(int)
+void ArchiveWalk::signatures(int version)
 {
   constexpr std::size_t kFeature = 4 + 10 * sizeof(double) + 3 * sizeof(std::int32_t);
   skip(sizeof(std::uint64_t));
@@ -152,5 +152,8 @@ void ArchiveWalk::signatures(int)
   text();
   object(only(ArchivePart::pose_3d));
   skip(count(kFeature) * kFeature);
+  if (version < 1) return;
+  constexpr std::size_t kReturn = 2 * sizeof(float);
+  skip(count(kReturn) * kReturn);
 }
 }  // namespace sigloc::detail
