@@ -65,6 +65,29 @@ TEST(RosMap, ReadsEachModeByTheMapServersRules)
             (Cells{kSolid, kWall, kUnknown, kFree, kFree, kUnknown, kUnknown}));
 }
 
+TEST(RosMap, RowsThatAreAsTheFirstAreInTheMap)
+{
+  const TemporaryFolder folder;
+  writeText(folder / "m.yaml", yamlWith(""));
+  const std::vector<CellState> stripes = {kSolid, kFree, kUnknown};
+  const auto cells_of = [&](int rows, const std::vector<int>& pixels)
+  {
+    writeText(folder / "m.pgm", pgm("3 " + std::to_string(rows), pixels));
+    return std::get<OccupancyRaster>(readMapSource(folder / "m.yaml")).cells;
+  };
+  const auto repeated = [](const std::vector<CellState>& row, int times)
+  {
+    std::vector<CellState> cells;
+    for (; times > 0; --times) cells.insert(cells.end(), row.begin(), row.end());
+    return cells;
+  };
+  EXPECT_EQ(cells_of(3, {0, 254, 205, 0, 254, 205, 0, 254, 205}), repeated(stripes, 3));
+  // The last row of the image is the lowest.
+  std::vector<CellState> two_kinds = {kFree, kFree, kFree};
+  for (const CellState state : repeated(stripes, 2)) two_kinds.push_back(state);
+  EXPECT_EQ(cells_of(3, {0, 254, 205, 0, 254, 205, 254, 254, 254}), two_kinds);
+}
+
 TEST(RosMap, NeverSeenStaysUnknownAndIsToldOf)
 {
   const TemporaryFolder folder;

@@ -107,43 +107,93 @@ RosMapHeader headerWithImage(const std::filesystem::path& path)
   fail(path, "its image " + header.image.string() + ": no such file" + hint);
 }
 
-/// Returns the raster of an image, without the turn of its origin.
+/// The raster of an image, whose rows come from the top. Memory is taken once a row differs from
+/// the first: an image of one shade makes no map, and there are large ones.
+class ImageRaster
+{
+ public:
+  explicit ImageRaster(const RosMapHeader& header) : header_(header) {}
+
+  void add(const GrayRow& row)
+  {
+    if (row.y == 0) begin(row);
+    if (cells_.empty())
+    {
+      if (row.shades == first_.shades && row.alphas == first_.alphas) return;
+      takeFirstRows(row.y);
+    }
+    setStates(row, row.y);
+  }
+
+  /// Returns the raster without the turn of its origin. Where all rows are equal and make no map,
+  /// its cells are those of one row.
+  OccupancyRaster finish()
+  {
+    const RasterFrame frame{
+        {header_.origin.x, header_.origin.y}, header_.resolution, first_.width, first_.height};
+    if (cells_.empty())
+    {
+      OccupancyRaster one_row{frame, std::vector<CellState>(first_.width), {}};
+      setStates(first_, one_row.cells.data());
+      if (unusableGrid(one_row)) return one_row;
+      takeFirstRows(first_.height);
+    }
+    return {frame, std::move(cells_), {}};
+  }
+
+ private:
+  void begin(const GrayRow& row)
+  {
+    first_ = row;
+    for (int shade = 0; shade <= kWhiteShade; ++shade)
+    {
+      states_[static_cast<std::size_t>(shade)] =
+          stateOfPixel(shade, kWhiteShade, !row.alphas.empty(), header_);
+    }
+  }
+
+  /// The rows before `end` are as the first.
+  void takeFirstRows(std::uint32_t end)
+  {
+    cells_.resize(std::size_t{first_.width} * first_.height);
+    for (std::uint32_t y = 0; y < end; ++y) setStates(first_, y);
+  }
+
+  /// The image's last row is the map's lowest.
+  void setStates(const GrayRow& row, std::uint32_t y)
+  {
+    setStates(row, &cells_[std::size_t{first_.height - 1 - y} * first_.width]);
+  }
+
+  void setStates(const GrayRow& row, CellState* cells) const
+  {
+    const bool has_alpha = !row.alphas.empty();
+    for (std::size_t x = 0; x < row.width; ++x)
+    {
+      const bool opaque = !has_alpha || row.alphas[x] == kWhiteShade;
+      cells[x] = opaque ? states_[row.shades[x]]
+                        : stateOfPixel(row.shades[x], row.alphas[x], has_alpha, header_);
+    }
+  }
+
+  const RosMapHeader& header_;
+  GrayRow first_;
+  std::array<CellState, kWhiteShade + 1> states_{};  // of opaque pixels, which almost all are
+  std::vector<CellState> cells_;
+};
+
 OccupancyRaster rasterOfImage(const std::filesystem::path& image, const RosMapHeader& header)
 {
-  OccupancyRaster raster;
-  std::array<CellState, kWhiteShade + 1> states{};  // of opaque pixels, which almost all are
-  readGrayImage(
-      image,
-      [&](const GrayRow& row)
-      {
-        const bool has_alpha = !row.alphas.empty();
-        if (row.y == 0)
-        {
-          raster.frame = {
-              {header.origin.x, header.origin.y}, header.resolution, row.width, row.height};
-          raster.cells.resize(std::size_t{row.width} * row.height);
-          for (int shade = 0; shade <= kWhiteShade; ++shade)
-          {
-            states[static_cast<std::size_t>(shade)] =
-                stateOfPixel(shade, kWhiteShade, has_alpha, header);
-          }
-        }
-        // The image's last row is the map's lowest.
-        CellState* const cells = &raster.cells[std::size_t{row.height - 1 - row.y} * row.width];
-        for (std::size_t x = 0; x < row.width; ++x)
-        {
-          const bool opaque = !has_alpha || row.alphas[x] == kWhiteShade;
-          cells[x] = opaque ? states[row.shades[x]]
-                            : stateOfPixel(row.shades[x], row.alphas[x], has_alpha, header);
-        }
-      });
-  return raster;
+  ImageRaster raster(header);
+  readGrayImage(image, [&](const GrayRow& row) { raster.add(row); });
+  return raster.finish();
 }
 
 /// The same turned; `path` is the file to name where it makes no map.
 OccupancyRaster placed(OccupancyRaster raster, const RosMapHeader& header,
                        const std::filesystem::path& path)
 {
+  requireWallAndFree(raster, path);
   try
   {
     raster = turned(std::move(raster), header.origin.phi);
