@@ -44,7 +44,7 @@ ordered_json describe(const sigloc::FeatureMap& map, const std::filesystem::path
   info["lines"] = map.lines().size();
   const sigloc::PlanarBox box = sigloc::boundsOf(map);
   info["bounds_m"] = {box.x_min, box.x_max, box.y_min, box.y_max};
-  info["area_m2"] = map.area();
+  info[map.field() ? "free_area_m2" : "box_area_m2"] = map.area();
   info["dense_field"] = nullptr;
   if (map.field())
   {

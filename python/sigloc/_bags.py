@@ -42,7 +42,8 @@ class Ros1Bag:
         self.connections: dict[int, tuple[str, str]] = {}
         with open(path, "rb") as file:
             if file.read(len(_MAGIC)) != _MAGIC:
-                raise OSError(f"{path}: not a bag of ROS 1 (version 2.0)")
+                hint = "; a rawlog is read as it is" if path.suffix == ".rawlog" else ""
+                raise OSError(f"{path}: not a bag of ROS 1 (version 2.0){hint}")
 
     def messages(self) -> Iterator[Recorded]:
         with open(self.path, "rb") as file:

@@ -152,6 +152,8 @@ def test_recordings_that_cannot_be_used(drive, tmp_path):
     for name in ("a.bag", "a.mcap"):
         (tmp_path / name).write_bytes(b"%PDF-1.4\n")
     assert "not a bag of ROS 1" in refused(tmp_path / "a.bag")
+    (tmp_path / "a.rawlog").write_bytes(b"no bag")
+    assert "a rawlog is read as it is" in refused(tmp_path / "a.rawlog", "-o", tmp_path / "b.rawlog")
     assert "ros2 bag convert" in refused(tmp_path / "a.mcap")
     (tmp_path / "folder").mkdir()
     assert "no .db3" in refused(tmp_path / "folder")
