@@ -154,6 +154,7 @@ def test_recordings_that_cannot_be_used(drive, tmp_path):
     assert "not a bag of ROS 1" in refused(tmp_path / "a.bag")
     (tmp_path / "a.rawlog").write_bytes(b"no bag")
     assert "a rawlog is read as it is" in refused(tmp_path / "a.rawlog", "-o", tmp_path / "b.rawlog")
+    (tmp_path / "a.rawlog").unlink()
     assert "ros2 bag convert" in refused(tmp_path / "a.mcap")
     (tmp_path / "folder").mkdir()
     assert "no .db3" in refused(tmp_path / "folder")
