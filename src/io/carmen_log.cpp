@@ -187,6 +187,22 @@ std::optional<CarmenScan> readScan(const TextLines& lines, const std::filesystem
   return seen;
 }
 
+/// A mount does not change. Where the difference of the two poses does, only the laser's was
+/// corrected: it is where a mapper saw the robot, and the mount is not told.
+void dropChangingMounts(std::vector<CarmenScan>& log)
+{
+  constexpr double kSameDistance = 0.05;  // [m]
+  constexpr double kSameTurn = 0.05;  // [rad]
+  const mrpt::math::TPose2D first = log.front().scan.robot_from_sensor;
+  const auto differs = [&](const CarmenScan& seen)
+  {
+    const mrpt::math::TPose2D change = seen.scan.robot_from_sensor - first;
+    return std::hypot(change.x, change.y) > kSameDistance || std::abs(change.phi) > kSameTurn;
+  };
+  if (std::none_of(log.begin(), log.end(), differs)) return;
+  for (CarmenScan& seen : log) seen.scan.robot_from_sensor = {};
+}
+
 /// Some logs clip far readings to one value. So many readings at exactly the maximum are no
 /// returns.
 void dropClippedReadings(std::vector<CarmenScan>& log)
@@ -242,6 +258,7 @@ CarmenLog readCarmenLog(const std::filesystem::path& path)
   }
   if (log.scans.empty())
     throw std::runtime_error(path.string() + ": no FLASER or ROBOTLASER1 message");
+  dropChangingMounts(log.scans);
   dropClippedReadings(log.scans);
   return log;
 }

@@ -6,6 +6,7 @@
 
 #include "bridge/map_error.h"
 #include "bridge/rawlog_files.h"
+#include "io/carmen_log.h"
 #include "sigloc/io/map_files.h"
 
 namespace sigloc
@@ -36,6 +37,29 @@ TEST(CarmenLog, refusesRangesThatAreNone)
     const LaserScan& scan = std::get<std::vector<PosedScans>>(source)[1].scans[0];
     EXPECT_EQ(scan.valid, (std::vector<std::uint8_t>{1, 0, 1})) << range;
   }
+}
+
+TEST(CarmenLog, takesNoCorrectionOfTheLasersPoseForItsMount)
+{
+  const TemporaryFolder folder;
+  const auto message = [](const std::string& laser, const std::string& robot)
+  {
+    return "ROBOTLASER1 0 -1.5 3.1 1.5 80 0.01 0 3 1.5 1.5 1.5 0 " + laser + " " + robot +
+           " 0 0 0 0.3 0.3 1 host 1\n";
+  };
+  const auto mounts = [&](const std::string& log)
+  {
+    writeText(folder / "l.log", log);
+    const detail::CarmenLog read = detail::readCarmenLog(folder / "l.log");
+    std::vector<double> x;
+    for (const detail::CarmenScan& seen : read.scans) x.push_back(seen.scan.robot_from_sensor.x);
+    return x;
+  };
+  const std::string first = message("0.25 0 0", "0 0 0");
+  EXPECT_EQ(mounts(first + message("5.25 0 0", "5 0 0")), (std::vector<double>{0.25, 0.25}));
+  // The laser's pose is corrected, the robot's drifts.
+  EXPECT_EQ(mounts(first + message("5.75 0 0", "5 0 0")), (std::vector<double>{0, 0}));
+  EXPECT_EQ(mounts(first + message("5 0 0.2", "5 0 0")), (std::vector<double>{0, 0}));
 }
 
 TEST(CarmenLog, hasAsManyReadingsAsItAnnounces)
