@@ -171,7 +171,7 @@ CarmenScan readRobotLaser(Message& message)
   requireNoMore(message, n, 14);  // two poses, five numbers, time, host, time of logging
   seen.laser = readPose(message);
   readOdometry(message, 5, seen);  // speeds and safety distances
-  if (seen.odometry) scan.robot_from_sensor = mountFrom(seen.laser - *seen.odometry);
+  if (seen.odometry) seen.mount = mountFrom(seen.laser - *seen.odometry);
   return seen;
 }
 
@@ -187,20 +187,25 @@ std::optional<CarmenScan> readScan(const TextLines& lines, const std::filesystem
   return seen;
 }
 
-/// A mount does not change. Where the difference of the two poses does, only the laser's was
-/// corrected: it is where a mapper saw the robot, and the mount is not told.
-void dropChangingMounts(std::vector<CarmenScan>& log)
+/// Mounts the lasers as the log tells. A mount does not change: where the difference of the two
+/// poses does, only the laser's was corrected, and no mount is told.
+void mountLasers(std::vector<CarmenScan>& log)
 {
   constexpr double kSameDistance = 0.05;  // [m]
   constexpr double kSameTurn = 0.05;  // [rad]
-  const mrpt::math::TPose2D first = log.front().scan.robot_from_sensor;
+  const auto tells = [](const CarmenScan& seen) { return seen.mount.has_value(); };
+  const auto first = std::find_if(log.begin(), log.end(), tells);
   const auto differs = [&](const CarmenScan& seen)
   {
-    const mrpt::math::TPose2D change = seen.scan.robot_from_sensor - first;
+    if (!seen.mount) return false;
+    const mrpt::math::TPose2D change = *seen.mount - *first->mount;
     return std::hypot(change.x, change.y) > kSameDistance || std::abs(change.phi) > kSameTurn;
   };
-  if (std::none_of(log.begin(), log.end(), differs)) return;
-  for (CarmenScan& seen : log) seen.scan.robot_from_sensor = {};
+  if (std::any_of(first, log.end(), differs)) return;
+  for (CarmenScan& seen : log)
+  {
+    if (seen.mount) seen.scan.robot_from_sensor = *seen.mount;
+  }
 }
 
 /// Some logs clip far readings to one value. So many readings at exactly the maximum are no
@@ -258,7 +263,7 @@ CarmenLog readCarmenLog(const std::filesystem::path& path)
   }
   if (log.scans.empty())
     throw std::runtime_error(path.string() + ": no FLASER or ROBOTLASER1 message");
-  dropChangingMounts(log.scans);
+  mountLasers(log.scans);
   dropClippedReadings(log.scans);
   return log;
 }

@@ -15,8 +15,8 @@ namespace sigloc::detail
 /// One FLASER or ROBOTLASER1 message.
 struct CarmenScan
 {
-  LaserScan
-      scan;  ///< of ROBOTLASER1 with the mount that its two poses tell all along; else without
+  LaserScan scan;  ///< mounted as `mount` tells, where all messages of the log that tell one agree
+  std::optional<mrpt::math::TPose2D> mount;  ///< robot from laser, by the poses of ROBOTLASER1
   mrpt::math::TPose2D laser;  ///< the laser's pose, corrected in a corrected log
   std::optional<mrpt::math::TPose2D>
       odometry;  ///< the robot's pose; none where the line ends early

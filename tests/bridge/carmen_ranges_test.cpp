@@ -57,6 +57,10 @@ TEST(CarmenLog, takesNoCorrectionOfTheLasersPoseForItsMount)
   };
   const std::string first = message("0.25 0 0", "0 0 0");
   EXPECT_EQ(mounts(first + message("5.25 0 0", "5 0 0")), (std::vector<double>{0.25, 0.25}));
+  // Messages that tell no mount change none: of another kind, or without the robot's pose.
+  const std::string flaser = "FLASER 3 1.5 1.5 1.5 5 0 0 5 0 0 1 host 1\n";
+  const std::string short_one = "ROBOTLASER1 0 -1.5 3.1 1.5 80 0.01 0 3 1.5 1.5 1.5 0 5.25 0 0\n";
+  EXPECT_EQ(mounts(flaser + first + short_one), (std::vector<double>{0, 0.25, 0}));
   // The laser's pose is corrected, the robot's drifts.
   EXPECT_EQ(mounts(first + message("5.75 0 0", "5 0 0")), (std::vector<double>{0, 0}));
   EXPECT_EQ(mounts(first + message("5 0 0.2", "5 0 0")), (std::vector<double>{0, 0}));

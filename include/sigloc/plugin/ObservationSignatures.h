@@ -17,8 +17,7 @@ namespace sigloc
 {
 /// The features and returns of a scan as one of MRPT's observations. Stock programs with the
 /// plug-in loaded keep, show and export them: RawLogViewer in its tree, text and 3D views,
-/// rawlog-edit through
-/// `--describe` and `--export-txt`.
+/// rawlog-edit through `--describe` and `--export-txt`.
 ///
 /// A program without the plug-in can't read a log beyond the first of these: take them out again
 /// with `rawlog-edit -p libsigloc-mrpt.so --remove-label LABEL`.

@@ -193,7 +193,7 @@ OccupancyRaster rasterOfImage(const std::filesystem::path& image, const RosMapHe
 OccupancyRaster placed(OccupancyRaster raster, const RosMapHeader& header,
                        const std::filesystem::path& path)
 {
-  requireWallAndFree(raster, path);
+  requireWallAndFree(raster, path);  // else it may be one row, which cannot be turned
   try
   {
     raster = turned(std::move(raster), header.origin.phi);
