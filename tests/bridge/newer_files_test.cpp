@@ -279,16 +279,19 @@ TEST(NewerFiles, versionsThatNobodyKnowsAreNamed)
 {
   const TemporaryFolder folder;
   mrpt::maps::COccupancyGridMap2D grid(0, 5, 0, 4, 0.1F);
-  writeText(folder / "m.gridmap", inVersion(8, bytesOf(grid), ""));
-  try
+  for (const int version : {8, 200})
   {
-    readMapSource(folder / "m.gridmap");
-    FAIL() << "read a grid map of version 8";
-  }
-  catch (const std::runtime_error& error)
-  {
-    EXPECT_NE(std::string(error.what()).find("of version 8, which is not known"),
-              std::string::npos);
+    writeText(folder / "m.gridmap", inVersion(static_cast<char>(version), bytesOf(grid), ""));
+    try
+    {
+      readMapSource(folder / "m.gridmap");
+      FAIL() << "read a grid map of version " << version;
+    }
+    catch (const std::runtime_error& error)
+    {
+      const std::string named = "of version " + std::to_string(version) + ", which is not known";
+      EXPECT_NE(std::string(error.what()).find(named), std::string::npos) << error.what();
+    }
   }
 }
 }  // namespace

@@ -135,7 +135,7 @@ void ArchiveWalk::object(unsigned parts)
   need(length);
   const std::string name(ahead_.substr(at_, length));
   at_ += length;
-  const int version = old ? value<std::int32_t>() : value<std::int8_t>();
+  const int version = old ? value<std::int32_t>() : value<std::uint8_t>();
   if (name == "nullptr") throw Unsound();
   const Layout* const layout = layoutOf(name);
   if (layout == nullptr) throw Unknown{};

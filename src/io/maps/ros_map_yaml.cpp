@@ -7,6 +7,7 @@
 #include <fstream>
 #include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "io/archive/file_fault.h"
@@ -41,8 +42,13 @@ std::string_view scalarOf(std::string_view text)
   return trimmed(text.substr(0, text.find(" #")));
 }
 
-/// The values of each key: one of a scalar, several of a list.
-using Values = std::map<std::string, std::vector<std::string_view>, std::less<>>;
+/// The value of a key: a scalar is one item.
+struct Value
+{
+  std::vector<std::string_view> items;
+  bool list = false;
+};
+using Values = std::map<std::string, Value, std::less<>>;
 
 std::vector<std::string_view> listIn(std::string_view text)
 {
@@ -57,7 +63,8 @@ std::vector<std::string_view> listIn(std::string_view text)
   }
 }
 
-/// Takes a line `key: value` without indentation. Returns the key, or nullopt for another line.
+/// Takes a line `key: value` without indentation. Returns the key, or nullopt for another line and for
+/// a key that was there before.
 std::optional<std::string> takeKey(std::string_view line, Values& values)
 {
   const std::size_t colon = line.find(':');
@@ -67,19 +74,19 @@ std::optional<std::string> takeKey(std::string_view line, Values& values)
     return std::nullopt;
   }
   const std::string key(scalarOf(line.substr(0, colon)));
-  const std::string_view value = scalarOf(line.substr(colon + 1));
-  std::vector<std::string_view>& items = values[key];
-  items.clear();
-  const bool list = !value.empty() && value.front() == '[';
-  if (list && value.find(']') == std::string_view::npos) return std::nullopt;
-  if (list)
+  const std::string_view text = scalarOf(line.substr(colon + 1));
+  Value value;
+  value.list = !text.empty() && text.front() == '[';
+  if (value.list && text.find(']') == std::string_view::npos) return std::nullopt;
+  if (value.list)
   {
-    items = listIn(value);
+    value.items = listIn(text);
   }
-  else if (!value.empty())
+  else if (!text.empty())
   {
-    items = {value};
+    value.items = {text};
   }
+  if (!values.emplace(key, std::move(value)).second) return std::nullopt;
   return key;
 }
 
@@ -99,13 +106,14 @@ Values valuesIn(std::string_view text, const std::filesystem::path& path)
     const bool item = content.front() == '-' && (content.size() == 1 || content[1] == ' ');
     if (key && item)
     {
-      values[*key].push_back(scalarOf(content.substr(1)));
+      values[*key].list = true;
+      values[*key].items.push_back(scalarOf(content.substr(1)));
     }
     else if (!key || kBlanks.find(line.front()) == std::string_view::npos)
     {
       key = takeKey(content, values);
       if (!key)
-        fail(path, "not a ROS map: line " + std::to_string(index + 1) + " is no `key: value`");
+        fail(path, "not a ROS map: line " + std::to_string(index + 1) + " is no `key: value`, or gives a key again");
     }
     // Other indented lines belong to a key that has no meaning here.
   }
@@ -121,9 +129,10 @@ class Header
   std::string_view text(std::string_view key) const
   {
     const auto found = values_.find(key);
-    const bool given = found != values_.end() && found->second.size() == 1;
+    const bool given =
+        found != values_.end() && !found->second.list && found->second.items.size() == 1;
     if (!given) refuse(key);
-    return found->second.front();
+    return found->second.items.front();
   }
 
   double number(std::string_view key) const
@@ -137,8 +146,8 @@ class Header
   {
     std::vector<double> numbers;
     const auto found = values_.find(key);
-    if (found == values_.end() || found->second.size() != count) refuse(key);
-    for (const std::string_view word : found->second)
+    if (found == values_.end() || found->second.items.size() != count) refuse(key);
+    for (const std::string_view word : found->second.items)
     {
       const auto value = toNumber(word);
       if (!value) refuse(key);
