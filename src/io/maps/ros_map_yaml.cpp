@@ -63,8 +63,8 @@ std::vector<std::string_view> listIn(std::string_view text)
   }
 }
 
-/// Takes a line `key: value` without indentation. Returns the key, or nullopt for another line and for
-/// a key that was there before.
+/// Takes a line `key: value` without indentation. Returns the key, or nullopt for another line and
+/// for a key that was there before.
 std::optional<std::string> takeKey(std::string_view line, Values& values)
 {
   const std::size_t colon = line.find(':');
@@ -113,7 +113,11 @@ Values valuesIn(std::string_view text, const std::filesystem::path& path)
     {
       key = takeKey(content, values);
       if (!key)
-        fail(path, "not a ROS map: line " + std::to_string(index + 1) + " is no `key: value`, or gives a key again");
+      {
+        const std::string line_number = std::to_string(index + 1);
+        fail(path,
+             "not a ROS map: line " + line_number + " is no `key: value`, or gives a key again");
+      }
     }
     // Other indented lines belong to a key that has no meaning here.
   }
