@@ -61,8 +61,8 @@ int main(int argc, char** argv)
   sigloc::LocalizeArguments arguments;
   app.footer(
       "Exit codes: 0 done, 1 bad input or no room for the output (nothing written but the map's "
-      "cache, $XDG_CACHE_HOME/sigloc or ~/.cache/sigloc), 2 truncated log (results cover what was "
-      "read).");
+      "cache, $XDG_CACHE_HOME/sigloc or ~/.cache/sigloc; where standard output alone fails, the "
+      "results are whole), 2 truncated log (results cover what was read).");
   auto* const config =
       app.add_option("CONFIG.ini", arguments.config, "configuration, as pf-localization reads it");
   auto* const rawlog =

@@ -104,6 +104,8 @@ mrpt::math::TPose2D readPose(Message& message)
   const double x = message.number();
   const double y = message.number();
   const double phi = message.number();
+  constexpr double kMostTurn = 1e6;  // [rad]
+  if (std::abs(phi) > kMostTurn) message.fail("heading that no robot has");
   return {x, y, std::remainder(phi, 2 * M_PI)};
 }
 
@@ -182,8 +184,12 @@ std::optional<CarmenScan> readScan(const TextLines& lines, const std::filesystem
   const bool flaser = message.name() == "FLASER";
   if (!flaser && message.name() != "ROBOTLASER1") return std::nullopt;
   CarmenScan seen = flaser ? readFlaser(message) : readRobotLaser(message);
-  if (!(seen.scan.angle_step > 0)) message.fail("angle step is not positive");
-  if (seen.scan.ranges.size() < 2) return std::nullopt;
+  const LaserScan& scan = seen.scan;
+  if (!(scan.angle_step > 0)) message.fail("angle step is not positive");
+  if (scan.ranges.size() < 2) return std::nullopt;
+  const double view = scan.angle_step * static_cast<double>(scan.ranges.size() - 1);
+  if (std::abs(scan.first_angle) > 2 * M_PI || view > kMostView)
+    message.fail("angles that no laser has");
   return seen;
 }
 
@@ -262,7 +268,7 @@ CarmenLog readCarmenLog(const std::filesystem::path& path)
     }
   }
   if (log.scans.empty())
-    throw std::runtime_error(path.string() + ": no FLASER or ROBOTLASER1 message");
+    throw std::runtime_error(path.string() + ": no FLASER or ROBOTLASER1 message of two readings");
   mountLasers(log.scans);
   dropClippedReadings(log.scans);
   return log;

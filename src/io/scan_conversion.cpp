@@ -18,7 +18,6 @@ namespace
 {
 constexpr double kMaxTilt = 10.0 * M_PI / 180.0;  // [rad]
 constexpr double kSameAngle = 1e-6;  // [rad]
-constexpr double kMostView = 1.01 * 2 * M_PI;  // [rad]: rounding may carry it beyond a whole turn
 constexpr double kMaxRangeSigma = 1.0;  // [m], a greater one counts as not given
 
 double rangeSigmaOf(const mrpt::obs::CObservation2DRangeScan& scan)

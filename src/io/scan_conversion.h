@@ -6,6 +6,7 @@
 #include <mrpt/obs/CObservationBearingRange.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -19,6 +20,8 @@ constexpr double kDefaultRangeSigma = 0.01;  ///< [m], of a scan that tells none
 /// Beams of a scan at most: the finest lasers have 25 200. A zigzag of n returns is split in a time
 /// of n^2.
 constexpr std::size_t kMostBeams = 30000;
+/// [rad] of a scan at most: rounding may carry it beyond a whole turn.
+constexpr double kMostView = 1.01 * 2 * M_PI;
 
 /// Returns the scan in the core's form, counter-clockwise: clockwise and upside-down scans are
 /// reversed. NaN, infinite, non-positive and max-range beams are invalid, and those beyond

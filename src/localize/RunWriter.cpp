@@ -204,10 +204,10 @@ RunWriter::RunWriter(const fs::path& folder, const std::vector<fs::path>& inputs
     : folder_(resultsFolder(folder)), work_(workFolderBeside(folder_))
 {
   checkRunFolder(folder, inputs);
-  detail::recoverRun(work_, folder_);
   // The folder of another user stays that user's, and a mount point stays where it is: they are
   // filled, not replaced.
   const bool stays = detail::isOfAnotherUser(folder_) || detail::isMountPoint(folder_);
+  if (!stays) detail::recoverRun(work_, folder_);
   std::error_code error =
       stays ? std::make_error_code(std::errc::operation_not_permitted) : makeWorkFolder();
   if (error && fs::exists(folder_))
@@ -296,15 +296,7 @@ void RunWriter::finish(const LocalizationRun& run)
         toJson(summaryColumns(), Figures{run.summary(), run}).dump(2) + "\n");
   syncFolder(work_);
   finished_ = true;
-  try
-  {
-    detail::replaceRun(work_, folder_);
-  }
-  catch (const fs::filesystem_error& error)
-  {
-    throw std::runtime_error(folder_.string() + ": cannot be replaced: " + error.code().message() +
-                             "; the results are in " + work_.string());
-  }
+  detail::replaceRun(work_, folder_);
   syncFolder(folder_);
 }
 

@@ -92,6 +92,13 @@ bool isRunSummary(const fs::path& path)
          summary.contains("confidently_wrong_steps");
 }
 
+/// Returns whether a run ended after the one in `other`, which may be missing or none.
+bool isNewerRun(const fs::path& run, const fs::path& other)
+{
+  if (!isRunSummary(other / kRunSummaryFile)) return true;
+  return fs::last_write_time(run / kRunSummaryFile) > fs::last_write_time(other / kRunSummaryFile);
+}
+
 /// Returns the descriptor of a folder, locked where the file system can; -1 where it is not there.
 int openLocked(const fs::path& folder)
 {
@@ -175,6 +182,7 @@ bool isMissing(const fs::path& folder)
 void requireFinishedRun(const fs::path& folder)
 {
   if (isMissing(folder)) return;
+  if (euidaccess(folder.c_str(), W_OK) != 0) refuse(folder, "may not be written");
   requireUnfinishedRun(folder / kInnerWork);
   if (!requireRunFilesOnly(folder, kInnerWork)) return;
   if (isRunSummary(folder / kRunSummaryFile)) return;
@@ -185,6 +193,7 @@ void requireFinishedRun(const fs::path& folder)
 // A run makes this entry first, and a user's folder of that name hardly has one.
 void requireUnfinishedRun(const fs::path& folder)
 {
+  if (fs::is_symlink(fs::symlink_status(folder))) refuse(folder, "is a link");
   if (isMissing(folder) || !requireRunFilesOnly(folder)) return;
   if (!fs::is_directory(folder / kMark)) refuse(folder, "is not the work folder of a run");
 }
@@ -220,7 +229,7 @@ void requireNoOtherRun(const fs::path& folder)
 
 void recoverRun(const fs::path& work, const fs::path& results)
 {
-  if (isMissing(results) && isRunSummary(work / kRunSummaryFile)) fs::rename(work, results);
+  if (isRunSummary(work / kRunSummaryFile) && isNewerRun(work, results)) replaceRun(work, results);
 }
 
 bool isMountPoint(const fs::path& folder)
@@ -233,7 +242,15 @@ bool isMountPoint(const fs::path& folder)
 void replaceRun(const fs::path& work, const fs::path& results)
 {
   const bool is_inside = work.parent_path() == results;
-  (is_inside ? replaceEntries : putInPlace)(work, results);
+  try
+  {
+    (is_inside ? replaceEntries : putInPlace)(work, results);
+  }
+  catch (const fs::filesystem_error& error)
+  {
+    throw std::runtime_error(results.string() + ": cannot be replaced: " + error.code().message() +
+                             "; the results are in " + work.string());
+  }
   removeRun(work);
 }
 }  // namespace sigloc::detail

@@ -10,11 +10,11 @@ constexpr const char* kRunSummaryFile = "summary.json";
 constexpr const char* kInnerWork = ".partial";  ///< work folder where none can be made beside it
 
 /// Throws std::runtime_error ("folder: reason") unless `folder` is missing, empty or the output of
-/// a finished run of sigloc-localize. Such an output has only the files of a run, and its summary
-/// among them.
+/// a finished run of sigloc-localize, and may be written. Such an output has only the files of a
+/// run, and its summary among them.
 void requireFinishedRun(const std::filesystem::path& folder);
 
-/// The same for the folder that a run works in, which holds no summary until it ends.
+/// The same for the folder that a run works in, which is no link.
 void requireUnfinishedRun(const std::filesystem::path& folder);
 
 /// True for a folder that exists and belongs to another user than this process runs as.
@@ -39,8 +39,9 @@ class FolderLock
 /// Throws the same for a folder that is locked. One that does not exist is not.
 void requireNoOtherRun(const std::filesystem::path& folder);
 
-/// Gives a finished run in `work` its name where the program was killed before it did, on a file
-/// system where names cannot be exchanged. Throws std::filesystem::filesystem_error.
+/// Gives the whole run in `work`, a folder beside `results`, the name that its program could not
+/// give it, or was killed before it did. Does nothing where the run in `results` is newer. Throws
+/// as replaceRun().
 void recoverRun(const std::filesystem::path& work, const std::filesystem::path& results);
 
 /// True for a folder that another file system, or another part of one, is mounted on. It cannot be
@@ -52,7 +53,7 @@ bool isMountPoint(const std::filesystem::path& folder);
 /// is removed. In it, one file after the other is replaced, the summary last. Wherever the program
 /// is killed, nothing of the new run is lost, and `results` has a summary. Where the file system
 /// cannot exchange names, `results` may be missing then; recoverRun() mends that. What cannot be
-/// removed stays in `work`. Throws std::filesystem::filesystem_error where `results` cannot be
-/// replaced.
+/// removed stays in `work`. Throws std::runtime_error ("folder: reason") where `results` cannot be
+/// replaced; `work` is whole then.
 void replaceRun(const std::filesystem::path& work, const std::filesystem::path& results);
 }  // namespace sigloc::detail

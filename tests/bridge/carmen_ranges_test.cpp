@@ -39,6 +39,24 @@ TEST(CarmenLog, refusesRangesThatAreNone)
   }
 }
 
+TEST(CarmenLog, refusesAnglesThatAreNone)
+{
+  const TemporaryFolder folder;
+  const auto reason = [&](const std::string& angles, const std::string& heading)
+  {
+    writeText(folder / "l.log", "ROBOTLASER1 0 " + angles + " 80 0.01 0 3 1.5 1.5 1.5 0 0 0 " +
+                                    heading + " 0 0 0 0 0 0 0.3 0.3 1 host 1\n");
+    return mapErrorOf(folder / "l.log");
+  };
+  for (const char* const angles : {"1e300 3.1 1.5", "1e16 3.1 1.5", "-1.5 3.1 1e300", "-1.5 9 3.3"})
+    EXPECT_NE(reason(angles, "0").find("line 1: angles that no laser has"), std::string::npos);
+  for (const char* const heading : {"1e300", "-1e16"})
+  {
+    EXPECT_NE(reason("-1.5 3.1 1.5", heading).find("line 1: heading that no robot has"),
+              std::string::npos);
+  }
+}
+
 TEST(CarmenLog, takesNoCorrectionOfTheLasersPoseForItsMount)
 {
   const TemporaryFolder folder;
