@@ -215,6 +215,7 @@ MapCheck checkMap(const std::shared_ptr<const FeatureMap>& map, const SimulatedL
   MapCheck check;
   check.laser = laser;
   check.area = space.area();
+  check.free_area = map->area();
   Checker checker(map, laser, options.seed);
   for (const TPose2D& pose : poses)
   {

@@ -48,7 +48,8 @@ struct MapCheck
 {
   static constexpr double kDrive = 20;  ///< [m], the longest drive
   SimulatedLaserOptions laser;  ///< that took the scans
-  double area = 0;  ///< [m^2] in which the robot can be
+  double area = 0;  ///< [m^2] in which the robot can be: the largest part that it reaches
+  double free_area = 0;  ///< [m^2] of the whole map
   std::vector<CheckedPlace> places;
   std::vector<Twins> twins;
   std::vector<double> times_ms;  ///< CPU time of each scan, from ranges to candidates

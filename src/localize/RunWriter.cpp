@@ -85,7 +85,7 @@ Columns<StepRecord> stepColumns()
       C("travelled_m", &S::travelled, "", 6),
       C("verdict", [](const S& step) { return step.belief.verdict; }),
       C(
-          "probability", [](const S& step) { return step.belief.probability; }, "", 6),
+          "verdict_probability", [](const S& step) { return step.belief.probability; }, "", 6),
       C(
           "first_pose_probability", [](const S& step) { return probabilityOfFirst(step); }, "", 6),
       C(

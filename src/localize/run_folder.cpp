@@ -193,7 +193,8 @@ void requireFinishedRun(const fs::path& folder)
 // A run makes this entry first, and a user's folder of that name hardly has one.
 void requireUnfinishedRun(const fs::path& folder)
 {
-  if (fs::is_symlink(fs::symlink_status(folder))) refuse(folder, "is a link");
+  std::error_code unnameable;
+  if (fs::is_symlink(folder, unnameable)) refuse(folder, "is a link");
   if (isMissing(folder) || !requireRunFilesOnly(folder)) return;
   if (!fs::is_directory(folder / kMark)) refuse(folder, "is not the work folder of a run");
 }

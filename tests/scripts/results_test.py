@@ -70,11 +70,12 @@ class Bench:
 
     def add_steps(self, name, rows):
         """Two steps of each drive: one 10 m off with a weight of 0.6, one right with 0.995."""
-        lines = ["method,start,step,travelled_m,seconds,error_m,error_deg,weight,mapped,kidnapped"]
+        lines = ["method,start,step,travelled_m,seconds,error_m,error_deg,weight,mapped,kidnapped,"
+                 "confident"]
         kidnapped = int("kidnapped" in name)
         for i, (method, start, *_) in enumerate(rows):
-            lines += [f"{method},{start},{i},0,0,10,0,0.6,1,0",
-                      f"{method},{start},{i + 1},20,72,0.1,1,0.995,1,{kidnapped}"]  # fmt: skip
+            lines += [f"{method},{start},{i},0,0,10,0,0.6,1,0,0",
+                      f"{method},{start},{i + 1},20,72,0.1,1,0.995,1,{kidnapped},1"]  # fmt: skip
         (self.folder / name / "results.csv").write_text("\n".join(lines) + "\n")
 
     def add_scans(self, name):
@@ -229,9 +230,9 @@ class ResultsTest(unittest.TestCase):
         self.assertIn("| recorded drives, own map, no two overlapping | 4 | 0 | 0.00 | 52.71 |", page)
         self.assertIn("| recorded drives, another building's map | 1 | 0 |", page)
         self.assertIn("| recorded drives, another building's map, trained on | 1 | 1 |", page)
-        self.assertIn("| fhw, reversed | 2 | 0.500 (0.09-0.91) | - | 0 | 77.64 | 0.04 |", page)
+        self.assertIn("| fhw, reversed | 2 | 0.500 (0.09-0.91) | - | 0 | 77.64 | 2 of 2 | 0.04 |", page)
         # Two logs, campus with 1 of 1 and fhw with 2 of 3.
-        self.assertIn("| all with lasers | 4 | 0.750 (0.30-0.95) | 0.67-1.00 | 0 | 52.71 | 0.08 |", page)
+        self.assertIn("| all with lasers | 4 | 0.750 (0.30-0.95) | 0.67-1.00 | 0 | 52.71 | 4 of 4 | 0.08 |", page)
         self.assertIn("| of them, odometry recorded | 1 |", page)
         self.assertIn("| of them, fhw, acapulco, infinite-corridor, orebro | 3 | 0.667 (0.21-0.94) | - |", page)
         self.assertIn("| simulated office, whole map | 20 | 1 | 5.00 | 21.61 | 0.40 | 0.40 |", page)
@@ -354,6 +355,19 @@ class NumbersTest(unittest.TestCase):
         self.assertEqual((low, high), (0.0, 1.0))
         low, high = numbers.bootstrap([(9, 10)] * 9 + [(0, 1)])
         self.assertTrue(0.8 < low < 81 / 91 < high <= 0.9)
+
+    def test_claims_without_truth_are_counted(self):
+        with tempfile.TemporaryDirectory() as folder:
+            bench = Bench(pathlib.Path(folder))
+            bench.add("apart-fhw", {"signature": drive(0, 1)}, [])
+            (bench.folder / "apart-fhw" / "runs.csv").write_text(
+                "method,start,group,wrong_steps\nsignature,0,,0\n")
+            (bench.folder / "apart-fhw" / "results.csv").write_text(
+                "method,start,travelled_m,seconds,error_m,confident\n"
+                "signature,0,0,0,0.1,1\nsignature,0,1,2,,1\nsignature,0,2,4,,0\n")
+            exposure = integrity.Exposure()
+            exposure.add(runs.Bench(folder), "apart-fhw")
+            self.assertEqual((exposure.judged, exposure.claims), (1, 2))
 
     def test_steps_without_truth_are_never_right(self):
         with tempfile.TemporaryDirectory() as folder:
