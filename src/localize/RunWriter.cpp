@@ -6,6 +6,7 @@
 #include <mrpt/core/bits_math.h>
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/opengl/COpenGLScene.h>
+#include <mrpt/opengl/CText3D.h>
 #include <mrpt/serialization/CArchive.h>
 
 #include <cmath>
@@ -174,6 +175,16 @@ void lookAt(const mrpt::math::TPose2D& place, mrpt::opengl::COpenGLScene& scene)
   scene.enableFollowCamera(true);
 }
 
+/// A warning that lies on the floor before a pose that is not sure.
+mrpt::opengl::CText3D::Ptr unsureLabel(const mrpt::math::TPose2D& pose)
+{
+  constexpr double kBeside = 3.0;  // [m]
+  auto label = mrpt::opengl::CText3D::Create("NOT LOCALIZED");
+  label->setColor_u8(mrpt::img::TColor(200, 0, 0));
+  label->setPose(mrpt::math::TPose3D(pose.x - kBeside, pose.y - kBeside, 1, 0, 0, 0));
+  return label;
+}
+
 /// The folder of a run's results as a whole path, without a slash at its end: "out/" is "out".
 fs::path resultsFolder(const fs::path& folder)
 {
@@ -275,7 +286,12 @@ void RunWriter::writeScene(const FeatureMap& map, const StepRecord& step,
   scene.insert(drawMap(map));
   scene.insert(drawStep(drawing));
   const auto& hypotheses = step.belief.hypotheses;
-  if (!hypotheses.empty()) lookAt(hypotheses.front().pose.mean, scene);
+  if (!hypotheses.empty())
+  {
+    const mrpt::math::TPose2D& first = hypotheses.front().pose.mean;
+    if (step.belief.verdict != Verdict::localized) scene.insert(unsureLabel(first));
+    lookAt(first, scene);
+  }
   writeObjects(
       work_ / "3D" / (stepName(step) + ".3Dscene"),
       [&](mrpt::serialization::CArchive& archive) { archive << scene; }, Packing::quick_gzip,

@@ -8,6 +8,7 @@
 #include <mrpt/opengl/COpenGLScene.h>
 #include <mrpt/opengl/CSetOfObjects.h>
 #include <mrpt/opengl/CSetOfTriangles.h>
+#include <mrpt/opengl/CText3D.h>
 #include <mrpt/poses/CPosePDFSOG.h>
 
 #include <cmath>
@@ -329,6 +330,7 @@ TEST(Localize, scenesShowTheRobotInStockViewers)
   }
   EXPECT_GT(objects, 10U);
   EXPECT_TRUE(scene.followCamera());
+  EXPECT_FALSE(scene.getByClass<mrpt::opengl::CText3D>()) << "it is localized";
   const auto& camera = scene.getViewport()->getCamera();
   const json pose = summaryOf(folder)["final_pose"];
   EXPECT_NEAR(camera.getPointingAtX(), pose[0].get<double>(), 0.01);

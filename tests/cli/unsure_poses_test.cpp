@@ -9,6 +9,8 @@
 #include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/obs/CRawlog.h>
+#include <mrpt/opengl/COpenGLScene.h>
+#include <mrpt/opengl/CText3D.h>
 #include <mrpt/poses/CPosePDFSOG.h>
 
 #include <cmath>
@@ -176,6 +178,22 @@ TEST(PoseInBrackets, isHowProbableTheFirstPoseIs)
     }
     EXPECT_NE(result.output.find(expected), std::string::npos)
         << expected << " in " << result.output;
+  }
+  EXPECT_GE(with_pose, 1U) << "the premise of this test";
+}
+
+TEST_F(UnsurePoses, everySceneSaysSoBesideThePose)
+{
+  std::size_t with_pose = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_ / "out/3D"))
+  {
+    mrpt::opengl::COpenGLScene scene;
+    ASSERT_TRUE(scene.loadFromFile(entry.path().string()));
+    if (!scene.followCamera()) continue;  // there is no pose
+    const auto label = scene.getByClass<mrpt::opengl::CText3D>();
+    ASSERT_TRUE(label) << entry.path();
+    EXPECT_EQ(label->getString(), "NOT LOCALIZED");
+    ++with_pose;
   }
   EXPECT_GE(with_pose, 1U) << "the premise of this test";
 }
