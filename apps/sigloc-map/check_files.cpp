@@ -93,7 +93,7 @@ nlohmann::ordered_json summaryOf(const MapCheck& check, const std::string& map)
   json["program"] = kOwner;
   json["map"] = map;
   json["free_area_m2"] = check.free_area;
-  json["asked_area_m2"] = check.area;
+  json["reachable_area_m2"] = check.area;
   json["places"] = check.places.size();
   json["recall_at_1"] = check.recall();
   json["localized_share"] = check.localizedShare();
@@ -166,7 +166,7 @@ std::string checkTable(const MapCheck& check)
   const auto row = [&](const std::string& name, const std::string& text)
   { table += fmt::format("{:<24}{}\n", name, text); };
   row("free space",
-      fmt::format("{:.0f} m2; asked in {:.0f}, the largest part where a robot fits, at {}",
+      fmt::format("{:.0f} m2, {:.0f} in the largest part where a robot fits; asked at {}",
                   check.free_area, check.area, counted(check.places.size(), "place")));
   row("taken for granted",
       fmt::format("walls {:.2f} m off, {:.0f} % of the beams end on what is not mapped",

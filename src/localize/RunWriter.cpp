@@ -180,7 +180,7 @@ mrpt::opengl::CText3D::Ptr unsureLabel(const mrpt::math::TPose2D& pose)
 {
   constexpr double kBeside = 3.0;  // [m]
   auto label = mrpt::opengl::CText3D::Create("NOT LOCALIZED");
-  label->setColor_u8(mrpt::img::TColor(200, 0, 0));
+  label->setColor_u8(Palette::kNotLocalized);
   label->setPose(mrpt::math::TPose3D(pose.x - kBeside, pose.y - kBeside, 1, 0, 0, 0));
   return label;
 }

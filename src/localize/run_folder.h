@@ -54,6 +54,6 @@ bool isMountPoint(const std::filesystem::path& folder);
 /// is killed, nothing of the new run is lost, and `results` has a summary. Where the file system
 /// cannot exchange names, `results` may be missing then; recoverRun() mends that. What cannot be
 /// removed stays in `work`. Throws std::runtime_error ("folder: reason") where `results` cannot be
-/// replaced; `work` is whole then.
+/// replaced; a `work` beside it is whole then.
 void replaceRun(const std::filesystem::path& work, const std::filesystem::path& results);
 }  // namespace sigloc::detail
