@@ -15,6 +15,8 @@ class SeenReturns
  public:
   void add(const LaserScan& scan);
 
+  bool anyScan() const { return scans_ > 0; }
+
   /// True where there are scans, and none has a valid return.
   bool none() const { return scans_ > 0 && !any_; }
 

@@ -3,6 +3,7 @@
 #include "sigloc/localize/LocalizationRun.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -197,6 +198,19 @@ std::optional<OdometryMatch> matchOfOdometry(const std::vector<StepRecord>& step
   return OdometryMatch{std::atan2(across, along), std::hypot(along, across) / squares};
 }
 
+using SeenTypes = std::array<bool, kFeatureTypes>;
+
+/// Returns why a log in which all that was seen is too little shows nothing that its map could
+/// explain. Empty where it does.
+std::string whyUnusable(const SeenReturns& returns, const SeenTypes& seen, const FeatureMap& map)
+{
+  if (map.field())
+    return returns.anyScan() ? "" : "no laser scan in it; a map of walls takes nothing else";
+  const bool shared = std::any_of(map.features().begin(), map.features().end(),
+                                  [&](const Feature& f) { return seen[typeIndex(f.type)]; });
+  return shared ? "" : "it shows no feature of a type that the map has";
+}
+
 /// pf-localization's test: one pose, not far from the truth.
 bool hasConverged(const StepRecord& step)
 {
@@ -226,6 +240,7 @@ struct LocalizationRun::State
   std::unique_ptr<HypothesisTracker> tracker;  // the one or
   std::unique_ptr<LogTracker> particles;  // the other
   SeenReturns returns;
+  SeenTypes seen_types{};
   bool map_reused = false;
   double map_seconds = 0;
 };
@@ -303,6 +318,7 @@ void LocalizationRun::extract(const RawlogStep& input, StepRecord& step)
   scene_ = observe(input, setup_.features);
   step.extraction_ms = watch.milliseconds();
   step.features = scene_.features;
+  for (const Feature& feature : step.features) state_->seen_types[typeIndex(feature.type)] = true;
   step.returns = someReturns(scene_.beams);
 }
 
@@ -338,6 +354,16 @@ double LocalizationRun::progress() const
   return state_->reader.progress();
 }
 
+std::string LocalizationRun::whyNothingSeen() const
+{
+  if (steps_.size() < 2) return {};  // A single scan may see nothing by chance.
+  if (state_->returns.none()) return state_->returns.whyNone();
+  const bool little = std::all_of(steps_.begin(), steps_.end(),
+                                  [](const StepRecord& step)
+                                  { return step.belief.verdict == Verdict::too_little_seen; });
+  return little ? whyUnusable(state_->returns, state_->seen_types, *map_) : std::string();
+}
+
 bool LocalizationRun::atEnd() const
 {
   return !state_->pending;
@@ -349,8 +375,7 @@ RunSummary LocalizationRun::summary() const
   summary.map_reused = state_->map_reused;
   summary.map_seconds = state_->map_seconds;
   summary.left_out = state_->reader.leftOut();
-  // A single scan may see nothing by chance.
-  if (steps_.size() > 1 && state_->returns.none()) summary.nothing_seen = state_->returns.whyNone();
+  summary.nothing_seen = whyNothingSeen();
   summary.truncated = state_->reader.truncated();
   summary.steps = steps_.size();
   countLocalized(steps_, summary);

@@ -43,5 +43,31 @@ TEST(Localize, followsARobotThatSeesLandmarksOnly)
       std::distance(std::filesystem::directory_iterator(folder / "out/belief"), {});
   EXPECT_GE(beliefs, steps);
 }
+
+TEST(Localize, tellsWhyALogOfLandmarksAndAMapOfWallsHaveNothingInCommon)
+{
+  const TemporaryFolder folder;
+  for (const char* const world : {"points", "office"})
+  {
+    const CommandResult made =
+        run(folder, "sigloc-simulate", {"--world", world, "--metres", "3", "--out", world});
+    ASSERT_EQ(made.exit_code, 0) << made.errors;
+  }
+  const auto errorsOf = [&](const char* map, const char* log)
+  {
+    const CommandResult result =
+        run(folder, "sigloc-localize", {"--map", map, "--log", log, "--quiet"});
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    return result.errors;
+  };
+  EXPECT_EQ(
+      errorsOf("office/map.simplemap", "points/drive.rawlog"),
+      "sigloc-localize: points/drive.rawlog: no laser scan in it; a map of walls takes nothing "
+      "else\n");
+  EXPECT_EQ(
+      errorsOf("points/map.txt", "office/drive.rawlog"),
+      "sigloc-localize: office/drive.rawlog: it shows no feature of a type that the map has\n");
+  EXPECT_EQ(errorsOf("points/map.txt", "points/drive.rawlog"), "");
+}
 }  // namespace
 }  // namespace sigloc

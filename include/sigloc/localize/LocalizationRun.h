@@ -76,7 +76,7 @@ struct RunSummary
   bool map_reused = false;  ///< loaded from the cache
   double map_seconds = 0;  ///< to build the map, or to load it
   LeftOutOfLog left_out;
-  std::string nothing_seen;  ///< why none of several scans has a valid return, or empty
+  std::string nothing_seen;  ///< why no step shows anything that the map could explain, or empty
   bool truncated = false;  ///< the log broke off: everything covers what was read
 };
 
@@ -118,6 +118,7 @@ class LocalizationRun
   void extract(const RawlogStep& input, StepRecord& step);
   void track(const RawlogStep& input, StepRecord& step);
   void score(StepRecord& step) const;
+  std::string whyNothingSeen() const;
   LocalizationSetup setup_;
   std::shared_ptr<const FeatureMap> map_;
   GaussianPose anywhere_;
