@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "geometry/LargeVector.h"
+
 namespace sigloc
 {
 /// A raster of bytes that is stored whole, or in tiles that are made where something is written.
@@ -81,6 +83,6 @@ class ByteRaster
 
   std::uint32_t width_ = 0, height_ = 0, tile_columns_ = 0;
   std::vector<std::uint32_t> tiles_;
-  std::vector<std::uint8_t> bytes_;
+  LargeVector<std::uint8_t> bytes_;
 };
 }  // namespace sigloc

@@ -124,7 +124,7 @@ ClearBlocks::ClearBlocks(const DenseField& field)
                 { return cells[std::size_t{y} * frame.width + x]; });
     walls.addDistances();
     blocks_.reserve(walls.blocks.size() + 1);
-    blocks_ = walls.blocks;
+    blocks_.assign(walls.blocks.begin(), walls.blocks.end());
     blocks_.push_back(kOutside);
     return;
   }

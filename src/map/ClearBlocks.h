@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "geometry/LargeVector.h"
 #include "geometry/simd.h"
 #include "sigloc/map/DenseField.h"
 
@@ -82,6 +83,6 @@ class ClearBlocks
   std::int32_t width_ = 0, height_ = 0;  // [blocks]
   std::int32_t columns_ = 0, rows_ = 0;  // [tiles]
   std::vector<std::uint32_t> tiles_;  // place of each tile in blocks_; empty: the frame is stored
-  std::vector<std::uint8_t> blocks_;
+  LargeVector<std::uint8_t> blocks_;
 };
 }  // namespace sigloc

@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "geometry/LargeVector.h"
 #include "map/field_tiles.h"
 #include "map/map_values.h"
 
@@ -215,6 +216,16 @@ class RowEnvelope
   std::vector<double> from_;
 };
 }  // namespace
+
+void* allocateCells(std::size_t bytes)
+{
+  return allocateTable(bytes + 1);
+}
+
+void freeCells(void* cells) noexcept
+{
+  freeTable(cells);
+}
 
 double truncationDistance(double resolution)
 {

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <new>
 #include <vector>
 
 namespace sigloc
@@ -109,7 +108,12 @@ class DenseCell
 };
 static_assert(sizeof(DenseCell) == 3, "a field has hundreds of cells a square metre");
 
-/// Memory with a byte behind the last cell, so that each can be read as a word of four bytes.
+/// Returns memory for cells, with a byte behind the last, so that each can be read as a word of
+/// four bytes. It is on large pages where there is much of it. Throws std::bad_alloc.
+void* allocateCells(std::size_t bytes);
+void freeCells(void* cells) noexcept;
+
+/// Memory of such cells.
 template <class T>
 struct CellAllocator
 {
@@ -120,8 +124,8 @@ struct CellAllocator
   CellAllocator(const CellAllocator<U>& /*other*/)
   {
   }
-  T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T) + 1)); }
-  void deallocate(T* cells, std::size_t /*n*/) noexcept { ::operator delete(cells); }
+  T* allocate(std::size_t n) { return static_cast<T*>(allocateCells(n * sizeof(T))); }
+  void deallocate(T* cells, std::size_t /*n*/) noexcept { freeCells(cells); }
   friend bool operator==(const CellAllocator& /*a*/, const CellAllocator& /*b*/) { return true; }
   friend bool operator!=(const CellAllocator& /*a*/, const CellAllocator& /*b*/) { return false; }
 };

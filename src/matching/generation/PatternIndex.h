@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "geometry/LargeVector.h"
 #include "matching/features/GeneratorOptions.h"
-#include "matching/features/LargeVector.h"
 #include "matching/features/PreparedMap.h"
 
 #include <array>

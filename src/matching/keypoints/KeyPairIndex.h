@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "geometry/LargeVector.h"
 #include "matching/keypoints/KeyPoint.h"
 #include "sigloc/geometry/GaussianPose.h"
 
@@ -136,7 +137,7 @@ class KeyPairIndex
   double range_ = 0;  // [m]
   std::uint32_t rows_ = 0;
   std::uint32_t distance_bins_ = 1;  // of a row
-  std::vector<std::uint32_t> cells_;  // by row, then by distance: the first entry; and the end
-  std::vector<Entry> entries_;  // by cell
+  LargeVector<std::uint32_t> cells_;  // by row, then by distance: the first entry; and the end
+  LargeVector<Entry> entries_;  // by cell
 };
 }  // namespace sigloc

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the sigloc authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "matching/features/LargeVector.h"
+#include "geometry/LargeVector.h"
 
 #include <cstdlib>
 #include <new>
