@@ -53,43 +53,64 @@ void checkRaster(const OccupancyRaster& raster)
   }
 }
 
+/// Rounds half away from zero, as std::round, without its call.
 std::int8_t offsetByte(double metres)
 {
-  const double units = std::round(metres / DenseField::kOffsetUnit);
-  return static_cast<std::int8_t>(std::clamp(units, -127.0, 127.0));
+  const double units = metres / DenseField::kOffsetUnit;
+  const auto whole = static_cast<std::int32_t>(units);
+  const auto away = static_cast<std::int32_t>(2 * (units - whole));
+  return static_cast<std::int8_t>(std::clamp(whole + away, -127, 127));
 }
 
-/// Returns for every cell the signed offset to the nearest wall cell of its column, or kNone.
+/// Returns the distance in units of a field by its square [cells²], up to that of the radius.
+std::vector<std::uint8_t> distanceUnits(double resolution, std::int32_t radius)
+{
+  std::vector<std::uint8_t> units;
+  for (std::int32_t square = 0; square <= radius * radius; ++square)
+  {
+    const double distance = resolution * std::sqrt(static_cast<double>(square));
+    units.push_back(static_cast<std::uint8_t>(std::lround(distance / DenseField::kDistanceUnit)));
+  }
+  return units;
+}
+
+/// Counts, for each column, the rows since its last wall cell, up to `most`.
+void countRow(const CellState* cells, std::int16_t most, std::vector<std::int16_t>& since)
+{
+  for (std::size_t x = 0; x < since.size(); ++x)
+  {
+    const auto next = static_cast<std::int16_t>(since[x] < most ? since[x] + 1 : most);
+    since[x] = isWall(cells[x]) ? std::int16_t{0} : next;
+  }
+}
+
+/// Returns for every cell the signed offset to the nearest wall cell of its column, or kNone. Its
+/// loops have no branches, so that they run on many columns at once.
 std::vector<std::int16_t> columnOffsets(const OccupancyRaster& raster, std::int32_t radius)
 {
   const std::size_t width = raster.frame.width;
   const std::size_t height = raster.frame.height;
-  std::vector<std::int16_t> offsets(width * height, static_cast<std::int16_t>(kNone));
-  std::vector<std::int32_t> last(width, -2 * kNone);
+  const auto most = static_cast<std::int16_t>(radius + 1);
+  std::vector<std::int16_t> offsets(width * height);
+  std::vector<std::int16_t> since(width, most);
   for (std::size_t y = 0; y < height; ++y)
   {
+    countRow(&raster.cells[y * width], most, since);
+    std::int16_t* const row = &offsets[y * width];
     for (std::size_t x = 0; x < width; ++x)
-    {
-      const auto row = static_cast<std::int32_t>(y);
-      if (isWall(raster.cells[y * width + x])) last[x] = row;
-      if (row - last[x] <= radius)
-      {
-        offsets[y * width + x] = static_cast<std::int16_t>(last[x] - row);
-      }
-    }
+      row[x] = static_cast<std::int16_t>(since[x] < most ? -since[x] : kNone);
   }
-  std::fill(last.begin(), last.end(), 4 * kNone);
+  std::fill(since.begin(), since.end(), most);
   for (std::size_t y = height; y-- > 0;)
   {
+    countRow(&raster.cells[y * width], most, since);
+    std::int16_t* const row = &offsets[y * width];
     for (std::size_t x = 0; x < width; ++x)
     {
-      const auto row = static_cast<std::int32_t>(y);
-      if (isWall(raster.cells[y * width + x])) last[x] = row;
-      std::int16_t& offset = offsets[y * width + x];
-      if (last[x] - row <= radius && last[x] - row < std::abs(offset))
-      {
-        offset = static_cast<std::int16_t>(last[x] - row);
-      }
+      const std::int16_t below = row[x];
+      const auto distance = static_cast<std::int16_t>(below < 0 ? -below : below);
+      const bool nearer = since[x] < most && since[x] < distance;
+      row[x] = nearer ? since[x] : below;
     }
   }
   return offsets;
@@ -168,11 +189,13 @@ class RidgeRows
 class RowEnvelope
 {
  public:
-  explicit RowEnvelope(std::size_t width) : apex_(width), from_(width + 1) {}
+  explicit RowEnvelope(std::size_t width) : height_(width), apex_(width), from_(width + 1) {}
 
   /// Fills `nearest` with the column whose wall cell is nearest to each cell of the row, or -1.
   void solve(const std::int16_t* offsets, std::int32_t width, std::vector<std::int32_t>& nearest)
   {
+    for (std::int32_t x = 0; x < width; ++x)
+      height_[index(x)] = static_cast<double>(offsets[x]) * offsets[x] + static_cast<double>(x) * x;
     std::int32_t count = 0;
     for (std::int32_t x = 0; x < width; ++x)
     {
@@ -180,7 +203,7 @@ class RowEnvelope
       double start = -std::numeric_limits<double>::infinity();
       while (count > 0)
       {
-        start = crossing(offsets, apex_[index(count - 1)], x);
+        start = crossing(apex_[index(count - 1)], x);
         if (start > from_[index(count - 1)]) break;
         --count;
         start = -std::numeric_limits<double>::infinity();
@@ -205,13 +228,12 @@ class RowEnvelope
  private:
   static std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-  static double crossing(const std::int16_t* offsets, std::int32_t a, std::int32_t b)
+  double crossing(std::int32_t a, std::int32_t b) const
   {
-    const double fa = static_cast<double>(offsets[a]) * offsets[a] + static_cast<double>(a) * a;
-    const double fb = static_cast<double>(offsets[b]) * offsets[b] + static_cast<double>(b) * b;
-    return (fb - fa) / (2.0 * (b - a));
+    return (height_[index(b)] - height_[index(a)]) / (2.0 * (b - a));
   }
 
+  std::vector<double> height_;  // of each column's parabola at column 0
   std::vector<std::int32_t> apex_;
   std::vector<double> from_;
 };
@@ -250,6 +272,7 @@ DenseField buildDenseField(const OccupancyRaster& raster)
   field.cells.resize(raster.cells.size());
 
   const std::vector<std::int16_t> offsets = columnOffsets(raster, radius);
+  const std::vector<std::uint8_t> units = distanceUnits(resolution, radius);
   RidgeRows ridges(raster, radius);
   RowEnvelope envelope(raster.frame.width);
   std::vector<std::int32_t> nearest(raster.frame.width);
@@ -270,10 +293,9 @@ DenseField buildDenseField(const OccupancyRaster& raster)
       if (nearest[column] < 0) continue;
       const std::int32_t dx = nearest[column] - x;
       const std::int32_t dy = offsets[row + static_cast<std::size_t>(nearest[column])];
-      if (dx * dx + dy * dy > radius * radius) continue;
-      const double distance = resolution * std::sqrt(static_cast<double>(dx * dx + dy * dy));
-      const auto units = std::lround(distance / DenseField::kDistanceUnit);
-      cell = DenseCell(state, static_cast<std::uint8_t>(units));
+      const std::int32_t square = dx * dx + dy * dy;
+      if (square > radius * radius) continue;
+      cell = DenseCell(state, units[static_cast<std::size_t>(square)]);
       const TPoint2Df& ridge = ridges.at(nearest[column], static_cast<std::int32_t>(y) + dy);
       cell.dx = offsetByte(dx * resolution + static_cast<double>(ridge.x));
       cell.dy = offsetByte(dy * resolution + static_cast<double>(ridge.y));
