@@ -23,9 +23,9 @@ Track tracked()
   return track;
 }
 
-/// The log-odds of a track that has driven `way` [m], and of whose 20 mapped cells the share
-/// `off_walls` is not explained.
-double logOddsAfter(double way, int off_walls)
+/// The log-odds of a track that has driven `way` [m], of whose 20 mapped cells `off_walls` are not
+/// explained, and that relocations have `found`.
+double logOddsAfter(double way, int off_walls, double found = tracked().confirmed)
 {
   constexpr int kCells = 20;
   const DenseScan scan = test::wallAhead(kCells);
@@ -37,6 +37,7 @@ double logOddsAfter(double way, int off_walls)
   }
   Track track = tracked();
   track.tracked_distance = way;
+  track.confirmed = found;
   track.explained.addScan(observedCells(scan, {0, 0, 0}), explained, 0);
   return track.inMapLogOdds();
 }
@@ -55,7 +56,21 @@ TEST(TrackInMap, LastingIsEvidenceWhereWhatIsSeenIsExplained)
 {
   EXPECT_GT(logOddsAfter(20, 0), logOddsAfter(10, 0) + 1);
   EXPECT_EQ(logOddsAfter(100, 0), logOddsAfter(20, 0)) << "twenty metres tell all";
-  EXPECT_NEAR(logOddsAfter(20, 5), logOddsAfter(0, 5), 1e-9) << "a quarter is unexplained";
+}
+
+// In clutter much is unexplained at the right pose, too. Relocations tell it from a wrong one.
+TEST(TrackInMap, WhereMuchIsUnexplainedLastingIsEvidenceForWhatRelocationsFind)
+{
+  EXPECT_NEAR(logOddsAfter(20, 5, 0), logOddsAfter(0, 5, 0), 1e-9) << "never found";
+  EXPECT_LT(logOddsAfter(20, 5, -1), logOddsAfter(0, 5, -1)) << "relocations contradict it";
+  double last = 0;
+  for (const double found : {1.0, 2.0, 4.6})
+  {
+    const double gain = logOddsAfter(20, 5, found) - logOddsAfter(0, 5, found);
+    EXPECT_GT(gain, last) << found;
+    last = gain;
+  }
+  EXPECT_NEAR(logOddsAfter(20, 5, 12) - logOddsAfter(0, 5, 12), last, 1e-9) << "sure is sure";
 }
 
 TEST(TrackInMap, APoseFoundLateIsLessSure)
@@ -75,7 +90,11 @@ TEST(TrackInMap, WhatIsUnexplainedSpeaksAgainstIt)
 {
   for (const double way : {0.0, 20.0})
   {
-    for (int k = 0; k < 20; ++k) EXPECT_GT(logOddsAfter(way, k), logOddsAfter(way, k + 1)) << k;
+    for (const double found : {-1.0, 3.0, 12.0})
+    {
+      for (int k = 0; k < 20; ++k)
+        EXPECT_GT(logOddsAfter(way, k, found), logOddsAfter(way, k + 1, found)) << k;
+    }
   }
 }
 

@@ -11,19 +11,20 @@ namespace sigloc
 namespace
 {
 // In the map or not, eq. (8.22): a logistic regression by scripts/fit_evidence.
-constexpr double kOffset = -2.06;  // log-odds without the prior
-constexpr double kRelocationSlope = 0.97;  // per unit of kappa
-constexpr double kWaySlope = 0.21;  // per unit of gamma
-constexpr double kUnexplainedSlope = 3.8;  // per unexplained share of the mapped area seen
-constexpr double kFollowedSlope = 4.2;  // for kFullWay followed with nothing unexplained
+constexpr double kOffset = -1.40;  // log-odds without the prior
+constexpr double kRelocationSlope = 0.92;  // per unit of kappa
+constexpr double kWaySlope = 0.0145;  // per unit of gamma squared
+constexpr double kUnexplainedSlope = 3.9;  // per unexplained share of the mapped area seen
+constexpr double kFollowedSlope = 4.5;  // for kFullWay followed, explained or found
 constexpr double kFullWay = 20.0;  // [m]
-constexpr double kSearchedSlope = 1.3;  // for kFullWay driven unlocalized before
+constexpr double kSearchedSlope = 1.9;  // for kFullWay driven unlocalized before
 constexpr double kMostUnexplained = 0.2;  // unexplained share from which the way does not count
 constexpr double kMaxTracked = 16.0;  // bound of gamma
-constexpr double kPriorHere = 1.6;  // log-odds of being in the map, of a robot that is tracked
+constexpr double kFound = 4.6;  // kappa of a pose that relocations are sure of, ln 99
+constexpr double kPriorHere = 0.6;  // log-odds of being in the map, of a robot that is tracked
 
 // The same in a map of landmarks, eq. (8.23), by the same script.
-constexpr double kFeatureOffset = -5.47;  // log-odds without the prior
+constexpr double kFeatureOffset = -3.87;  // log-odds, a prior of 1.6 within
 constexpr double kPairingSlope = 0.85;  // per unit of kappa
 }  // namespace
 
@@ -59,12 +60,16 @@ void Track::inherit(const Track& parent)
 
 double Track::inMapLogOdds() const
 {
-  if (!in_field) return kPriorHere + kFeatureOffset + kPairingSlope * confirmed;
+  if (!in_field) return kFeatureOffset + kPairingSlope * confirmed;
   const double unexplained = explained.offWallShare();
   const double way = std::min(1.0, tracked_distance / kFullWay);
   const double searched = std::min(1.0, searched_distance / kFullWay);
   const double fit = std::max(0.0, 1.0 - unexplained / kMostUnexplained);
-  return kPriorHere + kOffset + kRelocationSlope * confirmed + kWaySlope * tracked_log_odds -
-         kUnexplainedSlope * unexplained + kFollowedSlope * way * fit - kSearchedSlope * searched;
+  // Clutter leaves much unexplained at the right pose, too, but relocations find it.
+  const double backed = fit + (1.0 - fit) * std::min(1.0, confirmed / kFound);
+  return kPriorHere + kOffset + kRelocationSlope * confirmed +
+         kWaySlope * tracked_log_odds * std::abs(tracked_log_odds) -
+         kUnexplainedSlope * unexplained + kFollowedSlope * way * backed -
+         kSearchedSlope * searched;
 }
 }  // namespace sigloc
