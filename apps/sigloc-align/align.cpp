@@ -75,8 +75,20 @@ void writePoses(const std::vector<sigloc::MapPose>& poses, const fs::path& path)
     hypothesis.weight = pose.weight;
     belief.hypotheses.push_back(hypothesis);
   }
-  const mrpt::poses::CPosePDFSOG sum = sigloc::toSumOfGaussians(belief);
+  mrpt::poses::CPosePDFSOG sum = sigloc::toSumOfGaussians(belief);
+  // As printed, not scaled to a sum of one: what is left is no pose at all.
+  for (std::size_t i = 0; i < poses.size(); ++i) sum.get(i).log_w = std::log(poses[i].weight);
   sigloc::writeObjects(path, [&](mrpt::serialization::CArchive& archive) { archive << sum; });
+}
+
+/// What to warn of where most places of the second map agree with none of the poses; else empty.
+std::string warningOfPoses(const std::vector<sigloc::MapPose>& poses)
+{
+  double sum = 0;
+  for (const sigloc::MapPose& pose : poses) sum += pose.weight;
+  if (poses.empty() || sum >= 0.5) return {};
+  return fmt::format("only {:.0f} % of its places agree with a pose: it may show another place",
+                     100 * sum);
 }
 
 void print(const std::vector<sigloc::MapPose>& poses)
@@ -121,6 +133,7 @@ int siglocAlign(const sigloc::AlignArguments& given)
     throw std::runtime_error(named.string() + ": " + error.what());
   }
   print(poses);
+  sigloc::warn(kProgram, arguments.b, warningOfPoses(poses));
   if (poses.empty()) return kNoPose;
   if (!given.output.empty()) fs::create_directories(given.output);
   if (!arguments.poses.empty()) writePoses(poses, arguments.poses);

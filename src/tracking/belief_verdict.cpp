@@ -45,7 +45,8 @@ void setVerdict(Belief& belief, VerdictGrounds grounds, double sure, const Dense
   const bool has_rivals =
       decision.reason == VerdictReason::not_sure ||
       (decision.reason == VerdictReason::unconfirmed && belief.hypotheses.size() > 1);
-  belief.reason = has_rivals ? describeRivals(belief.hypotheses, field) : toString(decision.reason);
+  belief.reason = has_rivals ? describeRivals(belief.hypotheses, belief.elsewhere, field)
+                             : toString(decision.reason);
 }
 
 void concludeBelief(Belief& belief, const TrackSet& set, RelocationSchedule& schedule,

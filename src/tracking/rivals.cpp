@@ -12,15 +12,25 @@ namespace sigloc
 {
 using mrpt::math::TPose2D;
 
-std::string describeRivals(const std::vector<TrackedHypothesis>& hypotheses,
+std::string describeRivals(const std::vector<TrackedHypothesis>& hypotheses, double elsewhere,
                            const DenseField* field)
 {
-  if (hypotheses.size() < 2) return "one hypothesis remains, beside somewhere else";
+  const bool alone = hypotheses.size() < 2;
+  const std::string remain =
+      alone ? "one hypothesis remains" : fmt::format("{} hypotheses remain", hypotheses.size());
+  double others = 0;
+  for (std::size_t k = 1; k < hypotheses.size(); ++k) others += hypotheses[k].weight;
+  if (alone || elsewhere > others)
+  {
+    return remain +
+           fmt::format(", and somewhere else weighs {:.2g}: what was seen does not prove {}",
+                       elsewhere, alone ? "it" : "the first");
+  }
   const TPose2D& first = hypotheses[0].pose.mean;
   const TPose2D& second = hypotheses[1].pose.mean;
-  std::string line = fmt::format(
-      "{} hypotheses remain; the next, of weight {:.2g}, is {:.1f} m away", hypotheses.size(),
-      hypotheses[1].weight, std::hypot(second.x - first.x, second.y - first.y));
+  std::string line =
+      remain + fmt::format("; the next, of weight {:.2g}, is {:.1f} m away", hypotheses[1].weight,
+                           std::hypot(second.x - first.x, second.y - first.y));
   if (field == nullptr) return line;
   const auto place = distinguishingPlace(*field, first, second);
   if (!place) return line + " and the map shows no difference within 8 m";

@@ -19,6 +19,9 @@ namespace
 {
 using namespace sigloc::test;
 
+constexpr const char* kDamaged =
+    ": damaged: its check fails; gzip -dc or zstd -dc unpacks what is left of it";
+
 /// One member of gzip.
 std::string gzipMember(const std::string& bytes)
 {
@@ -116,13 +119,13 @@ TEST(GzipFiles, whatFollowsThemAndIsNoneIsDamage)
   const auto log = folder / "l.rawlog";
   writeText(log, readBytes(kLabLog) + "the end");
   EXPECT_EQ(messageOf<std::runtime_error>([&] { RawlogReader reader(log); }),
-            log.string() + ": damaged");
+            log.string() + kDamaged);
   const auto map = folder / "m.simplemap";
   writeText(map, readBytes(kLabMap) + "the end");
-  EXPECT_EQ(mapErrorOf(map), map.string() + ": damaged");
+  EXPECT_EQ(mapErrorOf(map), map.string() + kDamaged);
   writeText(log, readBytes(kLabLog) + "\n");
   EXPECT_EQ(messageOf<std::runtime_error>([&] { RawlogReader reader(log); }),
-            log.string() + ": damaged");
+            log.string() + kDamaged);
 }
 
 TEST(GzipFiles, noByteThatIsChangedChangesTheContentsUnnoticed)

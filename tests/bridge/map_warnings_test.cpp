@@ -96,7 +96,7 @@ std::string warningOfRoom(double resolution, bool inverted)
 TEST(MapWarnings, TellOfMapsThatCannotBeMeant)
 {
   EXPECT_EQ(warningOfRoom(0.1, false), "");
-  EXPECT_NE(warningOfRoom(0.1, true).find("colours inverted"), std::string::npos);
+  EXPECT_NE(warningOfRoom(0.1, true).find("are they swapped?"), std::string::npos);
   EXPECT_NE(warningOfRoom(0.6, false).find("resolution in metres"), std::string::npos);
   EXPECT_NE(warningOfRoom(0.01, false).find("m2 of free space; is its resolution"),
             std::string::npos);
@@ -128,7 +128,7 @@ TEST(MapWarnings, AnInvertedMapWithoutAFeatureIsToldForWhatItIs)
   }
   catch (const std::runtime_error& error)
   {
-    EXPECT_NE(std::string(error.what()).find("colours inverted"), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("are they swapped?"), std::string::npos)
         << error.what();
   }
 }

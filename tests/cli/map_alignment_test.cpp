@@ -143,6 +143,34 @@ TEST(MapAlignment, everyPosePossibleIsTold)
   EXPECT_GE(poses.size(), 2U) << "the rooms repeat along the corridor";
 }
 
+double weightsIn(const std::filesystem::path& path)
+{
+  double sum = 0;
+  for (const auto& mode : posesIn(path)) sum += std::exp(mode.log_w);
+  return sum;
+}
+
+// Offices have rooms in common. What few places agree with is no sure pose, in the file neither.
+TEST(MapAlignment, whatFewPlacesAgreeWithIsToldAndWeighsLittle)
+{
+  const TemporaryFolder folder;
+  for (const char* seed : {"13", "14"})
+  {
+    ASSERT_EQ(
+        run(folder, "sigloc-simulate", {"--seed", seed, "--metres", "5", "--out", seed}).exit_code,
+        0);
+  }
+  const CommandResult result = run(
+      folder, "sigloc-align", {"13/map.simplemap", "14/map.simplemap", "--poses", "p.CPosePDFSOG"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_NE(result.errors.find("of its places agree with a pose"), std::string::npos)
+      << result.errors;
+  EXPECT_LT(weightsIn(folder / "p.CPosePDFSOG"), 0.5);
+  const Arguments itself = {"13/map.simplemap", "13/map.simplemap", "--poses", "q.CPosePDFSOG"};
+  EXPECT_EQ(run(folder, "sigloc-align", itself).errors, "");
+  EXPECT_GT(weightsIn(folder / "q.CPosePDFSOG"), 0.5);
+}
+
 TEST(MapAlignment, anotherBuildingIsNotFound)
 {
   const TemporaryFolder folder;

@@ -67,7 +67,7 @@ TEST(Rivals, EqualRoomsLookTheSame)
 {
   const DenseField field = twoRooms(0, 0);
   EXPECT_FALSE(distinguishingPlace(field, {5, 5, 0.3}, {15, 5, 0.3}).has_value());
-  EXPECT_EQ(describeRivals(inBoth(0.3), &field),
+  EXPECT_EQ(describeRivals(inBoth(0.3), 0.01, &field),
             "2 hypotheses remain; the next, of weight 0.39, is 10.0 m away and the map shows no "
             "difference within 8 m");
 }
@@ -75,10 +75,23 @@ TEST(Rivals, EqualRoomsLookTheSame)
 TEST(Rivals, AreDescribedWithAndWithoutAField)
 {
   const DenseField field = twoRooms(0, 2.4);
-  const std::string line = describeRivals(inBoth(M_PI / 2), &field);
+  const std::string line = describeRivals(inBoth(M_PI / 2), 0.01, &field);
   EXPECT_NE(line.find("m from the robot at"), std::string::npos) << line;
-  EXPECT_EQ(describeRivals(inBoth(0), nullptr),
+  EXPECT_EQ(describeRivals(inBoth(0), 0.01, nullptr),
             "2 hypotheses remain; the next, of weight 0.39, is 10.0 m away");
+}
+// A rival of weight 1e-4 is not why: the robot may be outside the map, or the map may be wrong.
+TEST(Rivals, SomewhereElseIsNamedWhereItWeighsMore)
+{
+  std::vector<TrackedHypothesis> two = inBoth(0);
+  two[1].weight = 1e-4;
+  EXPECT_EQ(describeRivals(two, 0.39, nullptr),
+            "2 hypotheses remain, and somewhere else weighs 0.39: what was seen does not prove the "
+            "first");
+  two.pop_back();
+  EXPECT_EQ(
+      describeRivals(two, 0.39, nullptr),
+      "one hypothesis remains, and somewhere else weighs 0.39: what was seen does not prove it");
 }
 }  // namespace
 }  // namespace sigloc

@@ -105,7 +105,8 @@ void requireIntact(const std::filesystem::path& path, const UnpackLimits& limits
   if (input.isPlain()) return;  // it has no checksum
   input.limitTo(limits, false);
   input.skipToEnd(limits.most);
-  if (input.isWrong()) fail(path, "damaged");
+  if (input.isWrong())
+    fail(path, "damaged: its check fails; gzip -dc or zstd -dc unpacks what is left of it");
 }
 
 std::string restOf(GzipInput& input, std::uint64_t most)

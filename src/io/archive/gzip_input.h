@@ -110,7 +110,7 @@ class GzipInput final : public mrpt::io::CStream
   bool damaged_ = false;
 };
 
-/// Throws std::runtime_error "path: damaged" for a compressed file whose content fails its own
+/// Throws std::runtime_error "path: damaged: ..." for a compressed file whose content fails its own
 /// check; one that is merely cut off passes. MRPT's readers may crash on objects with wrong
 /// bytes in them, so this is called before them. Costs one decompression of the file. Refuses one
 /// that unpacks to more than the limits.

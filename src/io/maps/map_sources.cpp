@@ -99,10 +99,10 @@ void requireMapFile(const std::filesystem::path& path)
 MapKind kindOf(const std::filesystem::path& path)
 {
   if (const auto kind = detail::mapKindOf(path)) return *kind;
-  refuseFolder(path);
+  if (path.empty()) throw std::runtime_error("the name of the map is empty");
+  requireMapFile(path);
   if (detail::extensionOf(path) == ".rawlog")
   {
-    detail::requireFile(path);
     detail::fail(path, "a rawlog is the log of a drive, not a map; icp-slam makes a map of it");
   }
   std::vector<std::string> known;

@@ -15,9 +15,8 @@ std::string detail::warningOfField(const DenseField& field)
   const double walls = field.wall_cells * cell * cell;
   if (walls > field.free_area)
   {
-    return fmt::format(
-        "has {:.0f} m2 of wall and {:.0f} m2 of free space; are its colours inverted?", walls,
-        field.free_area);
+    return fmt::format("has {:.0f} m2 of wall and {:.0f} m2 of free space; are they swapped?",
+                       walls, field.free_area);
   }
   if (cell > kCoarsest)
   {
