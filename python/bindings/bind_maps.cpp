@@ -27,6 +27,7 @@ namespace
 using SharedMap = std::shared_ptr<FeatureMap>;
 
 constexpr int kPercentOfWall = 100;
+constexpr int kPercentOfBlur = 50;
 constexpr int kPercentUnknown = -1;
 
 SharedMap loadMap(const std::filesystem::path& path, double resolution,
@@ -85,11 +86,14 @@ SharedMap mapFromGrid(const py::array& array, double resolution, const Numbers& 
   return std::make_shared<FeatureMap>(buildMapFromRaster(detail::rasterOfOccupancy(grid)));
 }
 
+/// Noise spreads beams over cells in front of a wall and behind it. Where more passed than ended a
+/// map saver writes no wall, and a wall there would be seen from the wrong place.
 std::int8_t percentOf(CellState state)
 {
-  const int percent = isWall(state)              ? kPercentOfWall
-                      : state == CellState::free ? 0
-                                                 : kPercentUnknown;
+  int percent = kPercentUnknown;
+  if (state == CellState::free) percent = 0;
+  if (state == CellState::wall) percent = kPercentOfBlur;
+  if (state == CellState::solid_wall) percent = kPercentOfWall;
   return static_cast<std::int8_t>(percent);
 }
 
@@ -182,7 +186,8 @@ void bindMaps(py::module_& module)
                              "Mapped walls, shape (N, 4): x and y of both ends [m].")
       .def_property_readonly("grid", &gridOf,
                              "Cells, shape (height, width), the lowest row first: 100 is wall, 0 "
-                             "free, -1 unknown. None in a map of landmarks.")
+                             "free, -1 unknown, 50 where beams ended but more passed. None in a "
+                             "map of landmarks.")
       .def_property_readonly(
           "resolution",
           [](const FeatureMap& map)

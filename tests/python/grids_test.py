@@ -40,6 +40,16 @@ def test_the_grid_of_a_map_makes_that_map_again(office):
     assert first_pose(again) == pytest.approx(first_pose(office), abs=0.02)
 
 
+def test_the_grid_of_scans_has_thin_walls():
+    scans = sigloc.Map.load(ROOT / "maps/office.simplemap")
+    grid = scans.grid
+    assert set(np.unique(grid)) == {-1, 0, 50, 100}
+    # Cells that noise spread the walls over are no walls of the grid's map.
+    again = sigloc.Map.from_grid(grid, scans.resolution, scans.origin)
+    assert np.array_equal(again.grid, np.where(grid == 50, -1, grid))
+    assert first_pose(again) == pytest.approx(first_pose(scans), abs=0.03)
+
+
 def test_probabilities_are_percents(office):
     percent = office.grid
     probability = np.where(percent < 0, np.nan, percent / 100.0)
