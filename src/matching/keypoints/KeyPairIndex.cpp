@@ -28,6 +28,7 @@ constexpr std::size_t kRangeSteps = 48;  // in which the range is chosen
 constexpr std::size_t kRangeSample = 5000;  // key points whose partners are counted for it, at most
 constexpr std::size_t kLeastSteps = 8;  // 2 m
 constexpr std::size_t kPartners = 64;  // of a key point within the range, on average
+constexpr std::size_t kSmallIndex = 50000;  // pairs that any map may have
 constexpr std::size_t kEntriesPerCell = 2;  // on average, before distances are cut finer
 constexpr std::size_t kMinDistanceBins = 8;
 constexpr std::size_t kMaxDistanceBins = 128;
@@ -70,7 +71,7 @@ double chosenRange(const std::vector<KeyPoint>& points, const NeighbouringKeyPoi
         const double share = (b.position - a.position).norm() / kMaxRange;
         ++counts[std::min(kRangeSteps - 1, static_cast<std::size_t>(share * kRangeSteps))];
       });
-  const std::size_t most = kPartners * points.size() / stride;
+  const std::size_t most = std::max(kPartners * points.size(), kSmallIndex) / stride;
   std::size_t steps = 0;
   std::size_t pairs = 0;
   while (steps < kRangeSteps && (pairs + counts[steps] <= most || steps < kLeastSteps))

@@ -69,7 +69,7 @@ class KeyPairIndex
   void collect(const KeyPair& observed, const Run& run, std::vector<Match>& matches) const;
 
   /// Returns the distance [m] up to which pairs are held: that within which a key point has 64
-  /// partners on average, between 2 and 12 m.
+  /// partners on average. It is longer where the map has fewer than 50 000 pairs, 12 m at most.
   double range() const { return range_; }
   std::size_t size() const { return entries_.size(); }
 
