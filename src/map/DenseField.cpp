@@ -18,7 +18,7 @@ using mrpt::math::TPoint2Df;
 namespace
 {
 constexpr double kRidgeRadius = 0.05;  // [m] within which hits belong to a wall's ridge, eq. (6.12)
-constexpr std::int32_t kNone = std::numeric_limits<std::int16_t>::max();
+constexpr std::int8_t kNone = std::numeric_limits<std::int8_t>::min();  // no wall in reach
 
 /// Returns the truncation radius [cells], which fits both the distance and the offset bytes.
 std::int32_t truncationRadius(double resolution)
@@ -75,42 +75,42 @@ std::vector<std::uint8_t> distanceUnits(double resolution, std::int32_t radius)
 }
 
 /// Counts, for each column, the rows since its last wall cell, up to `most`.
-void countRow(const CellState* cells, std::int16_t most, std::vector<std::int16_t>& since)
+void countRow(const CellState* cells, std::uint8_t most, std::vector<std::uint8_t>& since)
 {
   for (std::size_t x = 0; x < since.size(); ++x)
   {
-    const auto next = static_cast<std::int16_t>(since[x] < most ? since[x] + 1 : most);
-    since[x] = isWall(cells[x]) ? std::int16_t{0} : next;
+    const auto next = static_cast<std::uint8_t>(since[x] < most ? since[x] + 1 : most);
+    since[x] = isWall(cells[x]) ? std::uint8_t{0} : next;
   }
 }
 
 /// Returns for every cell the signed offset to the nearest wall cell of its column, or kNone. Its
 /// loops have no branches, so that they run on many columns at once.
-std::vector<std::int16_t> columnOffsets(const OccupancyRaster& raster, std::int32_t radius)
+std::vector<std::int8_t> columnOffsets(const OccupancyRaster& raster, std::int32_t radius)
 {
   const std::size_t width = raster.frame.width;
   const std::size_t height = raster.frame.height;
-  const auto most = static_cast<std::int16_t>(radius + 1);
-  std::vector<std::int16_t> offsets(width * height);
-  std::vector<std::int16_t> since(width, most);
+  const auto most = static_cast<std::uint8_t>(radius + 1);
+  std::vector<std::int8_t> offsets(width * height);
+  std::vector<std::uint8_t> since(width, most);
   for (std::size_t y = 0; y < height; ++y)
   {
     countRow(&raster.cells[y * width], most, since);
-    std::int16_t* const row = &offsets[y * width];
+    std::int8_t* const row = &offsets[y * width];
     for (std::size_t x = 0; x < width; ++x)
-      row[x] = static_cast<std::int16_t>(since[x] < most ? -since[x] : kNone);
+      row[x] = static_cast<std::int8_t>(since[x] < most ? -since[x] : kNone);
   }
   std::fill(since.begin(), since.end(), most);
   for (std::size_t y = height; y-- > 0;)
   {
     countRow(&raster.cells[y * width], most, since);
-    std::int16_t* const row = &offsets[y * width];
+    std::int8_t* const row = &offsets[y * width];
     for (std::size_t x = 0; x < width; ++x)
     {
-      const std::int16_t below = row[x];
-      const auto distance = static_cast<std::int16_t>(below < 0 ? -below : below);
+      const std::int8_t below = row[x];
+      const auto distance = static_cast<std::uint8_t>(-below);  // of kNone 128, farther than any
       const bool nearer = since[x] < most && since[x] < distance;
-      row[x] = nearer ? since[x] : below;
+      row[x] = nearer ? static_cast<std::int8_t>(since[x]) : below;
     }
   }
   return offsets;
@@ -192,7 +192,7 @@ class RowEnvelope
   explicit RowEnvelope(std::size_t width) : height_(width), apex_(width), from_(width + 1) {}
 
   /// Fills `nearest` with the column whose wall cell is nearest to each cell of the row, or -1.
-  void solve(const std::int16_t* offsets, std::int32_t width, std::vector<std::int32_t>& nearest)
+  void solve(const std::int8_t* offsets, std::int32_t width, std::vector<std::int32_t>& nearest)
   {
     for (std::int32_t x = 0; x < width; ++x)
       height_[index(x)] = static_cast<double>(offsets[x]) * offsets[x] + static_cast<double>(x) * x;
@@ -271,7 +271,7 @@ DenseField buildDenseField(const OccupancyRaster& raster)
   field.frame = raster.frame;
   field.cells.resize(raster.cells.size());
 
-  const std::vector<std::int16_t> offsets = columnOffsets(raster, radius);
+  const std::vector<std::int8_t> offsets = columnOffsets(raster, radius);
   const std::vector<std::uint8_t> units = distanceUnits(resolution, radius);
   RidgeRows ridges(raster, radius);
   RowEnvelope envelope(raster.frame.width);
