@@ -104,6 +104,17 @@ TEST(MapWarnings, TellOfMapsThatCannotBeMeant)
             std::string::npos);
 }
 
+TEST(MapWarnings, AMissingMapIsToldWhateverItsEnding)
+{
+  const TemporaryFolder folder;
+  writeText(folder / "office.simplemap", "x");
+  const auto misspelt = folder / "office.simplmap";
+  EXPECT_EQ(messageOf<std::runtime_error>([&] { filesOfMapSource(misspelt); }),
+            misspelt.string() + ": no such file; did you mean 'office.simplemap'?");
+  EXPECT_EQ(messageOf<std::runtime_error>([&] { filesOfMapSource(""); }),
+            "the name of the map is empty");
+}
+
 TEST(MapWarnings, AnInvertedMapWithoutAFeatureIsToldForWhatItIs)
 {
   constexpr int kSide = 120;

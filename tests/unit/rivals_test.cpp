@@ -80,6 +80,7 @@ TEST(Rivals, AreDescribedWithAndWithoutAField)
   EXPECT_EQ(describeRivals(inBoth(0), 0.01, nullptr),
             "2 hypotheses remain; the next, of weight 0.39, is 10.0 m away");
 }
+
 // A rival of weight 1e-4 is not why: the robot may be outside the map, or the map may be wrong.
 TEST(Rivals, SomewhereElseIsNamedWhereItWeighsMore)
 {

@@ -3,6 +3,7 @@
 #include "tracking/tracks/Track.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "geometry/pose_fusion.h"
 
@@ -18,9 +19,10 @@ constexpr double kUnexplainedSlope = 3.9;  // per unexplained share of the mappe
 constexpr double kFollowedSlope = 4.5;  // for kFullWay followed, explained or found
 constexpr double kFullWay = 20.0;  // [m]
 constexpr double kSearchedSlope = 1.9;  // for kFullWay driven unlocalized before
-constexpr double kMostUnexplained = 0.2;  // unexplained share from which the way does not count
+constexpr double kMostUnexplained = 0.2;  // from which the way counts as far as it is found
 constexpr double kMaxTracked = 16.0;  // bound of gamma
-constexpr double kFound = 4.6;  // kappa of a pose that relocations are sure of, ln 99
+constexpr double kFound =
+    4.6;  // kappa from which relocations are sure, ln 99 whatever a claim takes
 constexpr double kPriorHere = 0.6;  // log-odds of being in the map, of a robot that is tracked
 
 // The same in a map of landmarks, eq. (8.23), by the same script.
